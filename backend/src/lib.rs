@@ -1,0 +1,9 @@
+//! The renderer: volume store, working set, devices, reference integrator, outputs, protocol and transports.
+
+pub mod output;
+pub mod protocol;
+pub mod reference;
+pub mod store;
+pub mod transport;
+pub mod volume;
+pub mod working_set;

@@ -1,0 +1,1 @@
+//! Files a person opens: PNG and EXR pictures, eye views, contact sheets.

@@ -1,0 +1,42 @@
+//! The messages themselves.
+
+use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, Setup};
+use serde::{Deserialize, Serialize};
+
+/// Both ends must agree on it.
+pub const PROTOCOL_VERSION: u32 = 1;
+
+/// From the front-end to a back-end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum FromFrontend {
+    /// Open the volume and the device.
+    Setup(Box<Setup>),
+    /// Draw this frame.
+    Frame(Box<FrameState>),
+    /// The front-end is alive; nothing to do.
+    Alive,
+    /// Finish.
+    Quit,
+}
+
+/// From a back-end to the front-end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum FromBackend {
+    /// It started.
+    Hello(Hello),
+    /// It is set up and waits for a frame.
+    Ready(DeviceInfo),
+    /// Still at work; `done` of `total` rays of the frame are final.
+    Progress {
+        /// Rays that are final.
+        done: u64,
+        /// Rays of the frame.
+        total: u64,
+    },
+    /// A picture of the current frame is final.
+    Image(ProjectorImage),
+    /// The current frame is done; all its pictures have been sent.
+    Done(Box<FrameReport>),
+    /// It cannot go on: one sentence.
+    Failed(String),
+}

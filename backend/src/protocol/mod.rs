@@ -1,0 +1,13 @@
+//! What a front-end and a back-end say to each other.
+
+mod frame;
+mod image;
+mod message;
+mod report;
+mod setup;
+
+pub use frame::{FrameState, Tool, ToolKind};
+pub use image::ProjectorImage;
+pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
+pub use report::{FrameReport, Stages};
+pub use setup::{DeviceChoice, DeviceInfo, FilterChoice, Hello, Setup, VolumeRef};

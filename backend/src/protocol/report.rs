@@ -1,0 +1,53 @@
+//! What a back-end tells of one frame.
+
+use serde::{Deserialize, Serialize};
+
+/// Wall-clock milliseconds per stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stages {
+    /// Choosing what to load and where: feedback, cut, index.
+    pub refine_ms: f64,
+    /// Waiting for bricks.
+    pub load_ms: f64,
+    /// Moving bricks, index and tables to the device.
+    pub upload_ms: f64,
+    /// Casting rays.
+    pub cast_ms: f64,
+    /// Bringing pictures back.
+    pub readback_ms: f64,
+}
+
+/// One back-end's account of one frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameReport {
+    /// Frame number.
+    pub frame: u32,
+    /// Which back-end, from 0.
+    pub backend: u32,
+    /// The projectors it drew.
+    pub projectors: Vec<u32>,
+    /// Rays cast, repeated ones counted again.
+    pub rays: u64,
+    /// Samples of the volume taken along them, repeated ones counted again; gradients not counted.
+    pub samples: u64,
+    /// Bricks the rays asked for in this frame, resident or not.
+    pub bricks_wanted: u64,
+    /// Bricks in the cache when the frame was done.
+    pub bricks_resident: u64,
+    /// Bricks loaded during the frame.
+    pub bricks_loaded: u64,
+    /// Bytes of voxels loaded during the frame, as decoded.
+    pub bytes_loaded: u64,
+    /// Distinct bricks sampled by any of the views.
+    pub working_set_union: u64,
+    /// The views' own counts of distinct bricks, added up.
+    pub working_set_sum: u64,
+    /// Whether nothing was missing: every ray found the level of detail it asked for.
+    pub complete: bool,
+    /// Why it is not complete; empty when it is.
+    pub shortfall: String,
+    /// Time per stage.
+    pub stages: Stages,
+    /// Wall-clock milliseconds of the whole frame.
+    pub total_ms: f64,
+}

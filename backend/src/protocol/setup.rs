@@ -1,0 +1,89 @@
+//! What is agreed once, before the first frame.
+
+use display_config::Display;
+use glam::{DVec3, UVec3};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Which device casts the rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DeviceChoice {
+    /// The GPU, or the CPU where there is no Vulkan driver.
+    #[default]
+    Auto,
+    /// The GPU or nothing.
+    Gpu,
+    /// The kernels' f32 twin on all cores.
+    Cpu,
+}
+
+/// How a kernel interpolates voxels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FilterChoice {
+    /// The texture unit where it was measured to be precise on this adapter, exact otherwise.
+    #[default]
+    Auto,
+    /// The texture unit, whatever its precision.
+    Hardware,
+    /// Eight fetches, interpolated in f32.
+    Exact,
+}
+
+/// Which volume.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum VolumeRef {
+    /// A brick store, at a path that every back-end can read.
+    Store(PathBuf),
+    /// A procedural volume by name ("shells", "marschner-lobb", "sparse-vessels") and size in voxels.
+    Procedural {
+        /// Its name without the `procedural:` in front.
+        name: String,
+        /// Voxels along each axis.
+        dims: UVec3,
+        /// Edge lengths of a voxel, metres.
+        voxel_size_m: DVec3,
+    },
+}
+
+/// The first message to a back-end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Setup {
+    /// The whole display.
+    pub display: Display,
+    /// The projectors this back-end draws, as indices into the display.
+    pub projectors: Vec<u32>,
+    /// Which back-end this is, from 0.
+    pub backend: u32,
+    /// The volume.
+    pub volume: VolumeRef,
+    /// The device.
+    pub device: DeviceChoice,
+    /// The interpolation.
+    pub filter: FilterChoice,
+    /// Size of the brick cache, bytes.
+    pub cache_bytes: u64,
+}
+
+/// What a back-end says of itself when it starts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hello {
+    /// [`super::PROTOCOL_VERSION`] of the back-end.
+    pub protocol: u32,
+    /// Host name.
+    pub host: String,
+    /// Process number on that host.
+    pub process: u32,
+}
+
+/// The device a back-end ended up with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DeviceInfo {
+    /// For instance `gpu: llvmpipe (LLVM 15.0.6, 256 bits), Vulkan` or `cpu: 2 threads`.
+    pub adapter: String,
+    /// Why this one: a sentence.
+    pub reason: String,
+    /// The interpolation in use: `hardware` or `exact`.
+    pub filter: String,
+}

@@ -1,0 +1,1 @@
+//! The f64 truth: adaptive quadrature of the continuous optical model.

@@ -1,0 +1,32 @@
+//! Where bricks come from: a store file, or a procedural volume made on the fly.
+
+use super::{Brick, NodeKey, OctreeShape};
+use glam::DVec3;
+
+/// What is known of a node without reading its voxels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeSummary {
+    /// No stored sample of the node, nor of any node below it, has a lower data value.
+    pub min: f32,
+    /// No stored sample of the node, nor of any node below it, has a higher data value.
+    pub max: f32,
+}
+
+/// Why a brick could not be had: one sentence that names the file and the brick.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct BrickError(pub String);
+
+/// A volume as an octree of bricks. Cheap to ask from many threads at once.
+pub trait BrickSource: Send + Sync {
+    /// The octree's geometry.
+    fn shape(&self) -> OctreeShape;
+    /// Edge lengths of the finest voxel in metres, as the data's own file gives them (1 mm where it gives none).
+    fn voxel_size_m(&self) -> DVec3;
+    /// Smallest and largest data value of the whole volume.
+    fn value_range(&self) -> (f64, f64);
+    /// Bounds of a node's values; `node` must be one that [`OctreeShape::contains`].
+    fn summary(&self, node: NodeKey) -> NodeSummary;
+    /// The node's voxels.
+    fn brick(&self, node: NodeKey) -> Result<Brick, BrickError>;
+}

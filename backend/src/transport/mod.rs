@@ -1,0 +1,1 @@
+//! How messages travel: threads in one process, or MPI.

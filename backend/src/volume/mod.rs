@@ -1,0 +1,1 @@
+//! Volumes as users have them: file readers and procedural fields.

@@ -1,0 +1,50 @@
+//! How fine a node must be: the display's resolution at its depth.
+
+use crate::store::{NodeKey, OctreeShape};
+use glam::{DAffine3, DVec3};
+
+/// The level of detail a picture asks for. It depends on where a node floats, never on who looks: so every
+/// projector of every back-end converges to the same cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LodRule {
+    /// Volume frame (finest voxels) to display frame (metres).
+    pub display_from_volume: DAffine3,
+    /// s0: pixel size on the screen, metres.
+    pub pixel_size_m: f64,
+    /// Φ: the display's angular accuracy, radians.
+    pub angular_accuracy: f64,
+    /// See [`shaders::optics::Quality::lod_scale`]; 0 asks for the finest level everywhere.
+    pub lod_scale: f64,
+}
+
+impl LodRule {
+    /// Levels that `node` is too coarse by: log2(voxel edge / (lod_scale · s(z))) with s(z) = s0 + 2 |z| tan(Φ/2) at
+    /// the |z| of the node's region nearest to the screen, and the longest voxel edge. At or below 0 it is fine
+    /// enough. +∞ where the finest level is asked for.
+    pub fn deficit(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
+        let linear = self.display_from_volume.matrix3;
+        let finest_m = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
+        let voxel_m = finest_m * f64::from(1u32 << shape.level(node.depth));
+        let resolution_m =
+            self.pixel_size_m + 2.0 * self.nearest_z_m(shape, node) * (0.5 * self.angular_accuracy).tan();
+        (voxel_m / (self.lod_scale * resolution_m)).log2()
+    }
+
+    /// Whether a ray may take its samples from `node`: it is at the finest level or fine enough.
+    pub fn is_fine_enough(&self, shape: &OctreeShape, node: NodeKey) -> bool {
+        node.depth == shape.finest_depth() || self.deficit(shape, node) <= 0.0
+    }
+
+    /// Distance between the screen plane and the node's region, metres; 0 where the screen cuts it.
+    fn nearest_z_m(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
+        let (low, high) = shape.region(node);
+        let (mut front, mut back) = (f64::NEG_INFINITY, f64::INFINITY);
+        for corner in 0..8u32 {
+            let pick = |axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
+            let z = self.display_from_volume.transform_point3(DVec3::new(pick(0), pick(1), pick(2))).z;
+            front = front.max(z);
+            back = back.min(z);
+        }
+        if back <= 0.0 && front >= 0.0 { 0.0 } else { back.abs().min(front.abs()) }
+    }
+}

@@ -1,0 +1,114 @@
+//! Everything that turns a scalar into light: transfer functions, importance, accumulation.
+
+use super::Curve;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// What length the extinction's numbers are per.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ExtinctionUnit {
+    /// Per metre of the display frame.
+    PerMetre,
+    /// Per edge of the finest voxel: the cube root of its volume in the display frame.
+    PerVoxel,
+}
+
+/// Which form of Maximum Importance Difference Accumulation composites the samples.
+///
+/// Both replace front-to-back compositing by `[c* α*] ← β [c* α*] + (1 − β α*) [c α]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MimdaForm {
+    /// β = 1 − γ max(ι − ι_max, 0), the published equation. Its picture depends on the step: as steps shrink, a
+    /// rise of ι from a to b keeps exp(−γ (b − a)) of what lay before.
+    Paper,
+    /// β = (1 − γ ι) / (1 − γ ι_max) where ι > ι_max (1 where γ ι_max = 1): the product telescopes, so a rise from
+    /// zero to b keeps 1 − γ b whatever the steps.
+    Consistent,
+}
+
+/// Importance accumulation, where a scene uses it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mimda {
+    /// Importance ι of the normalised scalar, in [0, 1].
+    pub importance: Curve<f64>,
+    /// γ in [0, 1]: 0 is ordinary compositing, 1 lets full importance erase what lies before it.
+    pub gamma: f64,
+    /// Which form.
+    pub form: MimdaForm,
+}
+
+/// The optical model of a scene. The normalised scalar is `s = clamp((v − domain.0) / (domain.1 − domain.0), 0, 1)`
+/// of the data value v; all curves are functions of s.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Optics {
+    /// Data values that map to s = 0 and s = 1; finite, the first below the second.
+    pub domain: (f64, f64),
+    /// Extinction τ(s) ≥ 0, in `extinction_unit`.
+    pub extinction: Curve<f64>,
+    /// What the extinction is per.
+    pub extinction_unit: ExtinctionUnit,
+    /// Linear RGB colour c(s), not multiplied by anything.
+    pub colour: Curve<DVec3>,
+    /// Importance accumulation; None is ordinary compositing.
+    pub mimda: Option<Mimda>,
+}
+
+/// What is wrong with an optical model.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OpticsError {
+    /// The domain is not an interval.
+    #[error("the transfer function's domain [{0}, {1}] is not a rising interval of finite numbers")]
+    Domain(f64, f64),
+    /// γ is outside [0, 1].
+    #[error("gamma is {0}; it must lie in [0, 1]")]
+    Gamma(f64),
+    /// An importance is above 1.
+    #[error("importance control point {index} is {value}; importances lie in [0, 1]")]
+    Importance {
+        /// Which control point, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+}
+
+impl Optics {
+    /// Checks what the types do not.
+    pub fn check(&self) -> Result<(), OpticsError> {
+        let (lo, hi) = self.domain;
+        if !(lo.is_finite() && hi.is_finite() && lo < hi) {
+            return Err(OpticsError::Domain(lo, hi));
+        }
+        if let Some(mimda) = &self.mimda {
+            if !(0.0..=1.0).contains(&mimda.gamma) {
+                return Err(OpticsError::Gamma(mimda.gamma));
+            }
+            let too_large = mimda.importance.points().iter().position(|p| p.1 > 1.0);
+            if let Some(index) = too_large {
+                return Err(OpticsError::Importance { index, value: mimda.importance.points()[index].1 });
+            }
+        }
+        Ok(())
+    }
+
+    /// The normalised scalar of a data value; a value that is not a number counts as the domain's low end.
+    pub fn normalise(&self, value: f64) -> f64 {
+        let s = (value - self.domain.0) / (self.domain.1 - self.domain.0);
+        if s.is_nan() { 0.0 } else { s.clamp(0.0, 1.0) }
+    }
+
+    /// Factor that turns the extinction curve's numbers into 1/metre, for a finest voxel of edge `voxel_m` metres.
+    pub fn extinction_per_metre(&self, voxel_m: f64) -> f64 {
+        match self.extinction_unit {
+            ExtinctionUnit::PerMetre => 1.0,
+            ExtinctionUnit::PerVoxel => 1.0 / voxel_m,
+        }
+    }
+
+    /// Whether nothing is visible for data values in [min, max].
+    pub fn is_empty_on(&self, min: f64, max: f64) -> bool {
+        self.extinction.max_on(self.normalise(min), self.normalise(max)) == 0.0
+    }
+}

@@ -1,0 +1,21 @@
+//! How closely a kernel follows the continuous optical model.
+
+use serde::{Deserialize, Serialize};
+
+/// The knobs that trade time for error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quality {
+    /// Longest integration step, in voxels of the node being sampled; above 0.
+    pub step_voxels: f64,
+    /// A ray stops when what may still be added is below this opacity; 0 never stops early.
+    pub termination: f64,
+    /// A node is fine enough when its voxel is no longer than `lod_scale` times the display's resolution s(z);
+    /// 0 always asks for the finest level.
+    pub lod_scale: f64,
+}
+
+impl Default for Quality {
+    fn default() -> Self {
+        Self { step_voxels: 0.5, termination: 1.0 / 1024.0, lod_scale: 1.0 }
+    }
+}
