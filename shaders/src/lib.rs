@@ -3,4 +3,9 @@
 //! This crate knows the optical model, the structs a kernel reads and how a kernel is composed. It knows no
 //! GPU library, no file and no process: a device in the back-end runs what is composed here.
 
+pub mod compose;
+pub mod layout;
 pub mod optics;
+pub mod tables;
+pub mod twin;
+

@@ -107,8 +107,14 @@ impl Optics {
         }
     }
 
-    /// Whether nothing is visible for data values in [min, max].
+    /// Whether data values in [min, max] leave a picture as it is: no extinction, nor any importance, which acts
+    /// on what lies before it even where there is nothing to see.
     pub fn is_empty_on(&self, min: f64, max: f64) -> bool {
-        self.extinction.max_on(self.normalise(min), self.normalise(max)) == 0.0
+        let (lo, hi) = (self.normalise(min), self.normalise(max));
+        let importance = match &self.mimda {
+            Some(mimda) if mimda.gamma > 0.0 => mimda.importance.max_on(lo, hi),
+            Some(_) | None => 0.0,
+        };
+        self.extinction.max_on(lo, hi) == 0.0 && importance == 0.0
     }
 }

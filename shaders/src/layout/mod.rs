@@ -1,0 +1,11 @@
+//! The structs that kernels read and write, byte for byte as WGSL lays them out.
+
+mod feedback;
+mod node;
+mod params;
+mod table_entry;
+
+pub use feedback::{FeedbackEntry, code_from_deficit, deficit_from_code};
+pub use node::{NO_NODE, NO_SLOT, NodeRecord};
+pub use params::{Params, TILE_EDGE};
+pub use table_entry::{ImportanceEntry, OpticsEntry};

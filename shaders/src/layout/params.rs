@@ -1,0 +1,36 @@
+//! What a kernel must know of the view and the scene.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Rays are cast in square tiles of this many pixels along an edge: one workgroup each.
+pub const TILE_EDGE: u32 = 8;
+
+/// The uniform block of one cast. Every member fills 16 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Params {
+    /// Columns of the pixel-to-screen homography; the fourth number of each is unused.
+    pub screen_from_pixel: [[f32; 4]; 3],
+    /// Columns of the display-to-volume affine map, translation last; voxels per metre.
+    pub volume_from_display: [[f32; 4]; 4],
+    /// A, B of the ray law Ox = A + B Sx, then Oy and Oz; metres.
+    pub beam: [f32; 4],
+    /// Size of the volume in finest voxels, then the edge of the finest voxel in metres.
+    pub volume: [f32; 4],
+    /// Toward the light in the display frame, then gradient_half².
+    pub light: [f32; 4],
+    /// Ambient, diffuse, specular, shininess.
+    pub material: [f32; 4],
+    /// Longest step in voxels of the node, termination ε, extinction per metre of table value 1, unused.
+    pub quality: [f32; 4],
+    /// γ, largest importance of the transfer function, unused, unused.
+    pub mimda: [f32; 4],
+    /// 1 / size of the atlas in texels along each axis, unused.
+    pub texel: [f32; 4],
+    /// Slots of the atlas along x, y, z, then the depth of the finest level.
+    pub atlas: [u32; 4],
+    /// Width and height of the raster in pixels, then pixels between cast rays, then tiles along x.
+    pub raster: [u32; 4],
+    /// Table entries of the optics, of the importance, unused, unused.
+    pub tables: [u32; 4],
+}

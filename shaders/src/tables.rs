@@ -1,0 +1,143 @@
+//! Pre-integrated transfer functions: curves made into tables of f and F = ∫ f.
+
+use crate::layout::{ImportanceEntry, OpticsEntry};
+use crate::optics::{Curve, Optics};
+use glam::DVec3;
+
+/// Entries of a table: nodes at s = i / (TABLE_ENTRIES − 1).
+pub const TABLE_ENTRIES: usize = 1024;
+
+/// The table of (τ c, τ). Values are the curve's at the nodes; integrals are exact, whatever the curve does between
+/// nodes (τ c is quadratic between control points, so Simpson's rule is exact there).
+pub fn optics_table(optics: &Optics) -> Vec<OpticsEntry> {
+    let value = |s: f64, tau: f64| -> [f64; 4] {
+        let k = optics.colour.at(s) * tau;
+        [k.x, k.y, k.z, tau]
+    };
+    let at = |s: f64| value(s, optics.extinction.at(s));
+    let below = |s: f64| {
+        let k: DVec3 = optics.colour.just_below(s) * optics.extinction.just_below(s);
+        [k.x, k.y, k.z, optics.extinction.just_below(s)]
+    };
+    let knots = merged_knots(&optics.extinction, &optics.colour);
+    integrate(&knots, at, below)
+        .into_iter()
+        .map(|(value, integral)| {
+            let (hi, rest) = split(integral);
+            OpticsEntry { value: value.map(|v| v as f32), integral: hi, integral_rest: rest }
+        })
+        .collect()
+}
+
+/// The table of an importance curve.
+pub fn importance_table(importance: &Curve<f64>) -> Vec<ImportanceEntry> {
+    let knots: Vec<f64> = importance.knots_between(0.0, 1.0).collect();
+    integrate(&knots, |s| [importance.at(s)], |s| [importance.just_below(s)])
+        .into_iter()
+        .map(|(value, integral)| {
+            let ([hi], [rest]) = split(integral);
+            ImportanceEntry { value: value[0] as f32, integral: hi, integral_rest: rest, padding: 0.0 }
+        })
+        .collect()
+}
+
+/// The importance where no table is needed: its largest value on [0, 1].
+pub fn largest_importance(importance: &Curve<f64>) -> f64 {
+    importance.max_on(0.0, 1.0)
+}
+
+fn merged_knots(extinction: &Curve<f64>, colour: &Curve<DVec3>) -> Vec<f64> {
+    let mut knots: Vec<f64> = extinction.knots_between(0.0, 1.0).chain(colour.knots_between(0.0, 1.0)).collect();
+    knots.sort_by(f64::total_cmp);
+    knots.dedup();
+    knots
+}
+
+/// f and F at every node; F in units of table cells, so that the kernel divides by a difference of indices.
+fn integrate<const N: usize>(
+    knots: &[f64],
+    at: impl Fn(f64) -> [f64; N],
+    below: impl Fn(f64) -> [f64; N],
+) -> Vec<([f64; N], [f64; N])> {
+    let cells = (TABLE_ENTRIES - 1) as f64;
+    let mut sum = [0.0; N];
+    let mut table = vec![(at(0.0), sum)];
+    let mut next_knot = 0;
+    for node in 1..TABLE_ENTRIES {
+        let (mut from, to) = ((node - 1) as f64 / cells, node as f64 / cells);
+        loop {
+            let knot = knots.get(next_knot).copied().filter(|&k| k <= to);
+            let until = knot.unwrap_or(to);
+            let (first, middle, last) = (at(from), at(0.5 * (from + until)), below(until));
+            for c in 0..N {
+                sum[c] += (until - from) * cells / 6.0 * (first[c] + 4.0 * middle[c] + last[c]);
+            }
+            from = until;
+            match knot {
+                Some(_) => next_knot += 1,
+                None => break,
+            }
+        }
+        table.push((at(to), sum));
+    }
+    table
+}
+
+/// A number as the sum of two f32, component by component.
+fn split<const N: usize>(value: [f64; N]) -> ([f32; N], [f32; N]) {
+    let hi = value.map(|v| v as f32);
+    let mut rest = [0.0; N];
+    for c in 0..N {
+        rest[c] = (value[c] - f64::from(hi[c])) as f32;
+    }
+    (hi, rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::ExtinctionUnit;
+
+    fn optics(points: Vec<(f64, f64)>) -> Optics {
+        Optics {
+            domain: (0.0, 1.0),
+            extinction: Curve::new(points).unwrap(),
+            extinction_unit: ExtinctionUnit::PerMetre,
+            colour: Curve::constant(DVec3::new(1.0, 0.5, 0.25)),
+            mimda: None,
+        }
+    }
+
+    #[test]
+    fn integral_of_a_constant_counts_cells() {
+        let table = optics_table(&optics(vec![(0.0, 2.0)]));
+        assert_eq!(table[0].integral[3], 0.0);
+        assert_eq!(table[TABLE_ENTRIES - 1].integral[3], 2.0 * (TABLE_ENTRIES - 1) as f32);
+        assert_eq!(table[7].value, [2.0, 1.0, 0.5, 2.0]);
+    }
+
+    #[test]
+    fn a_spike_between_two_nodes_is_not_lost() {
+        let cells = (TABLE_ENTRIES - 1) as f64;
+        let (lo, peak, hi) = (100.25 / cells, 100.5 / cells, 100.75 / cells);
+        let table = optics_table(&optics(vec![(lo, 0.0), (peak, 1e6), (hi, 0.0)]));
+        assert_eq!(table[100].value[3], 0.0);
+        assert!((f64::from(table[101].integral[3]) - 0.25e6).abs() < 1.0);
+    }
+
+    #[test]
+    fn a_jump_at_a_knot_takes_the_value_below_on_its_left() {
+        let table = optics_table(&optics(vec![(0.5, 0.0), (0.5, 1.0)]));
+        let total = f64::from(table[TABLE_ENTRIES - 1].integral[3]);
+        assert!((total - 0.5 * (TABLE_ENTRIES - 1) as f64).abs() < 1e-3);
+    }
+
+    #[test]
+    fn two_floats_hold_an_integral_to_fourteen_digits() {
+        let table = optics_table(&optics(vec![(0.0, 0.1), (0.3, 1e6), (1.0, 1e-6)]));
+        for entry in table {
+            let sum = f64::from(entry.integral[3]) + f64::from(entry.integral_rest[3]);
+            assert!(sum.is_finite() && entry.integral_rest[3].abs() <= entry.integral[3] * 6e-8 + 1e-30);
+        }
+    }
+}

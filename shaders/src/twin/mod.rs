@@ -1,0 +1,24 @@
+//! The kernels' twin in Rust, generic over f32 and f64: the same algorithm over the same cut and bricks.
+//!
+//! At f32 it agrees with the kernels to rounding and is what the CPU device runs; at f64 it shows what rounding
+//! costs. Files share their stem with the WGSL module they tell again. They bend in three places: bricks are lists of
+//! codes instead of parts of one texture, so a point to sample is relative to its brick; a table entry is read as
+//! f32 and widened; and generics stand where the composer puts one module or another into a slot.
+
+pub mod cast;
+pub mod composite;
+pub mod importance;
+pub mod ray;
+pub mod real;
+pub mod sample;
+pub mod scene;
+pub mod shade;
+pub mod tables;
+pub mod traverse;
+pub mod vector;
+pub mod view;
+
+pub use cast::{Cast, cast_pixel};
+pub use real::Real;
+pub use scene::{FeedbackCell, Scene};
+pub use view::View;

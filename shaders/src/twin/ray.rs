@@ -1,0 +1,95 @@
+//! The ray of a projector pixel (LFD eq. 1), seen from the volume.
+
+use super::{Real, View, vector::Vec3};
+
+/// Stands for infinity, as in the kernel.
+const FAR: f64 = 1e30;
+/// Slower than this along an axis (voxels per metre), a ray counts as parallel to it.
+const PARALLEL: f64 = 1e-12;
+
+/// See `Ray` in `wgsl/ray.wgsl`.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray<F> {
+    /// Where the ray meets the screen; t = 0 there.
+    pub origin_in_volume: Vec3<F>,
+    /// Voxels per metre.
+    pub direction_in_volume: Vec3<F>,
+    /// Metres per voxel along each axis.
+    pub inverse: Vec3<F>,
+    /// Unit vector.
+    pub direction_in_display: Vec3<F>,
+    /// t of the ray's start on the observer's line.
+    pub start: F,
+    /// Voxels per metre of t.
+    pub speed: F,
+}
+
+impl<F: Real> Ray<F> {
+    /// The ray through a point of the raster, in pixels.
+    #[inline(always)]
+    pub fn of_pixel(view: &View<F>, x: F, y: F) -> Self {
+        let h = &view.screen_from_pixel;
+        let on_screen = h[0] * x + h[1] * y + h[2];
+        let screen = Vec3([on_screen.0[0] / on_screen.0[2], on_screen.0[1] / on_screen.0[2], F::ZERO]);
+        let beam = view.beam;
+        let origin = Vec3([beam[0] + beam[1] * screen.0[0], beam[2], beam[3]]);
+        let toward = screen - origin;
+        let reach = toward.length();
+        let v = toward.map(|c| c / reach);
+        let m = &view.volume_from_display;
+        let direction_in_volume = m[0] * v.0[0] + m[1] * v.0[1] + m[2] * v.0[2];
+        Self {
+            origin_in_volume: m[0] * screen.0[0] + m[1] * screen.0[1] + m[3],
+            direction_in_volume,
+            inverse: direction_in_volume
+                .map(|d| if d.abs() < F::of(PARALLEL) { F::of(FAR) } else { F::ONE / d }),
+            direction_in_display: v,
+            start: -reach,
+            speed: direction_in_volume.length(),
+        }
+    }
+
+    /// Whether the ray never crosses a plane across `axis`.
+    #[inline(always)]
+    pub fn is_parallel(&self, axis: usize) -> bool {
+        self.direction_in_volume.0[axis].abs() < F::of(PARALLEL)
+    }
+
+    /// Whether the ray goes toward larger coordinates along `axis`.
+    #[inline(always)]
+    pub fn is_forward(&self, axis: usize) -> bool {
+        self.direction_in_volume.0[axis] >= F::ZERO
+    }
+
+    /// The point at t.
+    #[inline(always)]
+    pub fn point(&self, t: F) -> Vec3<F> {
+        self.origin_in_volume + self.direction_in_volume * t
+    }
+
+    /// The part of the ray inside the volume; empty where the first is not below the second.
+    #[inline(always)]
+    pub fn clip_to_volume(&self, dims: Vec3<F>) -> (F, F) {
+        let (mut enter, mut leave) = (self.start, F::of(FAR));
+        for axis in 0..3 {
+            let (origin, high) = (self.origin_in_volume.0[axis], dims.0[axis]);
+            if self.is_parallel(axis) {
+                if origin < F::ZERO || origin > high {
+                    return (F::of(FAR), F::of(-FAR));
+                }
+            } else {
+                let a = (F::ZERO - origin) * self.inverse.0[axis];
+                let b = (high - origin) * self.inverse.0[axis];
+                enter = enter.most(a.least(b));
+                leave = leave.least(a.most(b));
+            }
+        }
+        (enter, leave)
+    }
+}
+
+/// Larger than any t that occurs.
+#[inline(always)]
+pub fn far<F: Real>() -> F {
+    F::of(FAR)
+}

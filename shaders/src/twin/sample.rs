@@ -1,0 +1,43 @@
+//! The stored sample at a point of a brick: the twin of `wgsl/sample/exact.wgsl`. The texture unit has no twin.
+
+use super::{Real, scene::BRICK_VOXELS, vector::Vec3};
+
+/// Stored samples along an edge.
+const EDGE: u32 = 32;
+
+/// `point` in texels of the brick, sample centres at integer + 0.5, from 0.5 to 31.5; the result is in [0, 1].
+#[inline(always)]
+pub fn sample_brick<F: Real>(brick: &[u16; BRICK_VOXELS], point: Vec3<F>) -> F {
+    let half = F::of(0.5);
+    let mut index = [0; 3];
+    let mut f = [F::ZERO; 3];
+    for axis in 0..3 {
+        let shifted = point.0[axis] - half;
+        index[axis] = shifted.to_index().min(EDGE - 2);
+        f[axis] = shifted - F::of_u32(index[axis]);
+    }
+    let base = ((index[2] * EDGE + index[1]) * EDGE + index[0]) as usize;
+    let at = |offset: usize| F::of_u32(u32::from(brick[base + offset]));
+    let (row, layer) = (EDGE as usize, (EDGE * EDGE) as usize);
+    let a = [at(0), at(1), at(row), at(row + 1)];
+    let b = [at(layer), at(layer + 1), at(layer + row), at(layer + row + 1)];
+    let along_z: [F; 4] = std::array::from_fn(|c| a[c] + (b[c] - a[c]) * f[2]);
+    let along_y = [along_z[0] + (along_z[2] - along_z[0]) * f[1], along_z[1] + (along_z[3] - along_z[1]) * f[1]];
+    (along_y[0] + (along_y[1] - along_y[0]) * f[0]) * F::of(1.0 / 65535.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_field_is_met_exactly_everywhere() {
+        let codes: Vec<u16> = (0..BRICK_VOXELS).map(|i| (i % 32 + 32 * (i / 32 % 32) * 2) as u16).collect();
+        let brick = codes.first_chunk().unwrap();
+        for (x, y, z) in [(0.5, 0.5, 0.5), (31.5, 31.5, 31.5), (7.25, 19.875, 3.0)] {
+            let truth = ((x - 0.5) + 64.0 * (y - 0.5)) / 65535.0;
+            let found: f64 = sample_brick(brick, Vec3([x, y, z]));
+            assert!((found - truth).abs() < 1e-12, "{found} for {truth}");
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Averages of the transfer functions over a segment, from tables of f and F = ∫ f.
+
+use super::Real;
+use crate::layout::OpticsEntry;
+
+#[inline(always)]
+fn optics_at<F: Real>(table: &[OpticsEntry], u: F, cell: usize) -> [F; 4] {
+    let f = u - F::of_u32(cell as u32);
+    let (a, b) = (&table[cell].value, &table[cell + 1].value);
+    std::array::from_fn(|c| {
+        let (a, b) = (F::of_f32(a[c]), F::of_f32(b[c]));
+        a + (b - a) * f
+    })
+}
+
+/// The part of a table that two scalars span: positions in cells, smaller first, and the cells they lie in.
+#[inline(always)]
+pub(super) fn span<F: Real>(entries: usize, s0: F, s1: F) -> (F, F, usize, usize) {
+    let cells = F::of_u32(entries as u32 - 1);
+    let (u0, u1) = (s0.least(s1) * cells, s0.most(s1) * cells);
+    let last = entries - 2;
+    (u0, u1, (u0.to_index() as usize).min(last), (u1.to_index() as usize).min(last))
+}
+
+/// Mean of (τ c, τ) over scalars [s0, s1]; see the WGSL for why nothing cancels.
+#[inline(always)]
+pub fn optics_between<F: Real>(table: &[OpticsEntry], s0: F, s1: F) -> [F; 4] {
+    let (u0, u1, c0, c1) = span(table.len(), s0, s1);
+    let half = F::of(0.5);
+    if c0 == c1 {
+        return optics_at(table, half * (u0 + u1), c0);
+    }
+    let (first, last) = (optics_at(table, u0, c0), optics_at(table, u1, c1));
+    let (after, before) = (&table[c0 + 1], &table[c1]);
+    let left = half * (F::of_u32(c0 as u32 + 1) - u0);
+    let right = half * (u1 - F::of_u32(c1 as u32));
+    let width = u1 - u0;
+    std::array::from_fn(|c| {
+        let whole = (F::of_f32(before.integral[c]) - F::of_f32(after.integral[c]))
+            + (F::of_f32(before.integral_rest[c]) - F::of_f32(after.integral_rest[c]));
+        let ends = (first[c] + F::of_f32(after.value[c])) * left;
+        (ends + whole + (F::of_f32(before.value[c]) + last[c]) * right) / width
+    })
+}
+
+/// φ(x) = (1 − e^−x) / x; a series where the difference would cancel.
+#[inline(always)]
+pub fn attenuation_mean<F: Real>(x: F) -> F {
+    if x < F::of(0.25) {
+        let c = |n: f64| F::of(1.0 / n);
+        return F::ONE - x * (c(2.0) - x * (c(6.0) - x * (c(24.0) - x * (c(120.0) - x * c(720.0)))));
+    }
+    (F::ONE - (-x).exp()) / x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::{Curve, ExtinctionUnit, Optics};
+    use crate::tables::optics_table;
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    /// Six terms of the series, cut off at x = 1/4: the next term is x⁶/5040.
+    const SERIES_ERROR: f64 = 0.25 * 0.25 * 0.25 * 0.25 * 0.25 * 0.25 / 5040.0;
+
+    fn table(points: Vec<(f64, f64)>) -> Vec<OpticsEntry> {
+        optics_table(&Optics {
+            domain: (0.0, 1.0),
+            extinction: Curve::new(points).unwrap(),
+            extinction_unit: ExtinctionUnit::PerMetre,
+            colour: Curve::constant(DVec3::ONE),
+            mimda: None,
+        })
+    }
+
+    #[test]
+    fn attenuation_is_right_from_tiny_to_huge() {
+        for exponent in -60..60 {
+            let x = 10f64.powf(f64::from(exponent) / 10.0);
+            let truth = -(-x).exp_m1() / x;
+            assert!((attenuation_mean(x) - truth).abs() <= SERIES_ERROR + 1e-12, "{x}");
+            let in_f32 = f64::from(attenuation_mean(x as f32));
+            assert!((in_f32 / truth - 1.0).abs() < 1e-6, "{x}: {in_f32} for {truth}");
+        }
+        assert_eq!(attenuation_mean(0.0f32), 1.0);
+        assert_eq!(attenuation_mean(1e30f32), 1e-30);
+    }
+
+    #[test]
+    fn a_low_range_beside_a_spike_keeps_its_digits() {
+        let table = table(vec![(0.0, 1e6), (0.1, 1e6), (0.1, 1e-6), (1.0, 1e-6)]);
+        for (s0, s1) in [(0.2f32, 0.9f32), (0.5, 0.503), (0.9, 0.8999)] {
+            let mean = optics_between(&table, s0, s1)[3];
+            assert!((mean / 1e-6 - 1.0).abs() < 1e-3, "{mean}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn means_lie_within_the_curve_and_are_symmetric(
+            values in prop::collection::vec(0.0..10.0f64, 5), s0 in 0.0..=1.0f32, s1 in 0.0..=1.0f32,
+        ) {
+            let points: Vec<_> = values.iter().enumerate().map(|(i, &v)| (i as f64 / 4.0, v)).collect();
+            let most = values.iter().fold(0.0f64, |m, &v| m.max(v)) as f32;
+            let table = table(points);
+            let mean = optics_between(&table, s0, s1)[3];
+            prop_assert!(mean >= 0.0 && mean <= most * 1.0001 + 1e-6);
+            prop_assert_eq!(mean, optics_between(&table, s1, s0)[3]);
+        }
+    }
+}

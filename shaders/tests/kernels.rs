@@ -1,0 +1,71 @@
+//! Every kernel is valid WGSL, and lays its structs out as the host does.
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use shaders::compose::KernelKey;
+use shaders::layout::{FeedbackEntry, ImportanceEntry, NodeRecord, OpticsEntry, Params};
+use std::mem::{offset_of, size_of};
+
+fn parse(wgsl: &str) -> naga::Module {
+    match naga::front::wgsl::parse_str(wgsl) {
+        Ok(module) => module,
+        Err(error) => panic!("{}", error.emit_to_string(wgsl)),
+    }
+}
+
+fn is_valid(wgsl: &str) -> Result<(), String> {
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.emit_to_string(wgsl))?;
+    Validator::new(ValidationFlags::all(), Capabilities::default())
+        .validate(&module)
+        .map(|_| ())
+        .map_err(|error| error.emit_to_string(wgsl))
+}
+
+#[test]
+fn every_permutation_is_valid() {
+    assert_eq!(KernelKey::all().count(), 12);
+    for key in KernelKey::all() {
+        if let Err(why) = is_valid(&key.wgsl()) {
+            panic!("{key:?}: {why}");
+        }
+    }
+}
+
+#[test]
+fn a_spoiled_kernel_is_not_valid() {
+    let key = KernelKey::all().next().unwrap();
+    assert!(is_valid(&key.wgsl().replace("fn shade(", "fn shade_not(")).is_err());
+}
+
+fn offsets(module: &naga::Module, name: &str) -> (Vec<(String, u32)>, u32) {
+    let (_, found) = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).unwrap();
+    match &found.inner {
+        naga::TypeInner::Struct { members, span } => {
+            (members.iter().map(|m| (m.name.clone().unwrap(), m.offset)).collect(), *span)
+        }
+        other => panic!("{name} is not a struct but {other:?}"),
+    }
+}
+
+macro_rules! assert_layout {
+    ($module:expr, $host:ty, $($member:ident),+) => {{
+        let name = stringify!($host);
+        let host = vec![$((stringify!($member).to_string(), offset_of!($host, $member) as u32)),+];
+        assert_eq!(offsets($module, name), (host, size_of::<$host>() as u32), "{name}");
+    }};
+}
+
+#[test]
+fn host_structs_and_wgsl_structs_agree() {
+    let key = KernelKey::all().find(|key| key.reads_importance()).unwrap();
+    let module = parse(&key.wgsl());
+    assert_layout!(
+        &module, Params, screen_from_pixel, volume_from_display, beam, volume, light, material, quality, mimda,
+        texel, atlas, raster, tables
+    );
+    assert_layout!(
+        &module, NodeRecord, cell, depth, parent, first_child, slot, deficit, offset, scale, neighbours
+    );
+    assert_layout!(&module, OpticsEntry, value, integral, integral_rest);
+    assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);
+    assert_layout!(&module, FeedbackEntry, deficit_code, rays);
+}

@@ -1,0 +1,38 @@
+// Maximum Importance Difference Accumulation in the form that telescopes: β = (1 − γ ι) / (1 − γ ι_max).
+
+struct Accumulated {
+    rgb: vec3<f32>,
+    alpha: f32,
+    importance: f32,
+}
+
+fn nothing_accumulated() -> Accumulated {
+    return Accumulated(vec3<f32>(0.0), 0.0, 0.0);
+}
+
+// Importance acts whatever the extinction: no segment is clear.
+fn is_clear(extinction: f32) -> bool {
+    return false;
+}
+
+// β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
+fn kept(largest: f32, importance: f32) -> f32 {
+    let before = 1.0 - params.mimda.x * largest;
+    if importance <= largest || before <= 0.0 {
+        return 1.0;
+    }
+    return (1.0 - params.mimda.x * importance) / before;
+}
+
+fn composite(front: Accumulated, rgb: vec3<f32>, alpha: f32, s0: f32, s1: f32) -> Accumulated {
+    let importance = importance_between(s0, s1);
+    let beta = kept(front.importance, importance);
+    let through = 1.0 - beta * front.alpha;
+    return Accumulated(front.rgb * beta + rgb * through, front.alpha * beta + alpha * through,
+        max(front.importance, importance));
+}
+
+// The opacity that what follows may still add, when the largest importance is yet to come.
+fn still_to_come(front: Accumulated) -> f32 {
+    return 1.0 - kept(front.importance, params.mimda.y) * front.alpha;
+}

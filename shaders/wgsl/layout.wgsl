@@ -1,0 +1,64 @@
+// The structs that the host fills and reads; their Rust forms stand in src/layout/.
+
+struct Params {
+    screen_from_pixel: array<vec4<f32>, 3>,
+    volume_from_display: array<vec4<f32>, 4>,
+    beam: vec4<f32>,
+    volume: vec4<f32>,
+    light: vec4<f32>,
+    material: vec4<f32>,
+    quality: vec4<f32>,
+    mimda: vec4<f32>,
+    texel: vec4<f32>,
+    atlas: vec4<u32>,
+    raster: vec4<u32>,
+    tables: vec4<u32>,
+}
+
+struct NodeRecord {
+    cell: vec3<u32>,
+    depth: u32,
+    parent: u32,
+    first_child: u32,
+    slot: u32,
+    deficit: f32,
+    offset: f32,
+    scale: f32,
+    neighbours: array<u32, 6>,
+}
+
+struct OpticsEntry {
+    value: vec4<f32>,
+    integral: vec4<f32>,
+    integral_rest: vec4<f32>,
+}
+
+struct ImportanceEntry {
+    value: f32,
+    integral: f32,
+    integral_rest: f32,
+    padding: f32,
+}
+
+struct FeedbackEntry {
+    deficit_code: atomic<u32>,
+    rays: atomic<u32>,
+}
+
+const NO_NODE: u32 = 0xffffffffu;
+const NO_SLOT: u32 = 0xffffffffu;
+const TILE_EDGE: u32 = 8u;
+const BRICK_EDGE: u32 = 32u;
+const OVERLAP: f32 = 2.0;
+const OWN_EDGE: f32 = 28.0;
+// Set in the count of samples where a ray met a node that is too coarse.
+const MISSING: u32 = 0x80000000u;
+
+@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(1) var<storage, read> nodes: array<NodeRecord>;
+@group(0) @binding(2) var<storage, read> optics_table: array<OpticsEntry>;
+@group(0) @binding(3) var<storage, read> tiles: array<u32>;
+@group(0) @binding(4) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> feedback: array<FeedbackEntry>;
+@group(0) @binding(7) var atlas: texture_3d<f32>;

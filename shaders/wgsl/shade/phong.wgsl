@@ -1,0 +1,32 @@
+// Gradient shading: two-sided Phong, weighted by the strength of the gradient.
+
+// `k` is the mean of (τ c, τ); `middle` the segment's middle in texels of the atlas; `gradient_scale` turns a
+// difference over two texels into a change of the scalar per finest voxel.
+fn shade(k: vec4<f32>, middle: vec3<f32>, gradient_scale: f32, ray: Ray) -> vec3<f32> {
+    let difference = vec3<f32>(
+        sample_atlas(middle + vec3<f32>(1.0, 0.0, 0.0)) - sample_atlas(middle - vec3<f32>(1.0, 0.0, 0.0)),
+        sample_atlas(middle + vec3<f32>(0.0, 1.0, 0.0)) - sample_atlas(middle - vec3<f32>(0.0, 1.0, 0.0)),
+        sample_atlas(middle + vec3<f32>(0.0, 0.0, 1.0)) - sample_atlas(middle - vec3<f32>(0.0, 0.0, 1.0)));
+    let in_volume = difference * gradient_scale;
+    let m = params.volume_from_display;
+    let gradient = vec3<f32>(dot(m[0].xyz, in_volume), dot(m[1].xyz, in_volume), dot(m[2].xyz, in_volume))
+        * params.volume.w;
+    let square = dot(gradient, gradient);
+    if square < 1e-30 {
+        return k.xyz;
+    }
+    let weight = square / (square + params.light.w);
+    let normal = gradient / sqrt(square);
+    let diffuse = abs(dot(normal, params.light.xyz));
+    let halfway = params.light.xyz - ray.direction_in_display;
+    let halfway_square = dot(halfway, halfway);
+    var specular = 0.0;
+    if halfway_square > 1e-12 {
+        let cosine = min(abs(dot(normal, halfway)) / sqrt(halfway_square), 1.0);
+        if cosine > 0.0 {
+            specular = pow(cosine, params.material.w);
+        }
+    }
+    let body = 1.0 - weight + weight * (params.material.x + params.material.y * diffuse);
+    return k.xyz * body + vec3<f32>(k.w * weight * params.material.z * specular);
+}
