@@ -1,8 +1,10 @@
 //! The renderer: volume store, working set, devices, reference integrator, outputs, protocol and transports.
 
+pub mod device;
 pub mod output;
 pub mod protocol;
 pub mod reference;
+pub mod render;
 pub mod store;
 pub mod transport;
 pub mod volume;

@@ -82,7 +82,9 @@ impl KernelKey {
         let composite = match self.compositing {
             Compositing::Over => include_str!("../wgsl/composite/over.wgsl"),
             Compositing::Mimda(MimdaForm::Paper) => include_str!("../wgsl/composite/mimda_paper.wgsl"),
-            Compositing::Mimda(MimdaForm::Consistent) => include_str!("../wgsl/composite/mimda_consistent.wgsl"),
+            Compositing::Mimda(MimdaForm::Consistent) => {
+                include_str!("../wgsl/composite/mimda_consistent.wgsl")
+            }
         };
         let importance = if self.reads_importance() { include_str!("../wgsl/importance.wgsl") } else { "" };
         [

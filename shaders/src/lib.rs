@@ -8,4 +8,3 @@ pub mod layout;
 pub mod optics;
 pub mod tables;
 pub mod twin;
-

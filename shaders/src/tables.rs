@@ -47,7 +47,8 @@ pub fn largest_importance(importance: &Curve<f64>) -> f64 {
 }
 
 fn merged_knots(extinction: &Curve<f64>, colour: &Curve<DVec3>) -> Vec<f64> {
-    let mut knots: Vec<f64> = extinction.knots_between(0.0, 1.0).chain(colour.knots_between(0.0, 1.0)).collect();
+    let mut knots: Vec<f64> =
+        extinction.knots_between(0.0, 1.0).chain(colour.knots_between(0.0, 1.0)).collect();
     knots.sort_by(f64::total_cmp);
     knots.dedup();
     knots
@@ -58,10 +59,10 @@ fn integrate<const N: usize>(
     knots: &[f64],
     at: impl Fn(f64) -> [f64; N],
     below: impl Fn(f64) -> [f64; N],
-) -> Vec<([f64; N], [f64; N])> {
+) -> Vec<([f64; N], [Sum; N])> {
     let cells = (TABLE_ENTRIES - 1) as f64;
-    let mut sum = [0.0; N];
-    let mut table = vec![(at(0.0), sum)];
+    let mut sums = [Sum::default(); N];
+    let mut table = vec![(at(0.0), sums)];
     let mut next_knot = 0;
     for node in 1..TABLE_ENTRIES {
         let (mut from, to) = ((node - 1) as f64 / cells, node as f64 / cells);
@@ -70,7 +71,7 @@ fn integrate<const N: usize>(
             let until = knot.unwrap_or(to);
             let (first, middle, last) = (at(from), at(0.5 * (from + until)), below(until));
             for c in 0..N {
-                sum[c] += (until - from) * cells / 6.0 * (first[c] + 4.0 * middle[c] + last[c]);
+                sums[c].add((until - from) * cells / 6.0 * (first[c] + 4.0 * middle[c] + last[c]));
             }
             from = until;
             match knot {
@@ -78,18 +79,31 @@ fn integrate<const N: usize>(
                 None => break,
             }
         }
-        table.push((at(to), sum));
+        table.push((at(to), sums));
     }
     table
 }
 
-/// A number as the sum of two f32, component by component.
-fn split<const N: usize>(value: [f64; N]) -> ([f32; N], [f32; N]) {
-    let hi = value.map(|v| v as f32);
-    let mut rest = [0.0; N];
-    for c in 0..N {
-        rest[c] = (value[c] - f64::from(hi[c])) as f32;
+/// A sum that keeps what each addition rounds off (Neumaier): a tail of 1e-6 must survive behind a head of 1e8.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    total: f64,
+    rest: f64,
+}
+
+impl Sum {
+    fn add(&mut self, term: f64) {
+        let total = self.total + term;
+        self.rest +=
+            if self.total >= term { (self.total - total) + term } else { (term - total) + self.total };
+        self.total = total;
     }
+}
+
+/// Sums as pairs of f32, component by component.
+fn split<const N: usize>(sums: [Sum; N]) -> ([f32; N], [f32; N]) {
+    let hi = sums.map(|sum| sum.total as f32);
+    let rest = std::array::from_fn(|c| (sums[c].total - f64::from(hi[c]) + sums[c].rest) as f32);
     (hi, rest)
 }
 

@@ -59,11 +59,33 @@ fn host_structs_and_wgsl_structs_agree() {
     let key = KernelKey::all().find(|key| key.reads_importance()).unwrap();
     let module = parse(&key.wgsl());
     assert_layout!(
-        &module, Params, screen_from_pixel, volume_from_display, beam, volume, light, material, quality, mimda,
-        texel, atlas, raster, tables
+        &module,
+        Params,
+        screen_from_pixel,
+        volume_from_display,
+        beam,
+        volume,
+        light,
+        material,
+        quality,
+        mimda,
+        texel,
+        atlas,
+        raster,
+        tables
     );
     assert_layout!(
-        &module, NodeRecord, cell, depth, parent, first_child, slot, deficit, offset, scale, neighbours
+        &module,
+        NodeRecord,
+        cell,
+        depth,
+        parent,
+        first_child,
+        slot,
+        deficit,
+        offset,
+        scale,
+        neighbours
     );
     assert_layout!(&module, OpticsEntry, value, integral, integral_rest);
     assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);

@@ -1,5 +1,15 @@
-//! Which bricks are resident: the cut through the octree, its index, its loader.
+//! Which bricks are resident: the cut through the octree, the index rays traverse, the loader.
 
+mod cut;
+mod index;
+mod loader;
 mod lod;
+mod slots;
+mod touched;
 
+pub use cut::{Cut, CutNode, ResidentBrick};
+pub use index::{IndexRules, build_index};
+pub use loader::{LoadedBrick, Loader};
 pub use lod::LodRule;
+pub use slots::SlotPool;
+pub use touched::{Touched, Wanted};

@@ -99,7 +99,8 @@ fn march<F: Real, S: Shade, C: Composite>(
             } else {
                 Vec3::ZERO
             };
-            marched.front = C::composite(scene, marched.front, lit * (thickness * mean), depth * mean, s0, s1);
+            marched.front =
+                C::composite(scene, marched.front, lit * (thickness * mean), depth * mean, s0, s1);
             if C::still_to_come(scene, marched.front) < view.termination {
                 marched.is_done = true;
                 break;

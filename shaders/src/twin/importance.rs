@@ -18,8 +18,8 @@ pub fn importance_between<F: Real>(table: &[ImportanceEntry], s0: F, s1: F) -> F
         return importance_at(table, half * (u0 + u1), c0);
     }
     let (after, before) = (&table[c0 + 1], &table[c1]);
-    let left = (importance_at(table, u0, c0) + F::of_f32(after.value))
-        * (half * (F::of_u32(c0 as u32 + 1) - u0));
+    let left =
+        (importance_at(table, u0, c0) + F::of_f32(after.value)) * (half * (F::of_u32(c0 as u32 + 1) - u0));
     let right =
         (F::of_f32(before.value) + importance_at(table, u1, c1)) * (half * (u1 - F::of_u32(c1 as u32)));
     let whole = (F::of_f32(before.integral) - F::of_f32(after.integral))

@@ -22,7 +22,8 @@ pub fn sample_brick<F: Real>(brick: &[u16; BRICK_VOXELS], point: Vec3<F>) -> F {
     let a = [at(0), at(1), at(row), at(row + 1)];
     let b = [at(layer), at(layer + 1), at(layer + row), at(layer + row + 1)];
     let along_z: [F; 4] = std::array::from_fn(|c| a[c] + (b[c] - a[c]) * f[2]);
-    let along_y = [along_z[0] + (along_z[2] - along_z[0]) * f[1], along_z[1] + (along_z[3] - along_z[1]) * f[1]];
+    let along_y =
+        [along_z[0] + (along_z[2] - along_z[0]) * f[1], along_z[1] + (along_z[3] - along_z[1]) * f[1]];
     (along_y[0] + (along_y[1] - along_y[0]) * f[0]) * F::of(1.0 / 65535.0)
 }
 

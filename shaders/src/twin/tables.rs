@@ -87,13 +87,24 @@ mod tests {
         assert_eq!(attenuation_mean(1e30f32), 1e-30);
     }
 
+    /// Two f32 hold an integral to 2⁻⁴⁸ of itself; a difference of two is off by twice that at most.
+    const TWO_FLOATS: f64 = 2.0 / (1u64 << 48) as f64;
+
     #[test]
     fn a_low_range_beside_a_spike_keeps_its_digits() {
-        let table = table(vec![(0.0, 1e6), (0.1, 1e6), (0.1, 1e-6), (1.0, 1e-6)]);
-        for (s0, s1) in [(0.2f32, 0.9f32), (0.5, 0.503), (0.9, 0.8999)] {
-            let mean = optics_between(&table, s0, s1)[3];
-            assert!((mean / 1e-6 - 1.0).abs() < 1e-3, "{mean}");
-        }
+        let mut table = table(vec![(0.0, 1e6), (0.1, 1e6), (0.1, 1e-6), (1.0, 1e-6)]);
+        let worst = |table: &[OpticsEntry]| {
+            [(0.2f32, 0.9f32), (0.5, 0.503), (0.9, 0.8999)].into_iter().fold(0.0f64, |worst, (s0, s1)| {
+                let error = (f64::from(optics_between(table, s0, s1)[3]) - 1e-6).abs();
+                let cells = f64::from((s1 - s0).abs()) * (table.len() - 1) as f64;
+                let whole = f64::from(table[table.len() - 1].integral[3]);
+                worst.max(error / (TWO_FLOATS * whole / cells + 1e-12))
+            })
+        };
+        assert!(worst(&table) <= 1.0, "{}", worst(&table));
+        // The canary: one f32 alone does not do.
+        table.iter_mut().for_each(|entry| entry.integral_rest = [0.0; 4]);
+        assert!(worst(&table) > 100.0, "{}", worst(&table));
     }
 
     proptest! {

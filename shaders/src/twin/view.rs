@@ -1,6 +1,6 @@
 //! The view and the scene's numbers, as [`Params`] holds them for a kernel.
 
-use super::{Real, vector::Vec3};
+use super::vector::Vec3;
 use crate::layout::Params;
 use crate::optics::{Light, Optics, Quality};
 use crate::tables::{TABLE_ENTRIES, largest_importance};

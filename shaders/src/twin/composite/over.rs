@@ -22,7 +22,11 @@ impl Composite for Over {
         _: F,
     ) -> Accumulated<F> {
         let through = F::ONE - front.alpha;
-        Accumulated { rgb: front.rgb + rgb * through, alpha: front.alpha + alpha * through, importance: F::ZERO }
+        Accumulated {
+            rgb: front.rgb + rgb * through,
+            alpha: front.alpha + alpha * through,
+            importance: F::ZERO,
+        }
     }
 
     #[inline(always)]

@@ -24,8 +24,7 @@ impl Shade for Phong {
         }));
         let in_volume = difference * gradient_scale;
         let m = &view.volume_from_display;
-        let gradient =
-            Vec3([m[0].dot(in_volume), m[1].dot(in_volume), m[2].dot(in_volume)]) * view.voxel_m;
+        let gradient = Vec3([m[0].dot(in_volume), m[1].dot(in_volume), m[2].dot(in_volume)]) * view.voxel_m;
         let square = gradient.dot(gradient);
         if square < F::of(1e-30) {
             return colour;

@@ -1,0 +1,68 @@
+//! Which device: asked for, or the best there is.
+
+use super::{CpuDevice, Device, DeviceError};
+use crate::protocol::{DeviceChoice, DeviceInfo, FilterChoice};
+
+/// A device, and what to say of it.
+#[derive(Debug)]
+pub struct ChosenDevice {
+    /// The device.
+    pub device: Device,
+    /// Its name, and why it was taken.
+    pub info: DeviceInfo,
+}
+
+/// Opens the device of choice, with a brick cache of at most `cache_bytes` and at most `slots_needed` bricks.
+///
+/// # Errors
+/// A GPU was asked for and there is none, or its memory does not hold the cache.
+pub fn open_device(
+    choice: DeviceChoice,
+    filter: FilterChoice,
+    cache_bytes: u64,
+    slots_needed: u64,
+) -> Result<ChosenDevice, DeviceError> {
+    let cpu = |reason: &str| {
+        let slots = slots_within(cache_bytes, slots_needed);
+        let info = DeviceInfo {
+            adapter: format!("cpu: {} threads", rayon::current_num_threads()),
+            reason: reason.into(),
+            filter: "exact".into(),
+        };
+        Ok(ChosenDevice { device: Device::Cpu(CpuDevice::new(slots)), info })
+    };
+    match (choice, open_gpu(filter, cache_bytes, slots_needed)) {
+        (DeviceChoice::Cpu, _) => cpu("it was asked for"),
+        (DeviceChoice::Auto, None) => cpu("this program was built without its gpu feature"),
+        (DeviceChoice::Gpu, None) => Err(DeviceError(
+            "this program was built without its gpu feature; build it with that feature, or take --device cpu".into(),
+        )),
+        (DeviceChoice::Auto | DeviceChoice::Gpu, Some(open)) => match open() {
+            Ok(chosen) => Ok(chosen),
+            Err(error) if choice == DeviceChoice::Auto => cpu(&error.0),
+            Err(error) => Err(DeviceError(format!("{error}; take --device cpu, or install a Vulkan driver"))),
+        },
+    }
+}
+
+/// Bricks that fit: at least the nine that show a root and its children.
+pub(super) fn slots_within(cache_bytes: u64, slots_needed: u64) -> u32 {
+    let bytes_per_slot = 2 * crate::store::BRICK_VOXELS as u64;
+    slots_needed.min(cache_bytes / bytes_per_slot).clamp(9, 1 << 20) as u32
+}
+
+type OpenGpu = Box<dyn FnOnce() -> Result<ChosenDevice, DeviceError>>;
+
+#[cfg(feature = "gpu")]
+fn open_gpu(filter: FilterChoice, cache_bytes: u64, slots_needed: u64) -> Option<OpenGpu> {
+    Some(Box::new(move || {
+        let device = super::gpu::GpuDevice::open(filter, slots_within(cache_bytes, slots_needed))?;
+        let info = device.info();
+        Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })
+    }))
+}
+
+#[cfg(not(feature = "gpu"))]
+fn open_gpu(_: FilterChoice, _: u64, _: u64) -> Option<OpenGpu> {
+    None
+}

@@ -1,0 +1,111 @@
+//! The CPU device: the kernels' f32 twin on all cores.
+
+use super::{CastJob, CastOutcome, DeviceError};
+use crate::store::BRICK_VOXELS;
+use rayon::prelude::*;
+use shaders::layout::{ImportanceEntry, NodeRecord, OpticsEntry};
+use shaders::twin::{Cast, FeedbackCell, Scene, cast_pixel};
+
+/// The brick cache in main memory, and the last picture.
+#[derive(Debug)]
+pub struct CpuDevice {
+    atlas: Vec<u16>,
+    nodes: Vec<NodeRecord>,
+    optics: Vec<OpticsEntry>,
+    importance: Vec<ImportanceEntry>,
+    pixels: Vec<f32>,
+}
+
+/// The rays of one tile.
+type TileCasts = Vec<((u32, u32), Cast<f32>)>;
+
+impl CpuDevice {
+    /// A device with room for `slots` bricks.
+    pub fn new(slots: u32) -> Self {
+        Self {
+            atlas: vec![0; slots as usize * BRICK_VOXELS],
+            nodes: Vec::new(),
+            optics: Vec::new(),
+            importance: Vec::new(),
+            pixels: Vec::new(),
+        }
+    }
+
+    pub(super) fn slots(&self) -> u32 {
+        (self.atlas.len() / BRICK_VOXELS) as u32
+    }
+
+    pub(super) fn write_brick(&mut self, slot: u32, samples: &[u16]) {
+        let start = slot as usize * BRICK_VOXELS;
+        self.atlas[start..start + BRICK_VOXELS].copy_from_slice(samples);
+    }
+
+    pub(super) fn write_index(&mut self, nodes: &[NodeRecord]) {
+        self.nodes = nodes.to_vec();
+    }
+
+    pub(super) fn write_tables(&mut self, optics: &[OpticsEntry], importance: &[ImportanceEntry]) {
+        self.optics = optics.to_vec();
+        self.importance = importance.to_vec();
+    }
+
+    pub(super) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
+        let feedback: Vec<FeedbackCell> = self.nodes.iter().map(|_| FeedbackCell::default()).collect();
+        let scene = Scene {
+            view: job.view,
+            nodes: &self.nodes,
+            optics: &self.optics,
+            importance: &self.importance,
+            atlas: &self.atlas,
+            feedback: &feedback,
+        };
+        let casts: Vec<TileCasts> = job.tiles.par_iter().map(|&tile| cast_tile(&scene, job, tile)).collect();
+        let [width, height] = job.view.raster;
+        self.pixels.resize(4 * width as usize * height as usize, 0.0);
+        let mut outcome = CastOutcome::default();
+        for (&tile, casts) in job.tiles.iter().zip(&casts) {
+            for &((x, y), cast) in casts {
+                let at = 4 * (y as usize * width as usize + x as usize);
+                self.pixels[at..at + 4].copy_from_slice(&cast.rgba);
+                outcome.samples += u64::from(cast.samples);
+            }
+            outcome.rays += casts.len() as u64;
+            if casts.iter().any(|(_, cast)| cast.is_missing) {
+                outcome.missing_tiles.push(tile);
+            }
+        }
+        outcome.feedback = feedback.iter().map(FeedbackCell::entry).collect();
+        Ok(outcome)
+    }
+
+    pub(super) fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
+        Ok(self.pixels.clone())
+    }
+}
+
+/// Casts one tile with the widest instructions this machine has. Wider registers change no result: nothing is
+/// contracted or reordered.
+fn cast_tile(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has just been asked for AVX2.
+        return unsafe { cast_tile_avx2(scene, job, tile) };
+    }
+    cast_tile_anywhere(scene, job, tile)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn cast_tile_avx2(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts {
+    cast_tile_anywhere(scene, job, tile)
+}
+
+#[inline(always)]
+fn cast_tile_anywhere(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts {
+    let [width, height] = job.view.raster;
+    let mut casts = Vec::with_capacity(64);
+    for (x, y) in job.grid.pixels(tile, width, height) {
+        casts.push(((x, y), cast_pixel(scene, job.shading, job.compositing, x, y)));
+    }
+    casts
+}

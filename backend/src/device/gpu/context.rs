@@ -1,0 +1,86 @@
+//! The adapter and its queue, one for the whole process.
+
+use crate::device::DeviceError;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
+
+/// What all GPU devices of a process share. Software Vulkan drivers have crashed with several at work at once, so
+/// there is one, and work on it takes turns.
+#[derive(Debug)]
+pub(super) struct Context {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    pub(super) name: String,
+    pub(super) atlas_format: wgpu::TextureFormat,
+    /// Whether the texture unit can interpolate `atlas_format` at all.
+    pub(super) has_filter: bool,
+    turn: Mutex<()>,
+}
+
+static CONTEXT: OnceLock<Result<Arc<Context>, DeviceError>> = OnceLock::new();
+
+/// The process's context, made on first use.
+pub(super) fn context() -> Result<Arc<Context>, DeviceError> {
+    CONTEXT.get_or_init(|| pollster::block_on(Context::open()).map(Arc::new)).clone()
+}
+
+/// The adapter that `--device gpu` would take.
+///
+/// # Errors
+/// There is none, or it cannot be opened.
+pub fn adapter_name() -> Result<String, DeviceError> {
+    Ok(context()?.name.clone())
+}
+
+impl Context {
+    async fn open() -> Result<Self, DeviceError> {
+        let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
+        wanted.backends = wgpu::Backends::PRIMARY;
+        let instance = wgpu::Instance::new(wanted);
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = instance
+            .request_adapter(&options)
+            .await
+            .map_err(|_| DeviceError("no Vulkan driver offers an adapter".into()))?;
+        let info = adapter.get_info();
+        let name = format!("gpu: {}, {:?}", info.name, info.backend);
+        let features = adapter.features()
+            & (wgpu::Features::TEXTURE_FORMAT_16BIT_NORM | wgpu::Features::FLOAT32_FILTERABLE);
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("lightloom"),
+            required_features: features,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = adapter
+            .request_device(&descriptor)
+            .await
+            .map_err(|error| DeviceError(format!("{name} cannot be opened: {error}")))?;
+        let has_unorm16 = features.contains(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM);
+        let has_filter = has_unorm16 || features.contains(wgpu::Features::FLOAT32_FILTERABLE);
+        let atlas_format =
+            if has_unorm16 { wgpu::TextureFormat::R16Unorm } else { wgpu::TextureFormat::R32Float };
+        Ok(Self { device, queue, name, atlas_format, has_filter, turn: Mutex::new(()) })
+    }
+
+    /// Waits for this thread's turn on the queue.
+    pub(super) fn turn(&self) -> MutexGuard<'_, ()> {
+        self.turn.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// Submits, and waits until it is done.
+    pub(super) fn run(&self, encoder: wgpu::CommandEncoder) -> Result<(), DeviceError> {
+        self.queue.submit([encoder.finish()]);
+        self.wait()
+    }
+
+    /// Waits for all that was submitted.
+    pub(super) fn wait(&self) -> Result<(), DeviceError> {
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map(|_| ())
+            .map_err(|error| DeviceError(format!("{} stopped answering: {error}", self.name)))
+    }
+}

@@ -1,0 +1,71 @@
+//! What casts rays: the GPU, or the kernels' twin on the CPU.
+
+mod choose;
+mod cpu;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod job;
+
+pub use choose::{ChosenDevice, open_device};
+pub use cpu::CpuDevice;
+pub use job::{CastJob, CastOutcome, TileGrid};
+
+use shaders::layout::{ImportanceEntry, NodeRecord, OpticsEntry};
+
+/// Why a device cannot go on: one sentence.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct DeviceError(pub String);
+
+/// A device with its brick cache.
+#[derive(Debug)]
+pub enum Device {
+    /// The twin, on all cores.
+    Cpu(CpuDevice),
+    /// A wgpu device.
+    #[cfg(feature = "gpu")]
+    Gpu(Box<gpu::GpuDevice>),
+}
+
+/// The same call on whichever device there is.
+macro_rules! on_device {
+    ($device:expr, $found:ident => $call:expr) => {
+        match $device {
+            Device::Cpu($found) => $call,
+            #[cfg(feature = "gpu")]
+            Device::Gpu($found) => $call,
+        }
+    };
+}
+
+impl Device {
+    /// Slots of the brick cache.
+    pub fn slots(&self) -> u32 {
+        on_device!(self, device => device.slots())
+    }
+
+    /// Puts a brick's 32³ samples into a slot.
+    pub fn write_brick(&mut self, slot: u32, samples: &[u16]) {
+        on_device!(self, device => device.write_brick(slot, samples));
+    }
+
+    /// Replaces the spatial index.
+    pub fn write_index(&mut self, nodes: &[NodeRecord]) {
+        on_device!(self, device => device.write_index(nodes));
+    }
+
+    /// Replaces the transfer functions' tables; `importance` may be empty where no kernel reads it.
+    pub fn write_tables(&mut self, optics: &[OpticsEntry], importance: &[ImportanceEntry]) {
+        on_device!(self, device => device.write_tables(optics, importance));
+    }
+
+    /// Casts the rays of some tiles; their colours stay on the device.
+    pub fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
+        on_device!(self, device => device.cast(job))
+    }
+
+    /// The colours of the view last cast: 4 numbers per pixel, rows from the top.
+    pub fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
+        on_device!(self, device => device.picture())
+    }
+}

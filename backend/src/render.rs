@@ -1,0 +1,98 @@
+//! The renderer of one back-end: draws the frames of its projectors until nothing is missing.
+
+mod frame;
+mod residency;
+mod views;
+
+use crate::device::{ChosenDevice, Device, DeviceError, open_device};
+use crate::protocol::{DeviceInfo, FrameReport, FrameState, ProjectorImage, Setup};
+use crate::store::{BrickError, BrickSource};
+use crate::working_set::Loader;
+use display_config::Display;
+use residency::Residency;
+use std::sync::Arc;
+
+/// Why a frame could not be drawn.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A brick could not be had.
+    #[error(transparent)]
+    Brick(#[from] BrickError),
+    /// The device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The frame cannot be drawn on this display.
+    #[error("projector {projector}: {why}")]
+    Ray {
+        /// Name of the projector.
+        projector: String,
+        /// What is wrong with its rays.
+        why: String,
+    },
+    /// The optical model is no optical model.
+    #[error(transparent)]
+    Optics(#[from] shaders::optics::OpticsError),
+}
+
+/// What a renderer tells while it draws.
+#[derive(Clone, Debug)]
+pub enum RenderEvent {
+    /// `done` of `total` rays of the frame are final.
+    Progress {
+        /// Rays that are final.
+        done: u64,
+        /// Rays of the frame.
+        total: u64,
+    },
+    /// The picture of a projector is final.
+    Image(ProjectorImage),
+}
+
+/// The renderer of one back-end.
+pub struct Renderer {
+    display: Display,
+    projectors: Vec<u32>,
+    backend: u32,
+    device: Device,
+    residency: Residency,
+}
+
+impl Renderer {
+    /// Opens the device; the volume is already open.
+    ///
+    /// # Errors
+    /// The device cannot be had.
+    pub fn new(setup: &Setup, source: Arc<dyn BrickSource>) -> Result<(Self, DeviceInfo), RenderError> {
+        let shape = source.shape();
+        let bricks: u64 =
+            (0..=shape.finest_depth()).map(|d| shape.level_bricks(d).as_u64vec3().element_product()).sum();
+        let ChosenDevice { device, info } = open_device(setup.device, setup.filter, setup.cache_bytes, bricks)?;
+        let loader = Loader::new(Arc::clone(&source), loader_threads());
+        let residency = Residency::new(source, loader, device.slots());
+        let renderer = Self {
+            display: setup.display.clone(),
+            projectors: setup.projectors.clone(),
+            backend: setup.backend,
+            device,
+            residency,
+        };
+        Ok((renderer, info))
+    }
+
+    /// Draws one frame, picture by picture.
+    ///
+    /// # Errors
+    /// A brick or the device fails, or the frame does not fit the display.
+    pub fn draw(
+        &mut self,
+        frame: &FrameState,
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<FrameReport, RenderError> {
+        frame::draw(self, frame, sink)
+    }
+}
+
+/// Enough to keep a disk busy while others unpack.
+fn loader_threads() -> usize {
+    std::thread::available_parallelism().map_or(2, |n| n.get().clamp(2, 8))
+}

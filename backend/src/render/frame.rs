@@ -1,0 +1,201 @@
+//! One frame: a coarse look by few rays to fetch what they need, then every pixel, again where something was missing.
+
+use super::residency::{FrameRules, milliseconds};
+use super::views::{ProjectorView, views};
+use super::{RenderError, RenderEvent, Renderer};
+use crate::device::{CastJob, CastOutcome, TileGrid};
+use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages};
+use crate::store::NodeKey;
+use crate::working_set::{LodRule, Touched};
+use shaders::compose::{Compositing, Shading};
+use shaders::tables::{importance_table, optics_table};
+use std::collections::HashSet;
+use std::time::Instant;
+
+/// The coarse look casts every 16th pixel along x and y.
+const COARSE_STRIDE: u32 = 16;
+
+/// A frame being drawn.
+struct Drawing<'a> {
+    renderer: &'a mut Renderer,
+    rules: FrameRules<'a>,
+    shading: Shading,
+    compositing: Compositing,
+    stages: Stages,
+    /// Number of the last cast; the cut remembers by it what was used when.
+    cast: u64,
+    rays: u64,
+    samples: u64,
+    /// Nodes that stayed too coarse, over all views.
+    short: HashSet<NodeKey>,
+}
+
+pub(super) fn draw(
+    renderer: &mut Renderer,
+    frame: &FrameState,
+    sink: &mut dyn FnMut(RenderEvent),
+) -> Result<FrameReport, RenderError> {
+    let started = Instant::now();
+    frame.optics.check()?;
+    let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
+    let mut drawing = Drawing::new(renderer, frame);
+    drawing.start(frame)?;
+    let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
+    sink(RenderEvent::Progress { done: 0, total });
+    drawing.look(&views, &mut || sink(RenderEvent::Progress { done: 0, total }))?;
+    let mut working_sets = WorkingSets::default();
+    let mut done = 0;
+    for view in &views {
+        let touched = drawing.settle(view)?;
+        working_sets.add(touched);
+        let image = drawing.picture(view)?;
+        done += u64::from(image.width) * u64::from(image.height);
+        sink(RenderEvent::Image(image));
+        sink(RenderEvent::Progress { done, total });
+    }
+    Ok(drawing.report(frame, &working_sets, milliseconds(started)))
+}
+
+/// What the views sampled: together, and each for itself.
+#[derive(Debug, Default)]
+struct WorkingSets {
+    union: HashSet<NodeKey>,
+    sum: u64,
+}
+
+impl WorkingSets {
+    fn add(&mut self, view: HashSet<NodeKey>) {
+        self.sum += view.len() as u64;
+        self.union.extend(view);
+    }
+}
+
+impl<'a> Drawing<'a> {
+    fn new(renderer: &'a mut Renderer, frame: &'a FrameState) -> Self {
+        let lod = LodRule {
+            display_from_volume: frame.display_from_volume,
+            pixel_size_m: renderer.display.pixel_size_m,
+            angular_accuracy: renderer.display.angular_accuracy,
+            lod_scale: frame.quality.lod_scale,
+        };
+        let shading = if frame.light.is_some() { Shading::Phong } else { Shading::Plain };
+        // Casts are numbered across frames, so that detail of older frames is the first to go.
+        let cast = renderer.residency.cut.node(0).last_used;
+        Self {
+            renderer,
+            rules: FrameRules { lod, optics: &frame.optics },
+            shading,
+            compositing: Compositing::for_optics(&frame.optics),
+            stages: Stages::default(),
+            cast,
+            rays: 0,
+            samples: 0,
+            short: HashSet::new(),
+        }
+    }
+
+    /// Uploads the transfer functions and a first index.
+    fn start(&mut self, frame: &FrameState) -> Result<(), RenderError> {
+        let started = Instant::now();
+        let importance = match (&frame.optics.mimda, self.compositing) {
+            (Some(mimda), Compositing::Mimda(_)) => importance_table(&mimda.importance),
+            (Some(_) | None, _) => Vec::new(),
+        };
+        self.renderer.device.write_tables(&optics_table(&frame.optics), &importance);
+        self.stages.upload_ms += milliseconds(started);
+        let Renderer { residency, device, .. } = &mut *self.renderer;
+        residency.start_frame(frame, &self.rules, device, &mut self.stages)
+    }
+
+    fn cast(&mut self, view: &ProjectorView, grid: TileGrid, tiles: &[u32]) -> Result<CastOutcome, RenderError> {
+        let started = Instant::now();
+        let job =
+            CastJob { view: &view.view, shading: self.shading, compositing: self.compositing, grid, tiles };
+        let outcome = self.renderer.device.cast(&job)?;
+        self.cast += 1;
+        self.rays += outcome.rays;
+        self.samples += outcome.samples;
+        self.stages.cast_ms += milliseconds(started);
+        Ok(outcome)
+    }
+
+    /// Casts few rays of every view, and fetches what they miss, until they miss nothing or the cache is full.
+    fn look(&mut self, views: &[ProjectorView], alive: &mut dyn FnMut()) -> Result<(), RenderError> {
+        let first_cast = self.cast + 1;
+        loop {
+            let mut changed = false;
+            for view in views {
+                let [width, height] = view.view.raster;
+                let grid = TileGrid::new(width, height, COARSE_STRIDE);
+                let tiles: Vec<u32> = (0..grid.count()).collect();
+                let outcome = self.cast(view, grid, &tiles)?;
+                let Renderer { residency, device, .. } = &mut *self.renderer;
+                let wanted = Touched::default().take_in(&mut residency.cut, &outcome.feedback, self.cast);
+                changed |= residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)?;
+                alive();
+            }
+            if !changed {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Casts every pixel of a view, and again the tiles that missed something, until none does or the cache is full.
+    fn settle(&mut self, view: &ProjectorView) -> Result<HashSet<NodeKey>, RenderError> {
+        let [width, height] = view.view.raster;
+        let grid = TileGrid::new(width, height, 1);
+        let mut tiles: Vec<u32> = (0..grid.count()).collect();
+        let mut touched = Touched::default();
+        let first_cast = self.cast + 1;
+        while !tiles.is_empty() {
+            let outcome = self.cast(view, grid, &tiles)?;
+            let Renderer { residency, device, .. } = &mut *self.renderer;
+            let wanted = touched.take_in(&mut residency.cut, &outcome.feedback, self.cast);
+            if wanted.is_empty() {
+                break;
+            }
+            if !residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)? {
+                self.short.extend(wanted.iter().map(|want| residency.cut.node(want.place).key));
+                break;
+            }
+            tiles = outcome.missing_tiles;
+        }
+        Ok(touched.leaves(&self.renderer.residency.cut))
+    }
+
+    fn picture(&mut self, view: &ProjectorView) -> Result<ProjectorImage, RenderError> {
+        let started = Instant::now();
+        let rgba = self.renderer.device.picture()?;
+        self.stages.readback_ms += milliseconds(started);
+        let [width, height] = view.view.raster;
+        Ok(ProjectorImage { projector: view.projector, width, height, rgba })
+    }
+
+    fn report(self, frame: &FrameState, working_sets: &WorkingSets, total_ms: f64) -> FrameReport {
+        let residency = &mut self.renderer.residency;
+        residency.wanted.extend(&working_sets.union);
+        let shortfall = match self.short.len() {
+            0 => String::new(),
+            nodes => format!(
+                "the brick cache is full: {nodes} nodes are shown coarser than the display resolves; make the cache larger"
+            ),
+        };
+        FrameReport {
+            frame: frame.index,
+            backend: self.renderer.backend,
+            projectors: self.renderer.projectors.clone(),
+            rays: self.rays,
+            samples: self.samples,
+            bricks_wanted: residency.wanted.len() as u64,
+            bricks_resident: residency.resident(),
+            bricks_loaded: residency.bricks_loaded,
+            bytes_loaded: residency.bytes_loaded,
+            working_set_union: working_sets.union.len() as u64,
+            working_set_sum: working_sets.sum,
+            complete: self.short.is_empty(),
+            shortfall,
+            stages: self.stages,
+            total_ms,
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Loader threads: they fetch and unpack bricks while others wait or work.
+
+use crate::store::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey};
+use crossbeam_channel::{Receiver, Sender, unbounded};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+/// A brick as a device's cache holds it.
+#[derive(Clone, Debug)]
+pub struct LoadedBrick {
+    /// Which node.
+    pub key: NodeKey,
+    /// 32³ samples; 65535 stands for 1. 8-bit codes are spread over the same range without loss.
+    pub samples: Vec<u16>,
+    /// Data value of sample 0.
+    pub low: f64,
+    /// Data value of sample 65535, less `low`.
+    pub span: f64,
+    /// Bytes of the codes as the store held them, decoded.
+    pub bytes: u64,
+}
+
+/// A few threads that read bricks.
+#[derive(Debug)]
+pub struct Loader {
+    requests: Option<Sender<NodeKey>>,
+    results: Receiver<Result<LoadedBrick, BrickError>>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Loader {
+    /// Starts `threads` threads that read from `source`.
+    pub fn new(source: Arc<dyn BrickSource>, threads: usize) -> Self {
+        let (requests, inbox) = unbounded::<NodeKey>();
+        let (outbox, results) = unbounded();
+        let threads = (0..threads.max(1))
+            .map(|_| {
+                let (source, inbox, outbox) = (Arc::clone(&source), inbox.clone(), outbox.clone());
+                std::thread::spawn(move || {
+                    for key in inbox {
+                        if outbox.send(load(&*source, key)).is_err() {
+                            return;
+                        }
+                    }
+                })
+            })
+            .collect();
+        Self { requests: Some(requests), results, threads }
+    }
+
+    /// Fetches bricks, in any order of arrival, and hands each to `arrived`.
+    ///
+    /// # Errors
+    /// The first brick that could not be had; the others are waited for all the same.
+    pub fn fetch(&self, keys: &[NodeKey], mut arrived: impl FnMut(LoadedBrick)) -> Result<(), BrickError> {
+        let requests = self.requests.as_ref().expect("requests end only when the loader is dropped");
+        for &key in keys {
+            requests.send(key).map_err(|_| lost())?;
+        }
+        let mut outcome = Ok(());
+        for _ in keys {
+            match self.results.recv().map_err(|_| lost())? {
+                Ok(brick) => arrived(brick),
+                Err(error) => outcome = Err(error),
+            }
+        }
+        outcome
+    }
+}
+
+fn lost() -> BrickError {
+    BrickError("a loader thread ended before its time; start the program again".into())
+}
+
+impl Drop for Loader {
+    fn drop(&mut self) {
+        self.requests = None;
+        for thread in self.threads.drain(..) {
+            // A thread that panicked has said so itself.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickError> {
+    // A reader's panic must not leave the others waiting for this brick.
+    let brick = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| source.brick(key)))
+        .unwrap_or_else(|_| Err(BrickError(format!("reading brick {key:?} failed inside the program"))))?;
+    let largest = f64::from(brick.codes.largest());
+    let (samples, bytes) = match brick.codes {
+        Codes::U8(codes) => {
+            let bytes = codes.len() as u64;
+            (codes.into_iter().map(|code| u16::from(code) * 257).collect(), bytes)
+        }
+        Codes::U16(codes) => {
+            let bytes = 2 * codes.len() as u64;
+            (codes, bytes)
+        }
+    };
+    let samples: Vec<u16> = samples;
+    if samples.len() != BRICK_VOXELS {
+        return Err(BrickError(format!("brick {key:?} has {} samples instead of {BRICK_VOXELS}", samples.len())));
+    }
+    Ok(LoadedBrick { key, samples, low: f64::from(brick.low), span: f64::from(brick.step) * largest, bytes })
+}
