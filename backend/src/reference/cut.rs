@@ -1,0 +1,143 @@
+//! The ideal cut: the leaves that a level-of-detail rule asks for.
+
+use super::Line;
+use crate::store::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey, OVERLAP, OWN_EDGE, OctreeShape};
+use crate::working_set::LodRule;
+use glam::{DVec3, IVec3};
+use std::sync::{Arc, OnceLock};
+
+/// The voxels of a leaf: codes, with the data value `low + code × step`.
+pub struct Voxels {
+    /// Quantised samples, x fastest.
+    pub codes: Vec<u16>,
+    /// Data value of code 0.
+    pub low: f64,
+    /// Data value per code.
+    pub step: f64,
+}
+
+/// A leaf of the cut.
+pub struct Leaf {
+    key: NodeKey,
+    /// Its region in the volume frame.
+    pub region: (DVec3, DVec3),
+    /// Edge of its voxels, finest voxels.
+    pub voxel_edge: f64,
+    /// Bounds of its data values.
+    pub bounds: (f64, f64),
+    /// Level index of its stored sample (0, 0, 0).
+    pub first_sample: IVec3,
+    voxels: OnceLock<Result<Voxels, BrickError>>,
+}
+
+enum Node {
+    Leaf(Box<Leaf>),
+    /// Where the children's region splits, and the children that hold something.
+    Inner(DVec3, [Option<u32>; 8]),
+}
+
+/// The tree above the leaves. Bricks are read when a ray first meets them, and kept.
+pub struct Cut {
+    source: Arc<dyn BrickSource>,
+    shape: OctreeShape,
+    nodes: Vec<Node>,
+}
+
+impl Cut {
+    /// The cut that `rule` asks for: from the root down to the first node that is fine enough.
+    pub fn new(source: Arc<dyn BrickSource>, rule: &LodRule) -> Self {
+        let shape = source.shape();
+        let mut cut = Self { source, shape, nodes: Vec::new() };
+        cut.grow(rule, NodeKey::ROOT);
+        cut
+    }
+
+    /// The octree's geometry.
+    pub fn shape(&self) -> OctreeShape {
+        self.shape
+    }
+
+    /// The leaf that `line` is in just after `t`: on a border, the one it is about to enter; along a border, the one
+    /// at higher coordinates.
+    pub fn leaf_on(&self, line: &Line, t: f64) -> &Leaf {
+        self.leaf_where(|axis, coordinate| line.is_beyond(t, axis, coordinate))
+    }
+
+    /// The leaf that holds a point; on a border, the one at higher coordinates.
+    pub fn leaf_at(&self, point: DVec3) -> &Leaf {
+        self.leaf_where(|axis, coordinate| point[axis] >= coordinate)
+    }
+
+    /// The leaf's voxels.
+    pub fn voxels<'a>(&self, leaf: &'a Leaf) -> Result<&'a Voxels, BrickError> {
+        leaf.voxels.get_or_init(|| read(self.source.as_ref(), leaf.key)).as_ref().map_err(Clone::clone)
+    }
+
+    fn leaf_where(&self, is_beyond: impl Fn(usize, f64) -> bool) -> &Leaf {
+        let extent = self.shape.dims().as_dvec3();
+        let mut index = 0;
+        loop {
+            match &self.nodes[index] {
+                Node::Leaf(leaf) => return leaf,
+                Node::Inner(split, children) => {
+                    let octant = (0..3).fold(0, |octant, axis| {
+                        let is_upper = split[axis] < extent[axis] && is_beyond(axis, split[axis]);
+                        octant | usize::from(is_upper) << axis
+                    });
+                    let child = children[octant]
+                        .expect("a child whose low corner is inside the volume holds some of it");
+                    index = child as usize;
+                }
+            }
+        }
+    }
+
+    /// Adds a node with all below it; returns its index.
+    fn grow(&mut self, rule: &LodRule, key: NodeKey) -> u32 {
+        let index = self.nodes.len();
+        self.nodes.push(Node::Inner(DVec3::ZERO, [None; 8]));
+        self.nodes[index] = if rule.is_fine_enough(&self.shape, key) {
+            Node::Leaf(Box::new(self.leaf(key)))
+        } else {
+            let split = self.shape.region(key).0 + self.voxel_edge(key) * (OWN_EDGE / 2) as f64;
+            let mut children = [None; 8];
+            for octant in 0..8u32 {
+                let child = key.child(octant);
+                children[octant as usize] = self.shape.contains(child).then(|| self.grow(rule, child));
+            }
+            Node::Inner(split, children)
+        };
+        index as u32
+    }
+
+    fn leaf(&self, key: NodeKey) -> Leaf {
+        let summary = self.source.summary(key);
+        Leaf {
+            key,
+            region: self.shape.region(key),
+            voxel_edge: self.voxel_edge(key),
+            bounds: (f64::from(summary.min), f64::from(summary.max)),
+            first_sample: key.cell.as_ivec3() * OWN_EDGE as i32 - OVERLAP as i32,
+            voxels: OnceLock::new(),
+        }
+    }
+
+    fn voxel_edge(&self, key: NodeKey) -> f64 {
+        f64::from(1u32 << self.shape.level(key.depth))
+    }
+}
+
+fn read(source: &dyn BrickSource, key: NodeKey) -> Result<Voxels, BrickError> {
+    let brick = source.brick(key)?;
+    let codes = match brick.codes {
+        Codes::U8(codes) => codes.into_iter().map(u16::from).collect(),
+        Codes::U16(codes) => codes,
+    };
+    if codes.len() != BRICK_VOXELS {
+        return Err(BrickError(format!(
+            "brick {key:?} has {} samples instead of {BRICK_VOXELS}",
+            codes.len()
+        )));
+    }
+    Ok(Voxels { codes, low: f64::from(brick.low), step: f64::from(brick.step) })
+}
