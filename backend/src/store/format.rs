@@ -109,41 +109,53 @@ impl Header {
 
     /// Reads a header from the start of a file; what the numbers promise is for the caller to check.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, HeaderError> {
-        let damaged = |what: String| Err(HeaderError::Damaged(what));
-        if !bytes.starts_with(&MAGIC) {
-            return Err(HeaderError::NotAStore);
-        }
-        if bytes.len() < BITS_AT {
-            return damaged("it ends within its header".into());
-        }
-        match u32_at(bytes, VERSION_AT) {
-            VERSION => {}
-            other => return Err(HeaderError::Version(other)),
-        }
-        if bytes.len() < HEADER_BYTES {
-            return damaged("it ends within its header".into());
-        }
+        check_version(bytes)?;
         let (bits, codec) = match (bytes[BITS_AT], bytes[CODEC_AT]) {
-            (8, codec @ (0 | 1)) => (CodeBits::Eight, codec),
-            (16, codec @ (0 | 1)) => (CodeBits::Sixteen, codec),
-            (bits, codec) => return damaged(format!("{bits} bits per code with codec {codec} do not exist")),
+            (8, 0) => (CodeBits::Eight, Codec::None),
+            (8, 1) => (CodeBits::Eight, Codec::Lz4),
+            (16, 0) => (CodeBits::Sixteen, Codec::None),
+            (16, 1) => (CodeBits::Sixteen, Codec::Lz4),
+            (bits, codec) => {
+                return Err(HeaderError::Damaged(format!(
+                    "{bits} bits per code with codec {codec} do not exist"
+                )));
+            }
         };
-        let name_length = u32_at(bytes, NAME_LENGTH_AT) as usize;
-        let name = bytes.get(HEADER_BYTES..HEADER_BYTES + name_length.min(LONGEST_NAME + 1));
-        let Some(Ok(name)) = name.filter(|name| name.len() <= LONGEST_NAME).map(str::from_utf8) else {
-            return damaged(format!("the source's name of {name_length} bytes cannot be read"));
-        };
+        let f64_of = |at: usize, axis: usize| f64_at(bytes, at + axis * size_of::<f64>());
         Ok(Self {
             bits,
-            codec: if codec == 0 { Codec::None } else { Codec::Lz4 },
+            codec,
             dims: UVec3::from_array([0, 1, 2].map(|axis| u32_at(bytes, DIMS_AT + axis * size_of::<u32>()))),
-            voxel_size_m: DVec3::from_array(
-                [0, 1, 2].map(|axis| f64_at(bytes, VOXEL_SIZE_AT + axis * size_of::<f64>())),
-            ),
-            value_range: (f64_at(bytes, RANGE_AT), f64_at(bytes, RANGE_AT + size_of::<f64>())),
+            voxel_size_m: DVec3::from_array([0, 1, 2].map(|axis| f64_of(VOXEL_SIZE_AT, axis))),
+            value_range: (f64_of(RANGE_AT, 0), f64_of(RANGE_AT, 1)),
             nodes: u64_at(bytes, NODES_AT),
-            source_name: name.into(),
+            source_name: name(bytes)?,
         })
+    }
+}
+
+/// Passes bytes that start with a whole header of this version.
+fn check_version(bytes: &[u8]) -> Result<(), HeaderError> {
+    let cut = || HeaderError::Damaged("it ends within its header".into());
+    if !bytes.starts_with(&MAGIC) {
+        return Err(HeaderError::NotAStore);
+    }
+    if bytes.len() < BITS_AT {
+        return Err(cut());
+    }
+    match u32_at(bytes, VERSION_AT) {
+        VERSION if bytes.len() < HEADER_BYTES => Err(cut()),
+        VERSION => Ok(()),
+        other => Err(HeaderError::Version(other)),
+    }
+}
+
+fn name(bytes: &[u8]) -> Result<String, HeaderError> {
+    let length = u32_at(bytes, NAME_LENGTH_AT) as usize;
+    let name = bytes[HEADER_BYTES..].get(..length).filter(|name| name.len() <= LONGEST_NAME);
+    match name.map(str::from_utf8) {
+        Some(Ok(name)) => Ok(name.into()),
+        _ => Err(HeaderError::Damaged(format!("the source's name of {length} bytes cannot be read"))),
     }
 }
 

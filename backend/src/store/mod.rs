@@ -5,6 +5,8 @@ mod build;
 #[cfg(test)]
 mod build_tests;
 mod codec;
+#[cfg(test)]
+mod damage_tests;
 mod error;
 mod file;
 mod format;

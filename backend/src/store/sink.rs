@@ -36,6 +36,9 @@ impl Sink {
         table: NodeTable,
         header: &Header,
     ) -> Result<Self, StoreError> {
+        if path.is_dir() {
+            return Err(StoreError::write(path)(std::io::ErrorKind::IsADirectory.into()));
+        }
         let file = working_file(folder_of(path)).map_err(StoreError::write(path))?;
         let mut file = BufWriter::with_capacity(WRITE_BUFFER_BYTES, file);
         let position = header.table_offset() + table.nodes() * ENTRY_BYTES as u64;

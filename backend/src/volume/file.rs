@@ -62,7 +62,7 @@ impl FileVolume {
             dims: layout.dims,
             voxel_size_m: layout.voxel_size_m,
             element: layout.element,
-            all_finite: !layout.element.is_float(),
+            all_finite: !layout.element.is_float() && scaled_integers_fit_f32(&layout),
         };
         check_length(&layout, &info)?;
         let bytes = vec![0; info.slab_voxels() * layout.element.bytes()];
@@ -155,6 +155,12 @@ fn check_numbers(layout: &FileLayout) -> Result<(), VolumeError> {
     Ok(())
 }
 
+/// Whether integers of up to 32 bits stay finite as f32 after scaling.
+fn scaled_integers_fit_f32(layout: &FileLayout) -> bool {
+    let largest = layout.slope.abs() * f64::from(u32::MAX) + layout.intercept.abs();
+    largest < f64::from(f32::MAX)
+}
+
 fn check_length(layout: &FileLayout, info: &VolumeInfo) -> Result<(), VolumeError> {
     let length = file_length(&layout.data_path)?;
     let found = length.saturating_sub(layout.file_offset);
@@ -162,6 +168,9 @@ fn check_length(layout: &FileLayout, info: &VolumeInfo) -> Result<(), VolumeErro
     let (enough, found) = match layout.packing {
         Packing::Plain => {
             let found = found.saturating_sub(layout.data_offset);
+            if found > promised {
+                tracing::warn!(path = %layout.data_path.display(), found, promised, "more bytes than the header says");
+            }
             (found >= promised, format!("{found} are there"))
         }
         Packing::Gzip | Packing::Zlib => (

@@ -38,25 +38,33 @@ impl HeaderText {
         for (number, raw) in bytes.split_inclusive(|&byte| byte == b'\n').enumerate() {
             header.length += raw.len() as u64;
             let text = String::from_utf8_lossy(raw);
-            match line(number, text.trim_end_matches(['\r', '\n'])) {
-                Line::Field(key, value) => header.fields.push((key.to_ascii_lowercase(), value)),
-                Line::Last(key, value) => {
-                    header.fields.push((key.to_ascii_lowercase(), value));
-                    return Ok(header);
-                }
-                Line::Ignored => {}
-                Line::End => return Ok(header),
-                Line::Wrong => {
-                    let shown: String = text.trim_end().chars().take(40).collect();
-                    let number = number + 1;
-                    return Err(header.wrong(format!("line {number} is not understood: {shown:?}")));
-                }
+            if header.take(number, line(number, text.trim_end_matches(['\r', '\n'])), &text)? {
+                return Ok(header);
             }
         }
         if header.length == LONGEST_HEADER_BYTES {
             return Err(header.wrong("it does not end within 1 MiB; is this another kind of file?"));
         }
         Ok(header)
+    }
+
+    /// Keeps what a line says; true where the header ends with it.
+    fn take(&mut self, number: usize, line: Line, text: &str) -> Result<bool, VolumeError> {
+        match line {
+            Line::Field(key, value) => self.fields.push((key.to_ascii_lowercase(), value)),
+            Line::Last(key, value) => {
+                self.fields.push((key.to_ascii_lowercase(), value));
+                return Ok(true);
+            }
+            Line::Ignored => {}
+            Line::End => return Ok(true),
+            Line::Wrong => {
+                let shown: String = text.trim_end().chars().take(40).collect();
+                let number = number + 1;
+                return Err(self.wrong(format!("line {number} is not understood: {shown:?}")));
+            }
+        }
+        Ok(false)
     }
 
     /// An error about this header.
