@@ -71,3 +71,20 @@ fn hostile_bytes_never_panic() {
         assert!(complaint(folder.path(), &hostile).unwrap().contains("outside the file"));
     }
 }
+
+/// A file written once by the first program that wrote version 1: whoever changes the format changes the version.
+#[test]
+fn a_file_of_version_1_still_reads() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/version_1.lloom");
+    let store = Store::open(Path::new(path)).unwrap();
+    assert_eq!((store.shape().dims(), store.value_range()), (UVec3::new(5, 6, 4), (0.0, 354.0)));
+    assert_eq!(
+        (store.bits(), store.codec(), store.source_name()),
+        (CodeBits::Eight, Codec::Lz4, "short.nrrd")
+    );
+    let brick = store.brick(NodeKey::ROOT).unwrap();
+    for (x, y, z) in [(0, 0, 0), (4, 5, 3), (1, 2, 3)] {
+        let error = brick.value(Brick::index(x + 2, y + 2, z + 2)) - (x + 10 * y + 100 * z) as f64;
+        assert!(error.abs() <= 354.0 / 255.0 / 2.0 + 1e-3, "{error}");
+    }
+}
