@@ -1,1 +1,7 @@
-//! Shared parts of the tests that span crates.
+//! Shared parts of the tests and benchmarks that span crates: scenes, truth, comparison.
+
+pub mod closure_volume;
+pub mod compare;
+pub mod data;
+pub mod draw;
+pub mod scenes;

@@ -30,7 +30,7 @@ impl NodeKey {
 }
 
 impl Ord for NodeKey {
-    /// By depth, then z, y, x: the order in which bricks lie in a store.
+    /// By depth, then z, y, x: the order of the node table in a store.
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         let rank = |key: &Self| (key.depth, key.cell.z, key.cell.y, key.cell.x);
         rank(self).cmp(&rank(other))

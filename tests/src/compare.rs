@@ -1,0 +1,128 @@
+//! A picture against the truth, pixel by pixel.
+
+use backend::protocol::{FrameState, ProjectorImage};
+use backend::reference::{Integrator, Radiance, Reference};
+use backend::store::BrickSource;
+use backend::working_set::LodRule;
+use display_config::Display;
+use rayon::prelude::*;
+use std::fmt;
+use std::sync::Arc;
+
+/// The cut that a frame asks for on a display.
+pub fn lod_rule(display: &Display, frame: &FrameState) -> LodRule {
+    LodRule {
+        display_from_volume: frame.display_from_volume,
+        pixel_size_m: display.pixel_size_m,
+        angular_accuracy: display.angular_accuracy,
+        lod_scale: frame.quality.lod_scale,
+    }
+}
+
+/// A pixel and what it should be.
+#[derive(Clone, Copy, Debug)]
+pub struct TruePixel {
+    /// Index of the projector.
+    pub projector: u32,
+    /// Pixel along x.
+    pub x: u32,
+    /// Pixel along y.
+    pub y: u32,
+    /// What a ray through its centre sees.
+    pub truth: Radiance,
+}
+
+/// Every `stride`-th pixel of some projectors, by the reference. The tolerance is a hundredth of what is tested.
+pub fn truth(
+    display: &Display,
+    frame: &FrameState,
+    source: &Arc<dyn BrickSource>,
+    projectors: &[u32],
+    stride: u32,
+) -> Vec<TruePixel> {
+    let rule = lod_rule(display, frame);
+    let reference = Reference::new(Arc::clone(source), frame, &rule, Integrator::default())
+        .expect("a test scene has a reference");
+    let mut pixels = Vec::new();
+    for &projector in projectors {
+        let raster = &display.projectors[projector as usize].raster;
+        let along = |n: u32| (stride / 2..n).step_by(stride as usize);
+        pixels.extend(
+            along(raster.height).flat_map(|y| along(raster.width).map(move |x| (projector, x, y))),
+        );
+    }
+    pixels
+        .into_par_iter()
+        .map(|(projector, x, y)| {
+            let law = display
+                .beam_law(projector as usize, frame.observer_in_display, frame.eta)
+                .expect("a test scene goes with its display");
+            let ray = law.ray(display.pixel_on_screen(projector as usize, x, y));
+            let truth = reference
+                .radiance(ray.origin_in_display, ray.direction_in_display)
+                .expect("every brick of a test scene can be read");
+            assert!(truth.reached, "the reference missed its own tolerance at {projector}: {x}, {y}");
+            TruePixel { projector, x, y, truth }
+        })
+        .collect()
+}
+
+/// Errors of linear colour and opacity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Root of the mean square, all four numbers of all pixels.
+    pub rms: f64,
+    /// What 99.9 % of the pixels stay within.
+    pub p999: f64,
+    /// The largest.
+    pub max: f64,
+    /// Pixels compared.
+    pub pixels: usize,
+    /// Pixels that show anything: a black picture must not pass.
+    pub lit: usize,
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { rms, p999, max, pixels, lit } = self;
+        let [rms, p999, max] = [rms, p999, max].map(|e| e * 255.0);
+        write!(f, "RMS {rms:.4}  99.9 % {p999:.3}  max {max:.3} (of 255), {pixels} pixels, {lit} lit")
+    }
+}
+
+/// Pictures against the truth.
+pub fn errors(images: &[ProjectorImage], truth: &[TruePixel]) -> Errors {
+    let pairs = truth.iter().map(|pixel| {
+        let image = images
+            .iter()
+            .find(|image| image.projector == pixel.projector)
+            .expect("every projector with truth has a picture");
+        let at = 4 * (pixel.y as usize * image.width as usize + pixel.x as usize);
+        let found: [f32; 4] = image.rgba[at..at + 4].try_into().expect("four numbers per pixel");
+        let [r, g, b] = pixel.truth.rgb.to_array();
+        (found.map(f64::from), [r, g, b, pixel.truth.opacity])
+    });
+    errors_of(pairs)
+}
+
+/// Errors of pairs (found, true).
+pub fn errors_of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Errors {
+    let (mut squares, mut worst, mut lit) = (0.0, Vec::new(), 0);
+    for (found, truth) in pairs {
+        let difference: [f64; 4] = std::array::from_fn(|c| (found[c] - truth[c]).abs());
+        squares += difference.iter().map(|d| d * d).sum::<f64>();
+        // Not f64::max: a NaN must not get lost.
+        worst.push(difference.iter().fold(0.0, |m, &d| if d <= m { m } else { d }));
+        lit += usize::from(truth[3] > 0.01);
+    }
+    assert!(!worst.is_empty(), "nothing was compared");
+    worst.sort_by(f64::total_cmp);
+    let pixels = worst.len();
+    Errors {
+        rms: (squares / (4 * pixels) as f64).sqrt(),
+        p999: worst[(pixels * 999 / 1000).min(pixels - 1)],
+        max: worst[pixels - 1],
+        pixels,
+        lit,
+    }
+}

@@ -1,0 +1,74 @@
+//! Real volumes, from the packages that carry them.
+
+use backend::store::{BuildOptions, CodeBits, ImportOptions, Store, import};
+use backend::volume::{ByteOrder, Element, RawLayout};
+use glam::{DVec3, UVec3};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// A CT of a head, 256 × 256 × 108, 16 bit: a tar archive in Debian's package invesalius-examples.
+const CRANIUM: &str = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3";
+/// An MRI of a head, 181 × 217 × 181, 8 bit: in Debian's package mricron-data.
+const HEAD_MRI: &str = "/usr/share/mricron/templates/ch2.nii.gz";
+
+/// Says aloud that a test lacks something; a failure where LIGHTLOOM_REQUIRE_DATA=1.
+fn lacking(path: &str, package: &str) {
+    println!("SKIPPED: {path} is missing; install the Debian package {package}");
+    assert!(std::env::var("LIGHTLOOM_REQUIRE_DATA").as_deref() != Ok("1"), "{path} is required here");
+}
+
+/// How the cranium's voxels lie in its file.
+pub fn cranium_layout() -> RawLayout {
+    RawLayout {
+        dims: UVec3::new(256, 256, 108),
+        element: Element::I16,
+        byte_order: ByteOrder::Little,
+        spacing_mm: DVec3::new(0.957_031_2, 0.957_031_2, 1.5),
+        header_skip_bytes: 0,
+    }
+}
+
+/// The cranium's voxels as a raw file in `folder`; None where the package is missing.
+pub fn cranium_raw(folder: &Path) -> Option<PathBuf> {
+    if !Path::new(CRANIUM).exists() {
+        lacking(CRANIUM, "invesalius-examples");
+        return None;
+    }
+    let raw = folder.join("cranium.raw");
+    let voxels = Command::new("tar")
+        .args(["--extract", "--to-stdout", "--wildcards", "--file", CRANIUM, "*/matrix.dat"])
+        .output()
+        .expect("tar is part of Debian's essential packages");
+    assert!(voxels.status.success(), "tar: {}", String::from_utf8_lossy(&voxels.stderr));
+    std::fs::write(&raw, voxels.stdout).expect("a temporary folder takes 14 MB");
+    Some(raw)
+}
+
+/// A folder that lives as long as the process; it holds the stores made for tests.
+fn folder() -> &'static Path {
+    static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
+    FOLDER.get_or_init(|| tempfile::tempdir().expect("a temporary folder can be made")).path()
+}
+
+fn open_store(input: &Path, raw: Option<RawLayout>, bits: CodeBits, name: &str) -> Store {
+    let out = folder().join(name);
+    let options = ImportOptions { build: BuildOptions { bits, ..Default::default() }, ..Default::default() };
+    import(&input.to_string_lossy(), raw, &out, &options, &|_, _| {}).expect("a whole file imports");
+    Store::open(&out).expect("a store just built opens")
+}
+
+/// The cranium CT as a 16-bit store.
+pub fn cranium() -> Option<Store> {
+    let raw = cranium_raw(folder())?;
+    Some(open_store(&raw, Some(cranium_layout()), CodeBits::Sixteen, "cranium.lloom"))
+}
+
+/// The head MRI as an 8-bit store.
+pub fn head_mri() -> Option<Store> {
+    if !Path::new(HEAD_MRI).exists() {
+        lacking(HEAD_MRI, "mricron-data");
+        return None;
+    }
+    Some(open_store(Path::new(HEAD_MRI), None, CodeBits::Eight, "head.lloom"))
+}

@@ -1,0 +1,99 @@
+//! A scene drawn by a device.
+
+use backend::protocol::{
+    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, Setup, VolumeRef,
+};
+use backend::render::{RenderEvent, Renderer};
+use backend::store::BrickSource;
+use display_config::Display;
+use std::sync::Arc;
+
+/// What a device made of a frame.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The pictures, in order of projectors.
+    pub images: Vec<ProjectorImage>,
+    /// Its account.
+    pub report: FrameReport,
+    /// The device.
+    pub info: DeviceInfo,
+}
+
+/// How to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct With {
+    /// The device.
+    pub device: DeviceChoice,
+    /// The interpolation.
+    pub filter: FilterChoice,
+    /// The brick cache, bytes.
+    pub cache_bytes: u64,
+}
+
+impl With {
+    /// A device at its defaults.
+    pub fn device(device: DeviceChoice) -> Self {
+        Self { device, filter: FilterChoice::Auto, cache_bytes: 256 << 20 }
+    }
+}
+
+/// A renderer for some projectors of a display.
+pub fn renderer(
+    display: &Display,
+    source: &Arc<dyn BrickSource>,
+    projectors: &[u32],
+    with: With,
+) -> (Renderer, DeviceInfo) {
+    let setup = Setup {
+        display: display.clone(),
+        projectors: projectors.to_vec(),
+        backend: 0,
+        volume: VolumeRef::Store("given by the test".into()),
+        device: with.device,
+        filter: with.filter,
+        cache_bytes: with.cache_bytes,
+    };
+    Renderer::new(&setup, Arc::clone(source)).expect("the device was found before")
+}
+
+/// Draws one frame.
+pub fn draw(
+    display: &Display,
+    frame: &FrameState,
+    source: &Arc<dyn BrickSource>,
+    projectors: &[u32],
+    with: With,
+) -> Drawn {
+    let (mut renderer, info) = renderer(display, source, projectors, with);
+    let (images, report) = draw_with(&mut renderer, frame);
+    Drawn { images, report, info }
+}
+
+/// Draws one frame with a renderer that may have drawn others.
+pub fn draw_with(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorImage>, FrameReport) {
+    let mut images = Vec::new();
+    let mut sink = |event| {
+        if let RenderEvent::Image(image) = event {
+            images.push(image);
+        }
+    };
+    let report = renderer.draw(frame, &mut sink).expect("a test scene can be drawn");
+    (images, report)
+}
+
+/// The devices to test: the CPU, and the GPU where there is one. Its lack is told aloud, and is a failure where
+/// LIGHTLOOM_REQUIRE_GPU=1.
+pub fn devices() -> Vec<DeviceChoice> {
+    #[cfg(feature = "gpu")]
+    let gpu = backend::device::gpu::adapter_name().map_err(|error| error.to_string());
+    #[cfg(not(feature = "gpu"))]
+    let gpu: Result<String, String> = Err("the tests were built without the gpu feature".into());
+    match gpu {
+        Ok(_) => vec![DeviceChoice::Cpu, DeviceChoice::Gpu],
+        Err(why) => {
+            println!("SKIPPED: no GPU tests: {why}");
+            assert!(std::env::var("LIGHTLOOM_REQUIRE_GPU").as_deref() != Ok("1"), "a GPU is required here: {why}");
+            vec![DeviceChoice::Cpu]
+        }
+    }
+}
