@@ -66,7 +66,8 @@ impl Renderer {
         let shape = source.shape();
         let bricks: u64 =
             (0..=shape.finest_depth()).map(|d| shape.level_bricks(d).as_u64vec3().element_product()).sum();
-        let ChosenDevice { device, info } = open_device(setup.device, setup.filter, setup.cache_bytes, bricks)?;
+        let ChosenDevice { device, info } =
+            open_device(setup.device, setup.filter, setup.cache_bytes, bricks)?;
         let loader = Loader::new(Arc::clone(&source), loader_threads());
         let residency = Residency::new(source, loader, device.slots());
         let renderer = Self {

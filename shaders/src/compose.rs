@@ -92,6 +92,7 @@ impl KernelKey {
             include_str!("../wgsl/ray.wgsl"),
             include_str!("../wgsl/traverse.wgsl"),
             include_str!("../wgsl/tables.wgsl"),
+            include_str!("../wgsl/refine.wgsl"),
             importance,
             sample,
             shade,

@@ -6,10 +6,6 @@ struct Marched {
     is_done: bool,
 }
 
-fn scalar_of(stored: f32, node: NodeRecord) -> f32 {
-    return clamp(node.offset + node.scale * stored, 0.0, 1.0);
-}
-
 // First texel of a node's brick in the atlas.
 fn slot_origin(slot: u32) -> vec3<f32> {
     let across = params.atlas.x;
@@ -17,37 +13,84 @@ fn slot_origin(slot: u32) -> vec3<f32> {
     return vec3<f32>(vec3<u32>(slot % across, (slot % layer) / across, slot / layer) * BRICK_EDGE);
 }
 
-// Follows the ray through one brick, from t_in to t_out, in equal steps.
-fn march(front_of_brick: Accumulated, node: NodeRecord, ray: Ray, t_in: f32, t_out: f32) -> Marched {
+// What stays the same on a ray's way through one brick.
+struct Brick {
+    // A point t metres along the ray lies at base + slope t, in texels of the atlas.
+    base: vec3<f32>,
+    slope: vec3<f32>,
+    // Turns a difference over two texels into a change of the scalar per finest voxel.
+    gradient_scale: f32,
+    offset: f32,
+    scale: f32,
+}
+
+fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
     let edge = voxel_edge(node.depth);
-    let span = t_out - t_in;
-    let steps = max(1.0, ceil(span * ray.speed / (params.quality.x * edge)));
-    let step = span / steps;
     let base = (ray.origin_in_volume - node_low(node)) / edge + OVERLAP + slot_origin(node.slot);
-    let slope = ray.direction_in_volume / edge;
-    let gradient_scale = 0.5 * node.scale / edge;
+    return Brick(base, ray.direction_in_volume / edge, 0.5 * node.scale / edge, node.offset, node.scale);
+}
+
+fn scalar_at(brick: Brick, t: f32) -> f32 {
+    return clamp(brick.offset + brick.scale * sample_atlas(brick.base + brick.slope * t), 0.0, 1.0);
+}
+
+// Adds one segment of `thickness` (extinction per metre of table value 1, times metres) with its middle at t.
+fn add_segment(front: Accumulated, brick: Brick, ray: Ray, k: vec4<f32>, s0: f32, s1: f32, t: f32,
+    thickness: f32) -> Accumulated {
+    if is_clear(k.w) {
+        return front;
+    }
+    let depth = k.w * thickness;
+    let mean = attenuation_mean(depth);
+    var lit = vec3<f32>(0.0);
+    if k.w > 0.0 {
+        lit = shade(k, brick.base + brick.slope * t, brick.gradient_scale, ray);
+    }
+    return composite(front, lit * (thickness * mean), depth * mean, s0, s1);
+}
+
+// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps are
+// too long for the tolerance, each of them is cut into equal parts.
+fn march(front_of_brick: Accumulated, node: NodeRecord, ray: Ray, t_in: f32, t_out: f32) -> Marched {
+    let brick = brick_of(node, ray);
+    let span = t_out - t_in;
+    let pairs = max(1.0, ceil(span * ray.speed / (2.0 * params.quality.x * voxel_edge(node.depth))));
+    let step = 0.5 * span / pairs;
+    let thickness = params.quality.z * step;
     var marched = Marched(front_of_brick, 1u, false);
-    var s0 = scalar_of(sample_atlas(base + slope * t_in), node);
-    for (var i = 1.0; i <= steps; i += 1.0) {
-        let t = t_in + i * step;
-        let s1 = scalar_of(sample_atlas(base + slope * t), node);
-        marched.samples++;
-        let k = optics_between(s0, s1);
-        if !is_clear(k.w) {
-            let thickness = params.quality.z * step;
-            let depth = k.w * thickness;
-            let mean = attenuation_mean(depth);
-            var lit = vec3<f32>(0.0);
-            if k.w > 0.0 {
-                lit = shade(k, base + slope * (t - 0.5 * step), gradient_scale, ray);
+    var s0 = scalar_at(brick, t_in);
+    for (var i = 0.0; i < pairs; i += 1.0) {
+        let t0 = t_in + 2.0 * i * step;
+        let s1 = scalar_at(brick, t0 + step);
+        let s2 = scalar_at(brick, t0 + 2.0 * step);
+        marched.samples += 2u;
+        let first = optics_between(s0, s1);
+        let second = optics_between(s1, s2);
+        if !is_clear(max(first.w, second.w)) {
+            let visible = still_to_come(marched.front);
+            let parts = parts_of_step(first, second, optics_between(s0, s2), thickness, visible);
+            if parts == 1.0 {
+                marched.front = add_segment(marched.front, brick, ray, first, s0, s1, t0 + 0.5 * step, thickness);
+                marched.front = add_segment(marched.front, brick, ray, second, s1, s2, t0 + 1.5 * step, thickness);
+            } else {
+                let part = step / parts;
+                var from_s = s0;
+                for (var j = 1.0; j <= 2.0 * parts; j += 1.0) {
+                    let t = t0 + j * part;
+                    let to_s = scalar_at(brick, t);
+                    let k = optics_between(from_s, to_s);
+                    marched.front = add_segment(marched.front, brick, ray, k, from_s, to_s, t - 0.5 * part,
+                        thickness / parts);
+                    from_s = to_s;
+                }
+                marched.samples += u32(2.0 * parts);
             }
-            marched.front = composite(marched.front, lit * (thickness * mean), depth * mean, s0, s1);
             if still_to_come(marched.front) < params.quality.y {
                 marched.is_done = true;
                 break;
             }
         }
-        s0 = s1;
+        s0 = s2;
     }
     return marched;
 }

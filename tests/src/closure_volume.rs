@@ -44,7 +44,9 @@ impl<V: Fn(DVec3) -> f64 + Send + Sync> BrickSource for ClosureVolume<V> {
         let (low, high) = self.range;
         let codes = (0..BRICK_VOXELS)
             .map(|i| {
-                let offset = UVec3::from([i, i / BRICK_EDGE, i / BRICK_EDGE / BRICK_EDGE].map(|n| (n % BRICK_EDGE) as u32));
+                let offset = UVec3::from(
+                    [i, i / BRICK_EDGE, i / BRICK_EDGE / BRICK_EDGE].map(|n| (n % BRICK_EDGE) as u32),
+                );
                 let voxel = (first + offset.as_ivec3()).clamp(glam::IVec3::ZERO, last);
                 let value = (self.value)((voxel.as_dvec3() + 0.5) * edge);
                 ((value.clamp(low, high) - low) / (high - low) * 65535.0).round() as u16

@@ -47,9 +47,7 @@ pub fn truth(
     for &projector in projectors {
         let raster = &display.projectors[projector as usize].raster;
         let along = |n: u32| (stride / 2..n).step_by(stride as usize);
-        pixels.extend(
-            along(raster.height).flat_map(|y| along(raster.width).map(move |x| (projector, x, y))),
-        );
+        pixels.extend(along(raster.height).flat_map(|y| along(raster.width).map(move |x| (projector, x, y))));
     }
     pixels
         .into_par_iter()

@@ -92,7 +92,10 @@ pub fn devices() -> Vec<DeviceChoice> {
         Ok(_) => vec![DeviceChoice::Cpu, DeviceChoice::Gpu],
         Err(why) => {
             println!("SKIPPED: no GPU tests: {why}");
-            assert!(std::env::var("LIGHTLOOM_REQUIRE_GPU").as_deref() != Ok("1"), "a GPU is required here: {why}");
+            assert!(
+                std::env::var("LIGHTLOOM_REQUIRE_GPU").as_deref() != Ok("1"),
+                "a GPU is required here: {why}"
+            );
             vec![DeviceChoice::Cpu]
         }
     }

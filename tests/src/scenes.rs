@@ -46,11 +46,18 @@ pub fn placed(source: &dyn BrickSource, longest_m: f64, rotation: DQuat) -> DAff
     let dims = source.shape().dims().as_dvec3();
     let spacing = source.voxel_size_m();
     let scale = longest_m / (dims * spacing).max_element();
-    DAffine3::from_quat(rotation) * DAffine3::from_scale(spacing * scale) * DAffine3::from_translation(-0.5 * dims)
+    DAffine3::from_quat(rotation)
+        * DAffine3::from_scale(spacing * scale)
+        * DAffine3::from_translation(-0.5 * dims)
 }
 
 /// A frame of `display` at default quality.
-pub fn frame(display: &Display, display_from_volume: DAffine3, optics: Optics, light: Option<Light>) -> FrameState {
+pub fn frame(
+    display: &Display,
+    display_from_volume: DAffine3,
+    optics: Optics,
+    light: Option<Light>,
+) -> FrameState {
     FrameState {
         index: 0,
         time_s: 0.0,

@@ -107,7 +107,12 @@ impl<'a> Drawing<'a> {
         residency.start_frame(frame, &self.rules, device, &mut self.stages)
     }
 
-    fn cast(&mut self, view: &ProjectorView, grid: TileGrid, tiles: &[u32]) -> Result<CastOutcome, RenderError> {
+    fn cast(
+        &mut self,
+        view: &ProjectorView,
+        grid: TileGrid,
+        tiles: &[u32],
+    ) -> Result<CastOutcome, RenderError> {
         let started = Instant::now();
         let job =
             CastJob { view: &view.view, shading: self.shading, compositing: self.compositing, grid, tiles };

@@ -74,7 +74,9 @@ impl Residency {
         let newly_visible = |this: &Self| -> Vec<u32> {
             this.cut
                 .walk()
-                .filter(|&p| this.cut.node(p).brick.is_none() && !this.rules(rules).is_empty(this.cut.node(p)))
+                .filter(|&p| {
+                    this.cut.node(p).brick.is_none() && !this.rules(rules).is_empty(this.cut.node(p))
+                })
                 .collect()
         };
         let mut places = newly_visible(self);
@@ -106,7 +108,8 @@ impl Residency {
         let mut any = false;
         for want in wanted {
             let key = self.cut.node(want.place).key;
-            let visible: Vec<NodeKey> = (0..8).map(|o| key.child(o)).filter(|&k| self.is_visible(k, rules)).collect();
+            let visible: Vec<NodeKey> =
+                (0..8).map(|o| key.child(o)).filter(|&k| self.is_visible(k, rules)).collect();
             self.wanted.extend(&visible);
             if !self.make_room(visible.len() + to_load.len(), protect) {
                 continue;

@@ -99,7 +99,10 @@ fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickErro
     };
     let samples: Vec<u16> = samples;
     if samples.len() != BRICK_VOXELS {
-        return Err(BrickError(format!("brick {key:?} has {} samples instead of {BRICK_VOXELS}", samples.len())));
+        return Err(BrickError(format!(
+            "brick {key:?} has {} samples instead of {BRICK_VOXELS}",
+            samples.len()
+        )));
     }
     Ok(LoadedBrick { key, samples, low: f64::from(brick.low), span: f64::from(brick.step) * largest, bytes })
 }

@@ -21,7 +21,8 @@ pub struct Params {
     pub light: [f32; 4],
     /// Ambient, diffuse, specular, shininess.
     pub material: [f32; 4],
-    /// Longest step in voxels of the node, termination ε, extinction per metre of table value 1, unused.
+    /// Longest step in voxels of the node, termination ε, extinction per metre of table value 1, error
+    /// allowed per step.
     pub quality: [f32; 4],
     /// γ, largest importance of the transfer function, unused, unused.
     pub mimda: [f32; 4],

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 pub struct Quality {
     /// Longest integration step, in voxels of the node being sampled; above 0.
     pub step_voxels: f64,
+    /// Error of colour and opacity that a step may have by its own estimate before it is cut into parts; above 0,
+    /// infinite for steps of one length.
+    pub tolerance: f64,
     /// A ray stops when what may still be added is below this opacity; 0 never stops early.
     pub termination: f64,
     /// A node is fine enough when its voxel is no longer than `lod_scale` times the display's resolution s(z);
@@ -16,6 +19,6 @@ pub struct Quality {
 
 impl Default for Quality {
     fn default() -> Self {
-        Self { step_voxels: 0.5, termination: 1.0 / 1024.0, lod_scale: 1.0 }
+        Self { step_voxels: 0.5, tolerance: 1.0 / 1024.0, termination: 1.0 / 1024.0, lod_scale: 1.0 }
     }
 }

@@ -4,7 +4,14 @@ use super::composite::{Accumulated, Composite, MimdaConsistent, MimdaPaper, Over
 use super::shade::{Phong, Plain, Shade};
 use super::tables::{attenuation_mean, optics_between};
 use super::traverse::{node_low, voxel_edge};
-use super::{Real, Scene, ray::Ray, sample::sample_brick, vector::Vec3};
+use super::{
+    Real, Scene,
+    ray::Ray,
+    refine::{Pair, parts_of_step, scalars_in_reach},
+    sample::sample_brick,
+    scene::BRICK_VOXELS,
+    vector::Vec3,
+};
 use crate::compose::{Compositing, Shading};
 use crate::layout::{NO_NODE, NO_SLOT, NodeRecord};
 use crate::optics::MimdaForm;
@@ -58,57 +65,124 @@ struct Marched<F> {
     is_done: bool,
 }
 
-#[inline(always)]
-fn scalar_of<F: Real>(stored: F, node: &NodeRecord) -> F {
-    (F::of_f32(node.offset) + F::of_f32(node.scale) * stored).most(F::ZERO).least(F::ONE)
+/// What stays the same on a ray's way through one brick.
+struct Brick<'a, F> {
+    codes: &'a [u16; BRICK_VOXELS],
+    /// A point t metres along the ray lies at base + slope t, in texels of the brick.
+    base: Vec3<F>,
+    slope: Vec3<F>,
+    gradient_scale: F,
+    offset: F,
+    scale: F,
 }
 
-/// Follows the ray through one brick, from t_in to t_out, in equal steps.
+impl<'a, F: Real> Brick<'a, F> {
+    #[inline(always)]
+    fn new(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+        let finest = scene.view.finest_depth;
+        let edge = voxel_edge::<F>(finest, node.depth);
+        let overlap = F::of(OVERLAP);
+        let scale = F::of_f32(node.scale);
+        Self {
+            codes: scene.brick(node.slot),
+            base: (ray.origin_in_volume - node_low(finest, node)).map(|c| c / edge + overlap),
+            slope: ray.direction_in_volume.map(|c| c / edge),
+            gradient_scale: F::of(0.5) * scale / edge,
+            offset: F::of_f32(node.offset),
+            scale,
+        }
+    }
+
+    #[inline(always)]
+    fn scalar_at(&self, t: F) -> F {
+        let stored = sample_brick(self.codes, self.base + self.slope * t);
+        (self.offset + self.scale * stored).most(F::ZERO).least(F::ONE)
+    }
+
+    /// Adds one segment of `thickness` with its middle at t.
+    #[inline(always)]
+    fn add_segment<S: Shade, C: Composite>(
+        &self,
+        scene: &Scene<F>,
+        ray: &Ray<F>,
+        front: Accumulated<F>,
+        k: [F; 4],
+        (s0, s1): (F, F),
+        (t, thickness): (F, F),
+    ) -> Accumulated<F> {
+        if C::is_clear(k[3]) {
+            return front;
+        }
+        let depth = k[3] * thickness;
+        let mean = attenuation_mean(depth);
+        let lit = if k[3] > F::ZERO {
+            S::shade(scene.view, self.codes, k, self.base + self.slope * t, self.gradient_scale, ray)
+        } else {
+            Vec3::ZERO
+        };
+        C::composite(scene, front, lit * (thickness * mean), depth * mean, s0, s1)
+    }
+}
+
+/// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps
+/// are too long for the tolerance, each of them is cut into equal parts.
 #[inline(always)]
 fn march<F: Real, S: Shade, C: Composite>(
     scene: &Scene<F>,
-    front: Accumulated<F>,
+    mut front: Accumulated<F>,
     node: &NodeRecord,
     ray: &Ray<F>,
     (t_in, t_out): (F, F),
 ) -> Marched<F> {
     let view = scene.view;
-    let brick = scene.brick(node.slot);
-    let edge = voxel_edge::<F>(view.finest_depth, node.depth);
+    let brick = Brick::new(scene, node, ray);
+    let (half, two) = (F::of(0.5), F::of(2.0));
     let span = t_out - t_in;
-    let steps = (span * ray.speed / (view.step_voxels * edge)).ceil().most(F::ONE);
-    let step = span / steps;
-    let overlap = F::of(OVERLAP);
-    let base = (ray.origin_in_volume - node_low(view.finest_depth, node)).map(|c| c / edge + overlap);
-    let slope = ray.direction_in_volume.map(|c| c / edge);
-    let gradient_scale = F::of(0.5) * F::of_f32(node.scale) / edge;
+    let longest_pair = two * view.step_voxels * voxel_edge::<F>(view.finest_depth, node.depth);
+    let pairs = (span * ray.speed / longest_pair).ceil().most(F::ONE);
+    let step = half * span / pairs;
     let thickness = view.extinction_per_metre * step;
-    let mut marched = Marched { front, samples: 1, is_done: false };
-    let mut s0 = scalar_of(sample_brick(brick, base + slope * t_in), node);
-    for i in 1..=steps.to_index() {
-        let t = t_in + F::of_u32(i) * step;
-        let s1 = scalar_of(sample_brick(brick, base + slope * t), node);
-        marched.samples += 1;
-        let k = optics_between(scene.optics, s0, s1);
-        if !C::is_clear(k[3]) {
-            let depth = k[3] * thickness;
-            let mean = attenuation_mean(depth);
-            let lit = if k[3] > F::ZERO {
-                let middle = base + slope * (t - F::of(0.5) * step);
-                S::shade(view, brick, k, middle, gradient_scale, ray)
+    let mut samples = 1;
+    let mut s0 = brick.scalar_at(t_in);
+    for i in 0..pairs.to_index() {
+        let t0 = t_in + two * F::of_u32(i) * step;
+        let s1 = brick.scalar_at(t0 + step);
+        let s2 = brick.scalar_at(t0 + two * step);
+        samples += 2;
+        let first = optics_between(scene.optics, s0, s1);
+        let second = optics_between(scene.optics, s1, s2);
+        let (low, high) = scalars_in_reach(s0, s1, s2);
+        let reach = optics_between(scene.optics, low, high);
+        if !C::is_clear(reach[3]) {
+            let pair = Pair { first, second, both: optics_between(scene.optics, s0, s2), reach };
+            let visible = C::still_to_come(scene, front);
+            let parts = parts_of_step(&pair, thickness, visible, F::of(S::SPREAD), view.tolerance);
+            if parts == F::ONE {
+                let middle = t0 + half * step;
+                front = brick.add_segment::<S, C>(scene, ray, front, first, (s0, s1), (middle, thickness));
+                let middle = t0 + F::of(1.5) * step;
+                front = brick.add_segment::<S, C>(scene, ray, front, second, (s1, s2), (middle, thickness));
             } else {
-                Vec3::ZERO
-            };
-            marched.front =
-                C::composite(scene, marched.front, lit * (thickness * mean), depth * mean, s0, s1);
-            if C::still_to_come(scene, marched.front) < view.termination {
-                marched.is_done = true;
-                break;
+                let part = step / parts;
+                let mut from = s0;
+                let count = (two * parts).to_index();
+                for j in 1..=count {
+                    let t = t0 + F::of_u32(j) * part;
+                    let to = brick.scalar_at(t);
+                    let k = optics_between(scene.optics, from, to);
+                    let place = (t - half * part, thickness / parts);
+                    front = brick.add_segment::<S, C>(scene, ray, front, k, (from, to), place);
+                    from = to;
+                }
+                samples += count;
+            }
+            if C::still_to_come(scene, front) < view.termination {
+                return Marched { front, samples, is_done: true };
             }
         }
-        s0 = s1;
+        s0 = s2;
     }
-    marched
+    Marched { front, samples, is_done: false }
 }
 
 #[inline(always)]

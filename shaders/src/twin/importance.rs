@@ -9,20 +9,29 @@ fn importance_at<F: Real>(table: &[ImportanceEntry], u: F, cell: usize) -> F {
     a + (b - a) * (u - F::of_u32(cell as u32))
 }
 
-/// Mean of ι over scalars [s0, s1].
+/// The importance of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Importance<F> {
+    /// Its mean.
+    pub mean: F,
+    /// The larger of the values at its two ends.
+    pub at_ends: F,
+}
+
+/// ι over scalars [s0, s1].
 #[inline(always)]
-pub fn importance_between<F: Real>(table: &[ImportanceEntry], s0: F, s1: F) -> F {
+pub fn importance_between<F: Real>(table: &[ImportanceEntry], s0: F, s1: F) -> Importance<F> {
     let (u0, u1, c0, c1) = span(table.len(), s0, s1);
     let half = F::of(0.5);
+    let (first, last) = (importance_at(table, u0, c0), importance_at(table, u1, c1));
+    let at_ends = first.most(last);
     if c0 == c1 {
-        return importance_at(table, half * (u0 + u1), c0);
+        return Importance { mean: half * (first + last), at_ends };
     }
     let (after, before) = (&table[c0 + 1], &table[c1]);
-    let left =
-        (importance_at(table, u0, c0) + F::of_f32(after.value)) * (half * (F::of_u32(c0 as u32 + 1) - u0));
-    let right =
-        (F::of_f32(before.value) + importance_at(table, u1, c1)) * (half * (u1 - F::of_u32(c1 as u32)));
+    let left = (first + F::of_f32(after.value)) * (half * (F::of_u32(c0 as u32 + 1) - u0));
+    let right = (F::of_f32(before.value) + last) * (half * (u1 - F::of_u32(c1 as u32)));
     let whole = (F::of_f32(before.integral) - F::of_f32(after.integral))
         + (F::of_f32(before.integral_rest) - F::of_f32(after.integral_rest));
-    (left + whole + right) / (u1 - u0)
+    Importance { mean: (left + whole + right) / (u1 - u0), at_ends }
 }

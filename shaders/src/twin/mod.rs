@@ -10,6 +10,7 @@ pub mod composite;
 pub mod importance;
 pub mod ray;
 pub mod real;
+pub mod refine;
 pub mod sample;
 pub mod scene;
 pub mod shade;

@@ -30,6 +30,8 @@ pub struct View<F> {
     pub step_voxels: F,
     /// Termination ε.
     pub termination: F,
+    /// Error allowed per step.
+    pub tolerance: F,
     /// Extinction per metre where the table says 1.
     pub extinction_per_metre: F,
     /// γ.
@@ -79,6 +81,7 @@ impl View<f64> {
             material: [light.ambient, light.diffuse, light.specular, light.shininess],
             step_voxels: quality.step_voxels,
             termination: quality.termination,
+            tolerance: quality.tolerance,
             extinction_per_metre: optics.extinction_per_metre(voxel_m),
             gamma: mimda.map_or(0.0, |m| m.gamma),
             largest_importance: mimda.map_or(0.0, |m| largest_importance(&m.importance)),
@@ -101,6 +104,7 @@ impl View<f64> {
             material: self.material.map(|x| x as f32),
             step_voxels: self.step_voxels as f32,
             termination: self.termination as f32,
+            tolerance: self.tolerance as f32,
             extinction_per_metre: self.extinction_per_metre as f32,
             gamma: self.gamma as f32,
             largest_importance: self.largest_importance as f32,
@@ -138,7 +142,7 @@ impl View<f32> {
             volume: with(self.dims, self.voxel_m),
             light: with(self.toward_light, self.gradient_half_square),
             material: self.material,
-            quality: [self.step_voxels, self.termination, self.extinction_per_metre, 0.0],
+            quality: [self.step_voxels, self.termination, self.extinction_per_metre, self.tolerance],
             mimda: [self.gamma, self.largest_importance, 0.0, 0.0],
             texel: [texels[0], texels[1], texels[2], 0.0],
             atlas: [slots[0], slots[1], slots[2], self.finest_depth],

@@ -24,12 +24,15 @@ fn kept(largest: f32, importance: f32) -> f32 {
     return (1.0 - params.mimda.x * importance) / before;
 }
 
+// The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
 fn composite(front: Accumulated, rgb: vec3<f32>, alpha: f32, s0: f32, s1: f32) -> Accumulated {
     let importance = importance_between(s0, s1);
-    let beta = kept(front.importance, importance);
+    let middle = max(front.importance, importance.mean);
+    let end = max(middle, importance.at_ends);
+    let beta = kept(front.importance, middle);
+    let rest = kept(middle, end);
     let through = 1.0 - beta * front.alpha;
-    return Accumulated(front.rgb * beta + rgb * through, front.alpha * beta + alpha * through,
-        max(front.importance, importance));
+    return Accumulated((front.rgb * beta + rgb * through) * rest, (front.alpha * beta + alpha * through) * rest, end);
 }
 
 // The opacity that what follows may still add, when the largest importance is yet to come.

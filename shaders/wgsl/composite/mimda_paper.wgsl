@@ -21,7 +21,7 @@ fn kept(largest: f32, importance: f32) -> f32 {
 }
 
 fn composite(front: Accumulated, rgb: vec3<f32>, alpha: f32, s0: f32, s1: f32) -> Accumulated {
-    let importance = importance_between(s0, s1);
+    let importance = importance_between(s0, s1).mean;
     let beta = kept(front.importance, importance);
     let through = 1.0 - beta * front.alpha;
     return Accumulated(front.rgb * beta + rgb * through, front.alpha * beta + alpha * through,

@@ -13,12 +13,19 @@ pub(super) struct Kernels {
 impl Kernels {
     /// The kernel for a need.
     pub(super) fn get(&mut self, context: &Context, key: KernelKey) -> &wgpu::ComputePipeline {
-        self.compiled.entry(key).or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
+        self.compiled
+            .entry(key)
+            .or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
     }
 }
 
 /// Compiles one entry point; its bind group layout follows from what it reads.
-pub(super) fn compile(context: &Context, label: &str, wgsl: &str, entry_point: &str) -> wgpu::ComputePipeline {
+pub(super) fn compile(
+    context: &Context,
+    label: &str,
+    wgsl: &str,
+    entry_point: &str,
+) -> wgpu::ComputePipeline {
     let module = context.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
         source: wgpu::ShaderSource::Wgsl(wgsl.into()),

@@ -27,7 +27,11 @@ fn probe(@builtin(global_invocation_id) id: vec3<u32>) {
 }";
 
 /// The largest error of the texture unit between a texel of 0 and a texel of 1. Uses slot 0 of the atlas.
-pub(super) fn filter_error(context: &Context, atlas: &Atlas, sampler: &wgpu::Sampler) -> Result<f32, DeviceError> {
+pub(super) fn filter_error(
+    context: &Context,
+    atlas: &Atlas,
+    sampler: &wgpu::Sampler,
+) -> Result<f32, DeviceError> {
     let ramp: Vec<u16> = (0..BRICK_VOXELS).map(|i| if i % BRICK_EDGE > 4 { 65535 } else { 0 }).collect();
     atlas.write(context, 0, &ramp);
     let pipeline = compile(context, "filter precision", WGSL, "probe");

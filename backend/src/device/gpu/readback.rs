@@ -45,7 +45,8 @@ impl Readback {
             let _ = tell.send(outcome);
         });
         context.wait()?;
-        let failed = |why: String| DeviceError(format!("{} does not give its results back: {why}", context.name));
+        let failed =
+            |why: String| DeviceError(format!("{} does not give its results back: {why}", context.name));
         told.recv().map_err(|e| failed(e.to_string()))?.map_err(|e| failed(e.to_string()))?;
         let items = {
             let mapped = slice.get_mapped_range().map_err(|e| failed(e.to_string()))?;

@@ -32,8 +32,13 @@ impl Composite for MimdaConsistent {
         s1: F,
     ) -> Accumulated<F> {
         let importance = importance_between(scene.importance, s0, s1);
-        let beta = kept(scene.view.gamma, front.importance, importance);
-        front.then(beta, rgb, alpha, front.importance.most(importance))
+        // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
+        let middle = front.importance.most(importance.mean);
+        let end = middle.most(importance.at_ends);
+        let beta = kept(scene.view.gamma, front.importance, middle);
+        let rest = kept(scene.view.gamma, middle, end);
+        let all = front.then(beta, rgb, alpha, end);
+        Accumulated { rgb: all.rgb * rest, alpha: all.alpha * rest, importance: end }
     }
 
     #[inline(always)]

@@ -27,7 +27,7 @@ impl Composite for MimdaPaper {
         s0: F,
         s1: F,
     ) -> Accumulated<F> {
-        let importance = importance_between(scene.importance, s0, s1);
+        let importance = importance_between(scene.importance, s0, s1).mean;
         let beta = kept(scene.view.gamma, front.importance, importance);
         front.then(beta, rgb, alpha, front.importance.most(importance))
     }

@@ -10,6 +10,9 @@ use super::{Real, View, ray::Ray, scene::BRICK_VOXELS, vector::Vec3};
 
 /// A module for the shading slot.
 pub trait Shade {
+    /// How much the shaded colour may vary within a step, for the estimate of a step's error.
+    const SPREAD: f64;
+
     /// The shaded τ c of a segment: `k` is the mean of (τ c, τ), `middle` the segment's middle in texels of the brick,
     /// `gradient_scale` turns a difference over two texels into a change of the scalar per finest voxel.
     fn shade<F: Real>(

@@ -7,6 +7,8 @@ use crate::twin::{Real, View, ray::Ray, sample::sample_brick, scene::BRICK_VOXEL
 pub struct Phong;
 
 impl Shade for Phong {
+    const SPREAD: f64 = 0.05;
+
     #[inline(always)]
     fn shade<F: Real>(
         view: &View<F>,

@@ -7,6 +7,8 @@ use crate::twin::{Real, View, ray::Ray, scene::BRICK_VOXELS, vector::Vec3};
 pub struct Plain;
 
 impl Shade for Plain {
+    const SPREAD: f64 = 0.0;
+
     #[inline(always)]
     fn shade<F: Real>(
         _: &View<F>,

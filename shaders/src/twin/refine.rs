@@ -1,0 +1,52 @@
+//! How many parts a step is cut into, by what a pair of steps tells of its own error.
+
+use super::Real;
+
+/// A step is cut into this many parts at most.
+const MOST_PARTS: f64 = 16.0;
+
+/// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
+const UNSEEN: f64 = 0.25;
+
+/// Means of (τ c, τ) over a pair of steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<F> {
+    /// Over the first step.
+    pub first: [F; 4],
+    /// Over the second.
+    pub second: [F; 4],
+    /// Over both, taken as one segment.
+    pub both: [F; 4],
+    /// Over all scalars within reach: see [`scalars_in_reach`].
+    pub reach: [F; 4],
+}
+
+/// Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
+/// `spread` how much shading varies within a step; see the WGSL for what errs how.
+#[inline(always)]
+pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: F, tolerance: F) -> F {
+    let Pair { first, second, both, reach } = pair;
+    let depth = (first[3] + second[3]) * thickness;
+    let bend_scale = thickness / (F::ONE + depth);
+    let order_scale = thickness * thickness / (F::ONE + depth * depth);
+    let mut worst = first[3] * second[3] * order_scale * spread;
+    for c in 0..4 {
+        let bend = (first[c] + second[c] - F::of(2.0) * both[c]).abs();
+        let unseen = (reach[c] - both[c]).abs() * F::of(UNSEEN);
+        worst = worst.most(bend.most(unseen) * bend_scale);
+    }
+    for c in 0..3 {
+        let order = (first[c] * second[3] - second[c] * first[3]).abs() * order_scale;
+        worst = worst.most(order);
+    }
+    (worst * visible / tolerance).sqrt().ceil().most(F::ONE).least(F::of(MOST_PARTS))
+}
+
+/// The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the
+/// larger step at both ends, as far as a kink of the trilinear field between two samples goes.
+#[inline(always)]
+pub fn scalars_in_reach<F: Real>(s0: F, s1: F, s2: F) -> (F, F) {
+    let margin = F::of(0.5) * (s1 - s0).abs().most((s2 - s1).abs());
+    let (low, high) = (s0.least(s1).least(s2), s0.most(s1).most(s2));
+    ((low - margin).most(F::ZERO), (high + margin).least(F::ONE))
+}
