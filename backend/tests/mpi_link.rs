@@ -180,24 +180,28 @@ fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, SessionError> {
 fn be_frontend() -> ExitCode {
     note("front-end", process::id().to_string());
     let link = cluster::connect().unwrap_or_else(|error| fail("lightloom", &error.to_string()));
-    if case() == "cost" {
-        return cost(Box::new(link));
+    match case().as_str() {
+        "cost" => return cost(Box::new(link), 1, 400),
+        "cost of pictures" => return cost(Box::new(link), 800, 20),
+        _ => {}
     }
     let bytes = two_frames(Box::new(link)).unwrap_or_else(|error| fail("lightloom", &error.to_string()));
     note("bytes", bytes);
     ExitCode::SUCCESS
 }
 
-/// Prints what a frame costs that draws next to nothing, and one with large pictures.
-fn cost(link: Box<dyn Link>) -> ExitCode {
+/// Prints what a frame costs whose pictures, two per back-end, are `width` pixels wide and no work to draw.
+fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
     let count = link.backends();
-    let mut session = Session::start(link, setups(count, 1), Limits::default()).expect("the back-ends start");
+    let mut session =
+        Session::start(link, setups(count, width), Limits::default()).expect("the back-ends start");
     let bytes =
         wire::encode(&backend::protocol::FromFrontend::Frame(Box::new(frame(0, 40)))).expect("a frame");
-    let mut times: Vec<Duration> = (0..400)
+    let mut times: Vec<Duration> = (0..frames)
         .map(|index| {
             let since = Instant::now();
-            session.render(&frame(index, 40), &mut |_| {}).expect("a frame");
+            let state = frame(index, 40);
+            session.render(&state, &mut |_| {}).expect("a frame");
             since.elapsed()
         })
         .collect();
@@ -363,6 +367,11 @@ fn same_bytes(case: &str) -> Result<String, String> {
     }
 }
 
+fn cost_by_mpi(case: &str) -> Result<String, String> {
+    let run = mpirun(case, &[FRONTEND, (4, "--worker")], false);
+    fs::read_to_string(run.file("cost")).map_err(|_| run.text.clone())
+}
+
 type Case = (&'static str, fn() -> Result<String, String>);
 
 const CASES: &[Case] = &[
@@ -411,10 +420,14 @@ const CASES: &[Case] = &[
     }),
     ("no front-end", || mpirun("", &[(3, "--worker")], false).failed_with(&["rank 0 must be the front-end"])),
     ("no back-end", || mpirun("", &[(1, "--frontend")], false).failed_with(&["no back-end was started"])),
-    ("what a frame costs", || {
-        let run = mpirun("cost", &[FRONTEND, (4, "--worker")], false);
-        fs::read_to_string(run.file("cost")).map_err(|_| run.text.clone())
+    ("a back-end without a launcher", || {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_lightloom-backend")).output().map_err(|e| e.to_string())?;
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        if output.status.code() == Some(2) && said.contains("mpirun -n 1") { Ok(said) } else { Err(said) }
     }),
+    ("what a frame costs", || cost_by_mpi("cost")),
+    ("what a frame with pictures of 800 × 600 costs", || cost_by_mpi("cost of pictures")),
 ];
 
 fn main() -> ExitCode {

@@ -8,8 +8,10 @@
 //! | 12 | n | the message, bincode with fixed-width integers; an image without its numbers |
 //! | 12 + n | 16 · width · height | an image's numbers as f32; nothing for other messages |
 //!
-//! The numbers of an image stay outside the body: bincode would visit them one at a time, and a separate limit on
-//! the body bounds what a hostile length may allocate.
+//! The numbers of an image stay outside the body for two reasons: a limit of its own on the body bounds what a
+//! hostile length may allocate, and they are copied as one block. Bincode visits them one at a time: for 800 × 600
+//! pixels 5 ms and 6 ms against 4 ms and 4 ms in a release build, but 130 ms and 180 ms against 8 ms and 4 ms in a
+//! debug build, in which the tests run.
 
 use super::{FromBackend, FromFrontend, PROTOCOL_VERSION, ProjectorImage};
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian};

@@ -31,8 +31,9 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(200);
 /// How long messages of a back-end that is gone may still come in before it is given up.
 const LAST_MESSAGES: Duration = Duration::from_millis(300);
 
-/// How long a back-end goes on without a word from the front-end, where it cannot see its process. Two minutes,
-/// because a front-end may be busy writing pictures between two frames.
+/// How long a back-end goes on without a word from the front-end. Two minutes, because a front-end may be busy with
+/// pictures between two frames; in longer work it calls [`super::Session::keep_alive`]. A front-end that dies on the
+/// same host is noticed in a second whatever this says.
 pub const FRONTEND_SILENCE: Duration = Duration::from_secs(120);
 
 /// The front-end's end of back-ends that are ranks.

@@ -227,20 +227,9 @@ impl Session {
             let listened = since.elapsed().min(TICK);
             silences.iter_mut().for_each(|silence| *silence += listened);
             match received {
-                Ok((backend, FromBackend::Failed(sentence))) => {
-                    let (name, activity) = (self.link.name(backend), self.activity.clone());
-                    return Err(SessionError::Failed { name, activity, sentence });
-                }
                 Ok((backend, message)) => {
                     silences[backend] = Duration::ZERO;
-                    match take(backend, message) {
-                        Answer::Given(answer) if answers[backend].is_none() => {
-                            answers[backend] = Some(answer)
-                        }
-                        Answer::Given(_) => return Err(self.misfit(backend, "it answered twice")),
-                        Answer::Pending => {}
-                        Answer::Misfit(what) => return Err(self.misfit(backend, what)),
-                    }
+                    self.note_answer(backend, message, &mut answers, &mut take)?;
                 }
                 Err(LinkError::Silent) => {}
                 Err(error) => return Err(self.lost(error)),
@@ -252,6 +241,26 @@ impl Session {
             }
         }
         Ok(answers.into_iter().flatten().collect())
+    }
+
+    fn note_answer<T>(
+        &self,
+        backend: usize,
+        message: FromBackend,
+        answers: &mut [Option<T>],
+        take: &mut impl FnMut(usize, FromBackend) -> Answer<T>,
+    ) -> Result<(), SessionError> {
+        if let FromBackend::Failed(sentence) = message {
+            let (name, activity) = (self.link.name(backend), self.activity.clone());
+            return Err(SessionError::Failed { name, activity, sentence });
+        }
+        match take(backend, message) {
+            Answer::Given(answer) if answers[backend].is_none() => answers[backend] = Some(answer),
+            Answer::Given(_) => return Err(self.misfit(backend, "it answered twice")),
+            Answer::Pending => {}
+            Answer::Misfit(what) => return Err(self.misfit(backend, what)),
+        }
+        Ok(())
     }
 
     fn set_activity(&mut self, activity: String) {
@@ -277,3 +286,7 @@ fn explain(error: LinkError, activity: String, name: impl Fn(usize) -> String) -
         error => SessionError::Link { activity, error },
     }
 }
+
+#[cfg(test)]
+#[path = "session_tests.rs"]
+mod tests;
