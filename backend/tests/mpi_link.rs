@@ -19,8 +19,12 @@ const CULPRIT: u32 = 1;
 const DIRECTORY: &str = "LIGHTLOOM_TEST_DIRECTORY";
 const CASE: &str = "LIGHTLOOM_TEST_CASE";
 
-/// From the death of a process to the end of the whole job; most of it is the launcher's own tidying.
-const NOTICED_WITHIN: Duration = Duration::from_secs(4);
+/// From the death of a back-end to the front-end's sentence.
+const NOTICED_WITHIN: Duration = Duration::from_secs(2);
+
+/// From the death of a process to the end of all others. Most of it is the launcher's own tidying, which waits
+/// up to two seconds for each rank that does not end at once.
+const OVER_WITHIN: Duration = Duration::from_secs(8);
 
 /// No case may take longer; each is killed then and has failed.
 const CASE_LIMIT: Duration = Duration::from_secs(40);
@@ -230,7 +234,8 @@ struct Run {
     code: Option<i32>,
     has_recovery: bool,
     text: String,
-    since_death: Option<Duration>,
+    from_death_to_sentence: Option<Duration>,
+    from_death_to_end: Option<Duration>,
 }
 
 const FRONTEND: (usize, &str) = (1, "--frontend");
@@ -251,24 +256,38 @@ fn mpirun(case: &str, groups: &[(usize, &str)], has_recovery: bool) -> Run {
     }
     command.stdin(Stdio::null()).stdout(output("stdout")).stderr(output("stderr"));
     let job = command.spawn().expect("mpirun starts");
-    let ended = wait(job, case, directory.path());
+    let (ended, said_at) = wait(job, case, directory.path());
     let read = |name: &str| fs::read_to_string(directory.path().join(name)).unwrap_or_default();
     let died = fs::metadata(directory.path().join("died")).and_then(|file| file.modified()).ok();
-    let since_death = died.and_then(|at| SystemTime::now().duration_since(at).ok());
+    let after_death = |at: SystemTime| died.and_then(|died| at.duration_since(died).ok());
+    let from_death_to_end = after_death(SystemTime::now());
+    let from_death_to_sentence = said_at.and_then(after_death);
     let text = read("stdout") + &read("stderr");
-    Run { directory, code: ended.and_then(|status| status.code()), has_recovery, text, since_death }
+    Run {
+        directory,
+        code: ended.and_then(|status| status.code()),
+        has_recovery,
+        text,
+        from_death_to_sentence,
+        from_death_to_end,
+    }
 }
 
-/// How the job ended; None when its time was up.
-fn wait(mut job: Child, case: &str, directory: &Path) -> Option<ExitStatus> {
+/// How the job ended, None when its time was up; and when the front-end said why.
+fn wait(mut job: Child, case: &str, directory: &Path) -> (Option<ExitStatus>, Option<SystemTime>) {
     let since = Instant::now();
+    let mut said_at = None;
     let mut to_tell = match case {
         "launcher told to end" => Some(job.id().to_string()),
         _ => None,
     };
     while since.elapsed() < CASE_LIMIT {
+        let said = fs::read_to_string(directory.join("stderr")).unwrap_or_default();
+        if said_at.is_none() && said.lines().any(|line| line.starts_with("lightloom: ")) {
+            said_at = Some(SystemTime::now());
+        }
         if let Some(status) = job.try_wait().expect("mpirun can be waited for") {
-            return Some(status);
+            return (Some(status), said_at);
         }
         if case == "front-end told to end" && to_tell.is_none() {
             to_tell = fs::read_to_string(directory.join("front-end")).ok().filter(|text| !text.is_empty());
@@ -284,7 +303,7 @@ fn wait(mut job: Child, case: &str, directory: &Path) -> Option<ExitStatus> {
     }
     job.kill().expect("mpirun can be killed");
     job.wait().expect("mpirun can be waited for");
-    None
+    (None, said_at)
 }
 
 impl Run {
@@ -317,7 +336,7 @@ impl Run {
     fn left_nobody(&self) -> Result<(), String> {
         let since = Instant::now();
         while let Some(worker) = self.worker_left() {
-            if since.elapsed() > NOTICED_WITHIN {
+            if since.elapsed() > OVER_WITHIN {
                 return Err(format!("process {worker} is still there:\n{}", self.text));
             }
             thread::sleep(Duration::from_millis(20));
@@ -334,23 +353,27 @@ impl Run {
         workers.find(|worker| command_line(worker).contains("--worker"))
     }
 
-    fn noticed_soon(&self) -> Result<Duration, String> {
-        let took = self.since_death.ok_or("nobody died")?;
-        if took < NOTICED_WITHIN { Ok(took) } else { Err(format!("it took {took:?}:\n{}", self.text)) }
+    fn was_over_soon(&self) -> Result<Duration, String> {
+        let took = self.from_death_to_end.ok_or("nobody died")?;
+        if took < OVER_WITHIN { Ok(took) } else { Err(format!("the end took {took:?}:\n{}", self.text)) }
     }
 }
 
-fn loses_a_back_end(recovery: bool) -> Result<String, String> {
-    let run = mpirun("killed", &[FRONTEND, WORKERS], recovery);
+fn loses_a_back_end(has_recovery: bool) -> Result<String, String> {
+    let run = mpirun("killed", &[FRONTEND, WORKERS], has_recovery);
     let line =
         run.failed_with(&["back-end 1 (rank 2, process ", " on host ", "ended while drawing frame 1"])?;
-    Ok(format!("{:?} after its death: {line}", run.noticed_soon()?))
+    let noticed = run.from_death_to_sentence.ok_or("nobody died")?;
+    if noticed > NOTICED_WITHIN {
+        return Err(format!("it was noticed after {noticed:?}:\n{}", run.text));
+    }
+    Ok(format!("said {noticed:?} after its death, all over after {:?}: {line}", run.was_over_soon()?))
 }
 
-fn loses_the_front_end(recovery: bool) -> Result<String, String> {
-    let run = mpirun("front-end killed", &[FRONTEND, WORKERS], recovery);
+fn loses_the_front_end(has_recovery: bool) -> Result<String, String> {
+    let run = mpirun("front-end killed", &[FRONTEND, WORKERS], has_recovery);
     run.left_nobody()?;
-    Ok(format!("all gone {:?} after its death", run.noticed_soon()?))
+    Ok(format!("all gone {:?} after its death", run.was_over_soon()?))
 }
 
 fn same_bytes(case: &str) -> Result<String, String> {

@@ -56,9 +56,10 @@ fn rank_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
 
 static SAID: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, who reads it, is gone.
+/// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, who reads it, is gone, and
+/// writes the line at once, so that lines of several ranks do not mix.
 pub(super) fn say(program: &str, sentence: &str) {
-    let _ = writeln!(std::io::stderr(), "{program}: {sentence}");
+    let _ = std::io::stderr().write_all(format!("{program}: {sentence}\n").as_bytes());
 }
 
 /// Whether the caller is the first to say why the run ends. A lost back-end is noticed in more than one place, and
