@@ -1,0 +1,213 @@
+//! What the ranks of a test job do.
+
+use crate::job::{CASE, CASE_LIMIT, DIRECTORY};
+use backend::protocol::{
+    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend,
+    ProjectorImage, Setup, Stages, VolumeRef, wire,
+};
+use backend::transport::*;
+use display_config::Display;
+use glam::{DAffine3, DVec3};
+use shaders::optics::{Curve, ExtinctionUnit, Optics, Quality};
+use signal_hook::{consts::SIGKILL, low_level::raise};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+use std::{env, fs, process, thread};
+
+const CULPRIT: u32 = 1;
+
+fn case() -> String {
+    env::var(CASE).unwrap_or_default()
+}
+
+fn note(name: &str, content: impl AsRef<[u8]>) {
+    let directory = env::var_os(DIRECTORY).expect("the test sets the directory");
+    fs::write(Path::new(&directory).join(name), content).expect("the test directory can be written");
+}
+
+fn die_by_kill() -> ! {
+    note("died", []);
+    raise(SIGKILL).expect("a process may kill itself");
+    unreachable!("nobody survives SIGKILL")
+}
+
+/// The cases whose frame 1 goes on until somebody ends it.
+const LONG: [&str; 4] = ["killed", "front-end killed", "front-end told to end", "launcher told to end"];
+
+/// Draws two pictures per frame; the culprit misbehaves in frame 1.
+struct Fake {
+    backend: u32,
+    width: u32,
+}
+
+impl Draw for Fake {
+    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(DrawEvent)) -> Result<FrameReport, String> {
+        if self.backend == CULPRIT && frame.index == 1 {
+            match case().as_str() {
+                "killed" => die_by_kill(),
+                "panics" => panic!("a fake fault"),
+                "errors" => return Err("the fake device is lost; use another".to_owned()),
+                "silent" => thread::sleep(2 * CASE_LIMIT),
+                _ => {}
+            }
+        }
+        let is_long = frame.index == 1 && LONG.contains(&case().as_str());
+        for step in 0..if is_long { 600 } else { 3 } {
+            sink(DrawEvent::Progress { done: step, total: 600 });
+            thread::sleep(Duration::from_millis(if is_long { 100 } else { 0 }));
+        }
+        for projector in [2 * self.backend, 2 * self.backend + 1] {
+            let number = |i: u32| (i as f32 + 0.5) * (projector as f32 - 1.3) / (frame.index as f32 + 1.0);
+            let (width, height) = (self.width, self.width * 3 / 4);
+            let rgba = (0..4 * width * height).map(number).collect();
+            sink(DrawEvent::Image(ProjectorImage { projector, width, height, rgba }));
+        }
+        Ok(report(frame.index, self.backend))
+    }
+}
+
+fn report(frame: u32, backend: u32) -> FrameReport {
+    FrameReport {
+        frame,
+        backend,
+        projectors: vec![2 * backend, 2 * backend + 1],
+        rays: 1,
+        samples: 2,
+        bricks_wanted: 3,
+        bricks_resident: 4,
+        bricks_loaded: 5,
+        bytes_loaded: 6,
+        working_set_union: 7,
+        working_set_sum: 8,
+        complete: true,
+        shortfall: String::new(),
+        stages: Stages::default(),
+        total_ms: 0.25,
+    }
+}
+
+pub fn open(setup: Setup) -> Result<Opened, String> {
+    if case() == "opening fails" && setup.backend == CULPRIT {
+        return Err("/no/such/head.lloom is not there; build it first".to_owned());
+    }
+    let text = |text: &str| text.to_owned();
+    let info = DeviceInfo { adapter: text("fake"), reason: text("it is a test"), filter: text("exact") };
+    Ok((Box::new(Fake { backend: setup.backend, width: setup.cache_bytes as u32 }), info))
+}
+
+fn setups(count: usize, width: u32) -> Vec<Setup> {
+    let display = Display {
+        name: "fake".to_owned(),
+        width_m: 1.0,
+        height_m: 1.0,
+        pixel_size_m: 1e-3,
+        angular_accuracy: 0.01,
+        observer_in_display: DVec3::Z,
+        eta: 1.0,
+        projectors: Vec::new(),
+    };
+    let setup = |backend| Setup {
+        display: display.clone(),
+        projectors: vec![2 * backend, 2 * backend + 1],
+        backend,
+        volume: VolumeRef::Store("fake.lloom".into()),
+        device: DeviceChoice::Cpu,
+        filter: FilterChoice::Exact,
+        cache_bytes: width.into(),
+    };
+    (0..count as u32).map(setup).collect()
+}
+
+fn frame(index: u32, knots: usize) -> FrameState {
+    let points = (0..knots).map(|i| (i as f64 / knots as f64, 1.0)).collect();
+    FrameState {
+        index,
+        time_s: 0.0,
+        observer_in_display: DVec3::Z,
+        eta: 1.0,
+        display_from_volume: DAffine3::IDENTITY,
+        optics: Optics {
+            domain: (0.0, 1.0),
+            extinction: Curve::new(points).expect("the points rise"),
+            extinction_unit: ExtinctionUnit::PerMetre,
+            colour: Curve::constant(DVec3::ONE),
+            mimda: None,
+        },
+        light: None,
+        quality: Quality::default(),
+        tool: None,
+    }
+}
+
+/// All that the front-end gets of two frames, as bytes: pictures by frame and projector, and reports.
+pub fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, SessionError> {
+    let count = link.backends();
+    let limits = Limits { opening: Duration::from_secs(10), drawing: Duration::from_secs(3) };
+    let width = if case() == "large pictures" { 1600 } else { 40 };
+    let mut session = Session::start(link, setups(count, width), limits)?;
+    let mut bytes = Vec::new();
+    for index in 0..2 {
+        let mut pictures = Vec::new();
+        let reports = session.render(&frame(index, 9), &mut |event| match event.kind {
+            EventKind::Image(image) => pictures.push(image),
+            EventKind::Progress { .. } if index == 1 && case() == "front-end killed" => die_by_kill(),
+            EventKind::Progress { .. } => {}
+        })?;
+        pictures.sort_by_key(|image| image.projector);
+        assert_eq!(pictures.len(), 2 * count, "each projector has one picture");
+        let messages = pictures.into_iter().map(FromBackend::Image);
+        let reports = reports.into_iter().map(|r| FromBackend::Done(Box::new(r)));
+        messages.chain(reports).for_each(|m| bytes.extend(wire::encode(&m).expect("it came as bytes")));
+        if case() == "front-end silent" {
+            thread::sleep(CASE_LIMIT);
+        }
+    }
+    session.finish()?;
+    Ok(bytes)
+}
+
+pub fn be_frontend() -> ExitCode {
+    note("front-end", process::id().to_string());
+    let link = cluster::connect().unwrap_or_else(|error| fail("lightloom", &error.to_string()));
+    match case().as_str() {
+        "cost" => return cost(Box::new(link), 1, 400),
+        "cost of pictures" => return cost(Box::new(link), 800, 20),
+        _ => {}
+    }
+    let bytes = two_frames(Box::new(link)).unwrap_or_else(|error| fail("lightloom", &error.to_string()));
+    note("bytes", bytes);
+    ExitCode::SUCCESS
+}
+
+/// Prints what a frame costs whose pictures, two per back-end, are `width` pixels wide and no work to draw.
+fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
+    let count = link.backends();
+    let mut session =
+        Session::start(link, setups(count, width), Limits::default()).expect("the back-ends start");
+    let bytes = wire::encode(&FromFrontend::Frame(Box::new(frame(0, 40)))).expect("a frame");
+    let mut times: Vec<Duration> = (0..frames)
+        .map(|index| {
+            let since = Instant::now();
+            let state = frame(index, 40);
+            session.render(&state, &mut |_| {}).expect("a frame");
+            since.elapsed()
+        })
+        .collect();
+    times.sort();
+    let [median, most] = [times[times.len() / 2], times[times.len() * 99 / 100]];
+    let size = bytes.len();
+    let text = format!(
+        "a frame of {size} bytes to {count} ranks and back: median {median:?}, 99th percentile {most:?}"
+    );
+    session.finish().expect("the back-ends leave");
+    note("cost", text);
+    ExitCode::SUCCESS
+}
+
+pub fn be_worker() -> ExitCode {
+    note(&format!("worker {}", process::id()), []);
+    let silence =
+        if case() == "front-end silent" { Duration::from_secs(2) } else { cluster::FRONTEND_SILENCE };
+    cluster::work(open, silence)
+}
