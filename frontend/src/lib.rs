@@ -1,0 +1,3 @@
+//! The program people start: its command line, scenes, simulation and reports.
+
+pub mod scene;
