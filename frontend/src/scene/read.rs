@@ -3,7 +3,7 @@
 use super::file::{
     DisplayTable, KeyframeTable, LightTable, OpticsTable, PlacementTable, QualityTable, SceneFile,
 };
-use super::file::{FramesTable, Lengths, MimdaTable, Number, Points, ToolTable, Triple, VolumeTable, Voxels};
+use super::file::{FramesTable, Lengths, MimdaTable, Number, Points, ToolTable, VolumeTable, Voxels};
 use super::look::DataLook;
 use super::motion::Direction;
 use super::placement::rotation_from_deg;
