@@ -1,7 +1,7 @@
 //! A display: screen, observer, projectors.
 
-use crate::Homography;
-use glam::DVec3;
+use crate::{BeamLaw, Projector, RayError};
+use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// A light-field display. Display frame: metres, origin at the screen's centre, x right, y up, z toward the viewers.
@@ -25,28 +25,63 @@ pub struct Display {
     pub projectors: Vec<Projector>,
 }
 
-/// One projector.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Projector {
-    /// Its name, unique in the display.
-    pub name: String,
-    /// E: its centre of projection, z < 0 behind the screen or z > 0 before it, never in the screen plane.
-    pub centre_in_display: DVec3,
-    /// Its pixels.
-    pub raster: Raster,
-    /// Which back-end drives it, from 0.
-    pub backend: u32,
+impl Display {
+    /// The size of the smallest thing the display shows at depth z: s(z) = s0 + 2 |z| tan(Φ/2), metres (LFD section 4).
+    pub fn resolution_at(&self, z_m: f64) -> f64 {
+        self.pixel_size_m + 2.0 * z_m.abs() * (self.angular_accuracy / 2.0).tan()
+    }
+
+    /// The law of the rays of a projector (an index into `projectors`) for an observer and an η, which may be others
+    /// than the display's own.
+    ///
+    /// # Errors
+    /// See [`BeamLaw::new`].
+    ///
+    /// # Panics
+    /// Where there is no such projector, as a slice does.
+    pub fn beam_law(&self, projector: usize, observer: DVec3, eta: f64) -> Result<BeamLaw, RayError> {
+        BeamLaw::new(self.projectors[projector].centre_in_display, observer, eta)
+    }
+
+    /// The screen point of the centre of pixel (x, y) of a projector, metres.
+    ///
+    /// # Panics
+    /// Where there is no such projector, as a slice does.
+    pub fn pixel_on_screen(&self, projector: usize, x: u32, y: u32) -> DVec2 {
+        self.projectors[projector].raster.pixel_on_screen(x, y)
+    }
 }
 
-/// A projector's pixels, and where they fall.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Raster {
-    /// Pixels along x.
-    pub width: u32,
-    /// Pixels along y.
-    pub height: u32,
-    /// Pixel coordinates (x right, y down, pixel centres at integer + 0.5) to screen metres (x right, y up).
-    pub screen_from_pixel: Homography,
-    /// The part of a video output this raster is, as (output name, x, y of its first pixel there); None = an output of its own.
-    pub output: Option<(String, u32, u32)>,
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn holo72() -> Display {
+        Display::load("holo72").unwrap()
+    }
+
+    #[test]
+    fn resolution_is_the_pixel_on_the_screen_and_grows_on_both_sides() {
+        let display = holo72();
+        assert_eq!(display.resolution_at(0.0), 0.0015);
+        assert_eq!(display.resolution_at(0.3), display.resolution_at(-0.3));
+        let blur_at_half_a_metre = 0.0015 + 0.4f64.to_radians().tan();
+        assert!((display.resolution_at(0.5) - blur_at_half_a_metre).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_law_is_that_of_the_named_projector() {
+        let display = holo72();
+        let law = display.beam_law(0, display.observer_in_display, 1.0).unwrap();
+        // E = (−3.6, 0, −6), V = (0, 0, 3): k = 9/6, A = −3.6 (1 − 1.5).
+        assert!((law.a() - 1.8).abs() < 1e-12 && (law.b() - 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn pixels_lie_on_the_screen_y_up() {
+        let display = holo72();
+        let first = display.pixel_on_screen(71, 0, 0);
+        assert!((first - DVec2::new(-0.8 + 0.001, 0.45 - 0.00075)).length() < 1e-12);
+        assert!((display.pixel_on_screen(71, 799, 599) + first).length() < 1e-12);
+    }
 }

@@ -1,7 +1,25 @@
 //! What a light-field display is: its geometry, its projectors, its ray model.
 
+mod assignment;
+mod beams;
 mod display;
+mod error;
+mod eye;
+#[cfg(test)]
+mod fixed_seed;
 mod homography;
+mod parse;
+mod preset;
+mod projector;
+mod raster;
+mod ray;
+mod zone;
 
-pub use display::{Display, Projector, Raster};
+pub use display::Display;
+pub use error::{Clip, ConfigError, Place, RayError};
+pub use eye::{EyeModel, eye_weights};
 pub use homography::Homography;
+pub use preset::presets;
+pub use projector::Projector;
+pub use raster::{COVER_TOLERANCE_PX, Raster, RasterInverse};
+pub use ray::{BeamLaw, Ray};

@@ -5,6 +5,7 @@ mod image;
 mod message;
 mod report;
 mod setup;
+pub mod wire;
 
 pub use frame::{FrameState, Tool, ToolKind};
 pub use image::ProjectorImage;

@@ -1,0 +1,64 @@
+//! From what a user names, a file or a procedural volume, to a store.
+
+use super::build::{BuildOptions, BuildReport, build};
+use super::{StoreError, sink::folder_of};
+use crate::volume::procedural::ProceduralVolume;
+use crate::volume::{RawLayout, VolumeReader, open};
+use glam::UVec3;
+use std::path::Path;
+
+/// What an input starts with that names a procedural volume.
+pub const PROCEDURAL_PREFIX: &str = "procedural:";
+
+/// How to import.
+#[derive(Clone, Copy, Debug)]
+pub struct ImportOptions {
+    /// How to build the store.
+    pub build: BuildOptions,
+    /// Voxels of a procedural volume along each axis; a file has its own.
+    pub procedural_dims: UVec3,
+    /// Edge of a procedural volume's voxels in metres.
+    pub procedural_voxel_m: f64,
+}
+
+impl Default for ImportOptions {
+    fn default() -> Self {
+        Self { build: BuildOptions::default(), procedural_dims: UVec3::splat(256), procedural_voxel_m: 1e-3 }
+    }
+}
+
+/// Builds the store `out` from `input`: a volume file (with `raw` for a file without a header), or `procedural:NAME`.
+///
+/// # Errors
+/// Those of [`open`] and [`build`]; an output that is the input.
+pub fn import(
+    input: &str,
+    raw: Option<RawLayout>,
+    out: &Path,
+    options: &ImportOptions,
+    progress: &dyn Fn(u64, u64),
+) -> Result<BuildReport, StoreError> {
+    let mut reader: Box<dyn VolumeReader> = match input.strip_prefix(PROCEDURAL_PREFIX) {
+        Some(name) => {
+            Box::new(ProceduralVolume::new(name, options.procedural_dims, options.procedural_voxel_m)?)
+        }
+        None => {
+            check_not_itself(input, out)?;
+            open(Path::new(input), raw)?
+        }
+    };
+    build(reader.as_mut(), out, &options.build, progress)
+}
+
+/// The store must not take the place of the file that it is made from.
+fn check_not_itself(input: &str, out: &Path) -> Result<(), StoreError> {
+    let place = |path: &Path| {
+        let folder = folder_of(path).canonicalize().ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    if place(Path::new(input)).is_some_and(|place_in| Some(place_in) == place(out)) {
+        let what = "the store would replace it: choose another name for the store".into();
+        return Err(StoreError::Input { input: input.into(), what });
+    }
+    Ok(())
+}

@@ -1,0 +1,29 @@
+//! The wait between two looks at whether a message has come.
+
+use std::time::Duration;
+
+const YIELDS: u32 = 100;
+const SHORTEST: Duration = Duration::from_micros(20);
+const LONGEST: Duration = Duration::from_millis(1);
+
+/// Waits that grow from nothing to a millisecond: a quick answer is met at once, and a long wait leaves the cores to
+/// those who draw.
+#[derive(Default)]
+pub struct Pause {
+    yields: u32,
+    next: Duration,
+}
+
+impl Pause {
+    /// Waits; `is_moving` keeps the wait short, for a transfer goes on only while both ends look at it.
+    pub fn wait(&mut self, is_moving: bool) {
+        if self.yields < YIELDS {
+            self.yields += 1;
+            std::thread::yield_now();
+            return;
+        }
+        let longest = if is_moving { SHORTEST } else { LONGEST };
+        self.next = (self.next * 2).clamp(SHORTEST, longest);
+        std::thread::sleep(self.next);
+    }
+}

@@ -1,0 +1,87 @@
+//! Opening a volume file: which format is it?
+
+use super::file::{FileLayout, FileVolume};
+use super::{RawLayout, VolumeError, VolumeReader, metaimage, nifti, nrrd, raw};
+use flate2::read::MultiGzDecoder;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Bytes looked at to tell a format.
+const MAGIC_BYTES: u64 = 512;
+
+/// A format with a header of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Nrrd,
+    Nifti,
+    MetaImage,
+}
+
+/// Opens a volume file. With `raw` the file is read as raw voxels of that layout, whatever its name; without, the
+/// extension tells the format, and the first bytes do where the extension is not known.
+///
+/// # Errors
+/// A missing file, a wrong header, fewer bytes than promised, an unknown format or element type: one sentence.
+pub fn open(path: &Path, raw: Option<RawLayout>) -> Result<Box<dyn VolumeReader>, VolumeError> {
+    let layout = match raw {
+        Some(raw) => raw::layout(path, &raw)?,
+        None => layout(path)?,
+    };
+    Ok(Box::new(FileVolume::new(layout)?))
+}
+
+fn layout(path: &Path) -> Result<FileLayout, VolumeError> {
+    let start = first_bytes(path)?;
+    let format = by_extension(path).or_else(|| by_magic(&start));
+    match format.ok_or_else(|| VolumeError::UnknownFormat { path: path.into() })? {
+        Format::Nrrd => nrrd::layout(path),
+        Format::Nifti => nifti::layout(path),
+        Format::MetaImage => metaimage::layout(path),
+    }
+}
+
+fn by_extension(path: &Path) -> Option<Format> {
+    let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+    let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
+    if ends(&[".nrrd", ".nhdr"]) {
+        Some(Format::Nrrd)
+    } else if ends(&[".nii", ".nii.gz"]) {
+        Some(Format::Nifti)
+    } else if ends(&[".mhd", ".mha"]) {
+        Some(Format::MetaImage)
+    } else {
+        None
+    }
+}
+
+fn by_magic(start: &[u8]) -> Option<Format> {
+    if start.starts_with(b"NRRD") {
+        Some(Format::Nrrd)
+    } else if nifti::is_header(start) {
+        Some(Format::Nifti)
+    } else if start.starts_with(b"ObjectType") || start.starts_with(b"NDims") {
+        Some(Format::MetaImage)
+    } else {
+        None
+    }
+}
+
+/// The first bytes, unpacked where the file is a gzip file.
+fn first_bytes(path: &Path) -> Result<Vec<u8>, VolumeError> {
+    super::file::file_length(path)?;
+    let read = |packed: bool| -> std::io::Result<Vec<u8>> {
+        let mut start = Vec::new();
+        let file = File::open(path)?;
+        match packed {
+            false => file.take(MAGIC_BYTES).read_to_end(&mut start)?,
+            true => MultiGzDecoder::new(file).take(MAGIC_BYTES).read_to_end(&mut start)?,
+        };
+        Ok(start)
+    };
+    let start = read(false).map_err(VolumeError::open(path))?;
+    match start.starts_with(&[0x1f, 0x8b]) {
+        true => read(true).map_err(VolumeError::read(path)),
+        false => Ok(start),
+    }
+}

@@ -1,0 +1,145 @@
+//! What can be wrong with a display.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why a ray or an eye has no meaning.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RayError {
+    /// A coordinate or η is NaN or infinite, or so extreme that the ray's coefficients are.
+    #[error("a coordinate or η is not finite; give ordinary numbers of metres")]
+    NotFinite,
+    /// Ez = 0.
+    #[error(
+        "the projector's centre lies in the screen plane; move it behind (z < 0) or before the screen (z > 0)"
+    )]
+    ProjectorInScreenPlane,
+    /// Vz ≤ 0.
+    #[error("the observer is at z = {z_m} m; it must stand before the screen, at z > 0")]
+    ObserverBehindScreen {
+        /// Its z, metres.
+        z_m: f64,
+    },
+    /// η outside [0, 1].
+    #[error("η is {eta}; give a number from 0 (one perspective view) to 1 (full horizontal parallax)")]
+    EtaOutOfRange {
+        /// The value given.
+        eta: f64,
+    },
+    /// An eye in the screen plane or behind it.
+    #[error(
+        "the eye is at z = {z_m} m, in the screen plane or behind it; put it before the screen, at z > 0"
+    )]
+    EyeBehindScreen {
+        /// Its z, metres.
+        z_m: f64,
+    },
+}
+
+/// Why a point has no place on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Clip {
+    /// The point lies in the observer's plane or behind it.
+    #[error("the point is in the observer's plane or behind it")]
+    BehindObserver,
+    /// No single ray of this projector passes through the point.
+    #[error("no single ray of the projector passes through the point")]
+    NoImage,
+    /// A coordinate of the point is NaN or infinite.
+    #[error("a coordinate of the point is not finite")]
+    NotFinite,
+}
+
+/// A key of a display file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file, as messages call it.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The key.
+    pub key: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}, line {}: `{}`", self.file, self.line, self.key)
+    }
+}
+
+/// Why a display cannot be had. Each is one sentence that says where, what, and what to do.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message beside each variant says what its fields are")]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("cannot read the display file {}: {cause}; give the path of a readable .toml file", path.display())]
+    Read { path: PathBuf, cause: std::io::Error },
+    /// Neither a preset nor a path.
+    #[error("there is no preset display `{name}`; use one of {presets}, or give the path of a .toml file")]
+    UnknownPreset { name: String, presets: String },
+    /// Not TOML.
+    #[error("{file}, line {line}: this is not TOML ({message}); correct the line")]
+    Syntax { file: String, line: usize, message: String },
+    /// A key that nothing reads.
+    #[error("{place} is not a key of this table; remove it, or use {known}")]
+    UnknownKey { place: Place, known: String },
+    /// A key that the geometry needs.
+    #[error("{place} is missing from the table that starts here; add it")]
+    MissingKey { place: Place },
+    /// A value of another type than the key's, or not among its choices.
+    #[error("{place} cannot have this value ({message}); give what it expects")]
+    WrongType { place: Place, message: String },
+    /// NaN or infinity.
+    #[error("{place} has a number that is not finite; give an ordinary number")]
+    NotFinite { place: Place },
+    /// A number outside its range.
+    #[error("{place} is {value}; give {expected}")]
+    OutOfRange { place: Place, value: f64, expected: &'static str },
+    /// A text that must not be empty.
+    #[error("{place} is empty; give a name")]
+    EmptyName { place: Place },
+    /// Nothing would light the screen.
+    #[error(
+        "{place} is absent or empty, so the display has no projectors; add [[projector]] entries or a [projector_line]"
+    )]
+    NoProjectors { place: Place },
+    /// Both ways of listing projectors at once.
+    #[error("{place} stands beside [[projector]] entries; keep one of the two")]
+    TwoLists { place: Place },
+    /// Ez = 0.
+    #[error(
+        "{place} puts a projector in the screen plane (z = 0); move it behind (z < 0) or before the screen (z > 0)"
+    )]
+    ProjectorInScreenPlane { place: Place },
+    /// No or several placements of a raster.
+    #[error(
+        "{place} has {count} of the keys screen_rect_m, homography and corners_m; give exactly one of them"
+    )]
+    Placement { place: Place, count: usize },
+    /// A raster that falls on a line, on a point, or across the horizon.
+    #[error(
+        "{place} is singular: the raster does not fall on the screen as a quadrilateral of some area; measure it again"
+    )]
+    SingularRaster { place: Place },
+    /// Two projectors of one name.
+    #[error("{place} `{name}` is already the name of another projector; give each its own")]
+    DuplicateName { place: Place, name: String },
+    /// Two rasters on the same pixels of an output.
+    #[error(
+        "{place} puts the raster on pixels of output `{output}` that projector `{other}` uses; move one of them"
+    )]
+    OverlappingOutput { place: Place, output: String, other: String },
+    /// Back-ends are not numbered 0, 1, 2, …
+    #[error(
+        "{place} is {highest}, but no projector has back-end {missing}; number the back-ends from 0 without gaps"
+    )]
+    BackendGap { place: Place, highest: u32, missing: u32 },
+    /// More back-ends than projectors, in a file.
+    #[error("{place} is {backends} for {projectors} projectors; give each back-end at least one")]
+    TooManyLineBackends { place: Place, backends: u32, projectors: u32 },
+    /// No back-end, or more than projectors.
+    #[error(
+        "cannot share {projectors} projectors among {backends} back-ends; start from 1 to {projectors} of them"
+    )]
+    Backends { backends: usize, projectors: usize },
+}

@@ -1,0 +1,96 @@
+//! From the text of a display file to a display whose every number has been checked.
+
+mod entry;
+mod line;
+mod raw;
+mod source;
+
+use crate::{ConfigError, Display, Projector, presets};
+use glam::{DVec2, DVec3};
+use raw::RawDisplay;
+use source::Source;
+use std::path::Path;
+use toml::Spanned;
+
+impl Display {
+    /// The display that a file's text describes. `file` is what messages call it.
+    ///
+    /// # Errors
+    /// Text that is not TOML, unknown or missing keys, values of the wrong type or without meaning: each names the
+    /// file, the line and the key. Nothing that changes the geometry has a default.
+    pub fn from_toml(text: &str, file: &str) -> Result<Self, ConfigError> {
+        let source = Source { text, file };
+        checked(&source, &source.read()?)
+    }
+
+    /// A preset by its name, or the display in a `.toml` file by its path.
+    ///
+    /// # Errors
+    /// A name that is neither, a file that cannot be read, and those of [`Display::from_toml`].
+    pub fn load(name_or_path: &str) -> Result<Self, ConfigError> {
+        if let Some((name, text)) = presets().iter().find(|(name, _)| *name == name_or_path) {
+            return Self::from_toml(text, &format!("preset {name}"));
+        }
+        let path = Path::new(name_or_path);
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            let names: Vec<&str> = presets().iter().map(|(name, _)| *name).collect();
+            return Err(ConfigError::UnknownPreset {
+                name: name_or_path.to_owned(),
+                presets: names.join(", "),
+            });
+        }
+        let text = std::fs::read_to_string(path)
+            .map_err(|cause| ConfigError::Read { path: path.to_owned(), cause })?;
+        Self::from_toml(&text, name_or_path)
+    }
+}
+
+/// Positive lengths, as messages ask for them.
+const A_LENGTH: &str = "a length in metres, above 0";
+
+fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError> {
+    let width_m = source.positive("screen_width_m", &raw.screen_width_m, A_LENGTH)?;
+    let height_m = source.positive("screen_height_m", &raw.screen_height_m, A_LENGTH)?;
+    let accuracy = "an angle in degrees between 0 and 180, both excluded";
+    let accuracy_deg = source
+        .within("angular_accuracy_deg", &raw.angular_accuracy_deg, accuracy, |a| a > 0.0 && a < 180.0)?;
+    let eta = "a number from 0 (one perspective view) to 1 (full horizontal parallax)";
+    Ok(Display {
+        name: source.name(&raw.name)?,
+        width_m,
+        height_m,
+        pixel_size_m: source.positive("pixel_size_m", &raw.pixel_size_m, A_LENGTH)?,
+        angular_accuracy: accuracy_deg.to_radians(),
+        observer_in_display: observer(source, raw)?,
+        eta: source.within("eta", &raw.eta, eta, |eta| (0.0..=1.0).contains(&eta))?,
+        projectors: projectors(source, raw, DVec2::new(width_m, height_m))?,
+    })
+}
+
+fn observer(source: &Source<'_>, raw: &RawDisplay) -> Result<DVec3, ConfigError> {
+    let (key, span) = ("observer_m", raw.observer_m.span());
+    source.all_finite(key, span.clone(), raw.observer_m.get_ref())?;
+    let observer = DVec3::from_array(*raw.observer_m.get_ref());
+    if observer.z <= 0.0 {
+        let expected = "an observer before the screen, with z (the third number) above 0";
+        return Err(source.out_of_range(key, span, observer.z, expected));
+    }
+    Ok(observer)
+}
+
+fn projectors(source: &Source<'_>, raw: &RawDisplay, screen: DVec2) -> Result<Vec<Projector>, ConfigError> {
+    match (&raw.projector, &raw.projector_line) {
+        (None, Some(line)) => line::projectors(source, line.get_ref(), screen),
+        (Some(list), None) if !list.get_ref().is_empty() => entry::projectors(source, list.get_ref()),
+        (Some(_), Some(line)) => {
+            Err(ConfigError::TwoLists { place: source.place("projector_line", line.span()) })
+        }
+        (list, None) => {
+            let span = list.as_ref().map_or(0..0, Spanned::span);
+            Err(ConfigError::NoProjectors { place: source.place("projector", span) })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! The keys of a display file, before any check of their values.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct RawDisplay {
+    pub name: Spanned<String>,
+    pub screen_width_m: Spanned<f64>,
+    pub screen_height_m: Spanned<f64>,
+    pub pixel_size_m: Spanned<f64>,
+    pub angular_accuracy_deg: Spanned<f64>,
+    pub observer_m: Spanned<[f64; 3]>,
+    pub eta: Spanned<f64>,
+    /// Absent where a line generates the projectors.
+    pub projector: Option<Spanned<Vec<Spanned<RawProjector>>>>,
+    pub projector_line: Option<Spanned<RawLine>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct RawProjector {
+    pub name: Spanned<String>,
+    pub centre_m: Spanned<[f64; 3]>,
+    pub width_px: Spanned<u32>,
+    pub height_px: Spanned<u32>,
+    /// Left, bottom, width, height.
+    pub screen_rect_m: Option<Spanned<[f64; 4]>>,
+    /// Pixels to screen metres, by rows.
+    pub homography: Option<Spanned<[[f64; 3]; 3]>>,
+    /// The screen points of the raster's corners, clockwise from its top left.
+    pub corners_m: Option<Spanned<[[f64; 2]; 4]>>,
+    pub backend: Spanned<u32>,
+    /// Absent for an output of its own.
+    pub output: Option<Spanned<RawOutput>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct RawOutput {
+    pub name: String,
+    pub x_px: u32,
+    pub y_px: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct RawLine {
+    pub count: Spanned<u32>,
+    pub from_m: Spanned<[f64; 3]>,
+    pub to_m: Spanned<[f64; 3]>,
+    pub width_px: Spanned<u32>,
+    pub height_px: Spanned<u32>,
+    pub covers: Covers,
+    pub backends: Spanned<u32>,
+}
+
+/// Where the rasters of a line of projectors fall.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Covers {
+    Screen,
+}

@@ -1,0 +1,152 @@
+//! The text of a display file, which knows the line of each value.
+
+use super::raw::RawDisplay;
+use crate::{ConfigError, Place};
+use glam::DVec3;
+use std::ops::Range;
+use toml::Spanned;
+
+pub(super) struct Source<'a> {
+    pub text: &'a str,
+    /// What messages call it.
+    pub file: &'a str,
+}
+
+impl Source<'_> {
+    /// The keys and values, each of the right type, none missing, none unknown.
+    pub fn read(&self) -> Result<RawDisplay, ConfigError> {
+        // A text that is no TOML at all is told apart from one with the wrong keys by parsing it without a schema.
+        if let Err(error) = self.text.parse::<toml::Table>() {
+            let line = self.line(error.span().map_or(0, |span| span.start));
+            let message = error.message().replace('\n', ", ");
+            return Err(ConfigError::Syntax { file: self.file.to_owned(), line, message });
+        }
+        toml::from_str(self.text).map_err(|error| self.rephrase(&error))
+    }
+
+    pub fn place(&self, key: &str, span: Range<usize>) -> Place {
+        Place { file: self.file.to_owned(), line: self.line(span.start), key: key.to_owned() }
+    }
+
+    pub fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, ConfigError> {
+        self.all_finite(key, value.span(), &[*value.get_ref()])?;
+        Ok(*value.get_ref())
+    }
+
+    pub fn all_finite(&self, key: &str, span: Range<usize>, values: &[f64]) -> Result<(), ConfigError> {
+        let finite = values.iter().all(|value| value.is_finite());
+        if finite { Ok(()) } else { Err(ConfigError::NotFinite { place: self.place(key, span) }) }
+    }
+
+    pub fn positive(
+        &self,
+        key: &str,
+        value: &Spanned<f64>,
+        expected: &'static str,
+    ) -> Result<f64, ConfigError> {
+        self.within(key, value, expected, |number| number > 0.0)
+    }
+
+    pub fn within(
+        &self,
+        key: &str,
+        value: &Spanned<f64>,
+        expected: &'static str,
+        accepts: impl Fn(f64) -> bool,
+    ) -> Result<f64, ConfigError> {
+        let number = self.finite(key, value)?;
+        if accepts(number) { Ok(number) } else { Err(self.out_of_range(key, value.span(), number, expected)) }
+    }
+
+    pub fn at_least_one(
+        &self,
+        key: &str,
+        value: &Spanned<u32>,
+        expected: &'static str,
+    ) -> Result<u32, ConfigError> {
+        match *value.get_ref() {
+            0 => Err(self.out_of_range(key, value.span(), 0.0, expected)),
+            number => Ok(number),
+        }
+    }
+
+    /// Pixels along x and y.
+    pub fn raster_size(
+        &self,
+        width_px: &Spanned<u32>,
+        height_px: &Spanned<u32>,
+    ) -> Result<(u32, u32), ConfigError> {
+        let expected = "a number of pixels, 1 or more";
+        let width = self.at_least_one("width_px", width_px, expected)?;
+        Ok((width, self.at_least_one("height_px", height_px, expected)?))
+    }
+
+    pub fn name(&self, value: &Spanned<String>) -> Result<String, ConfigError> {
+        if value.get_ref().trim().is_empty() {
+            return Err(ConfigError::EmptyName { place: self.place("name", value.span()) });
+        }
+        Ok(value.get_ref().clone())
+    }
+
+    /// A projector's centre: finite, and not in the screen plane.
+    pub fn centre(&self, key: &str, value: &Spanned<[f64; 3]>) -> Result<DVec3, ConfigError> {
+        self.all_finite(key, value.span(), value.get_ref())?;
+        let centre = DVec3::from_array(*value.get_ref());
+        if centre.z == 0.0 {
+            return Err(ConfigError::ProjectorInScreenPlane { place: self.place(key, value.span()) });
+        }
+        Ok(centre)
+    }
+
+    pub fn out_of_range(
+        &self,
+        key: &str,
+        span: Range<usize>,
+        value: f64,
+        expected: &'static str,
+    ) -> ConfigError {
+        ConfigError::OutOfRange { place: self.place(key, span), value, expected }
+    }
+
+    fn line(&self, offset: usize) -> usize {
+        1 + self.text.bytes().take(offset).filter(|&byte| byte == b'\n').count()
+    }
+
+    /// The parser's message about keys and types, with its file, line and key, and what to do.
+    fn rephrase(&self, error: &toml::de::Error) -> ConfigError {
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message();
+        if let Some((key, rest)) = quoted_after(message, "unknown field `") {
+            let known = rest.trim_start_matches(", expected ").replacen("one of ", "", 1);
+            return ConfigError::UnknownKey { place: self.place(key, span), known };
+        }
+        if let Some((key, _)) = quoted_after(message, "missing field `") {
+            return ConfigError::MissingKey { place: self.place(key, span) };
+        }
+        let key = self.header_at(span.start).unwrap_or_else(|| self.key_before(span.start));
+        let message = message.replace('\n', ", ").replace("expected f64", "expected a number");
+        let message = message.replace("expected u32", "expected a whole number, 0 or more");
+        ConfigError::WrongType { place: self.place(key, span), message }
+    }
+
+    /// The name of the table whose header, `[name]` or `[[name]]`, an offset lies in.
+    fn header_at(&self, offset: usize) -> Option<&str> {
+        let line = self.text.lines().nth(self.line(offset) - 1)?.trim_start();
+        let (name, _) = line.strip_prefix('[')?.trim_start_matches('[').split_once(']')?;
+        let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let named = name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_bare);
+        named.then_some(name)
+    }
+
+    /// The key whose value an offset lies in: what stands before the last `=` up to it.
+    fn key_before(&self, offset: usize) -> &str {
+        let before = self.text.get(..offset).unwrap_or(self.text);
+        let key = before.rsplit_once('=').map_or("", |(before_sign, _)| before_sign.trim_end());
+        key.rsplit(['\n', '{', ',']).next().unwrap_or(key).trim()
+    }
+}
+
+/// What a message quotes after a prefix, and the rest of the message.
+fn quoted_after<'m>(message: &'m str, prefix: &str) -> Option<(&'m str, &'m str)> {
+    message.strip_prefix(prefix)?.split_once('`')
+}
