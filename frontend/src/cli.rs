@@ -37,9 +37,9 @@ pub struct SimulateArgs {
     /// Folder for pictures and report; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How many back-ends share the projectors.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
-    pub backends: u32,
+    /// How many back-ends share the projectors; 1 unless a launcher started more.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub backends: Option<u32>,
     /// Which device casts the rays.
     #[arg(long, value_enum, default_value = "auto")]
     pub device: DeviceArg,

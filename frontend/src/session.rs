@@ -55,10 +55,27 @@ pub fn volume_facts(volume: &VolumeRef) -> Result<VolumeFacts, FrontendError> {
     Err(FrontendError::Volume(format!("cannot open {volume:?}: no volume is built in yet")))
 }
 
-/// Starts the back-ends, one for each setup, and gives what draws frames with them.
-pub fn start(setups: Vec<Setup>) -> Result<(Box<dyn FrameSource>, Vec<DeviceInfo>), FrontendError> {
-    let _ = setups;
-    Err(FrontendError::Backend("no renderer is built in yet".to_owned()))
+/// Back-ends that run and wait to be set up.
+pub struct Backends {
+    count: u32,
+}
+
+impl Backends {
+    /// Finds the back-ends that a launcher started, or starts `asked` of them (1 where it is None) in this process.
+    pub fn connect(asked: Option<u32>) -> Result<Self, FrontendError> {
+        Ok(Self { count: asked.unwrap_or(1) })
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Sets them up, one with each setup, and gives what draws frames with them.
+    pub fn start(self, setups: Vec<Setup>) -> Result<(Box<dyn FrameSource>, Vec<DeviceInfo>), FrontendError> {
+        let _ = setups;
+        Err(FrontendError::Backend("no renderer is built in yet".to_owned()))
+    }
 }
 
 /// What an import did.

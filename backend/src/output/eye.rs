@@ -11,6 +11,8 @@ const UNITS_PER_ONE: f64 = (1u64 << 36) as f64;
 const BRIGHTEST: f64 = (1u64 << 24) as f64;
 /// A sample this near to a pixel centre (pixels) is that pixel: coordinates carry rounding of about 1e-12.
 const ALIGNED: f64 = 1e-9;
+/// A sample this far outside a raster (pixels) still belongs to it: its edge carries the calibration's rounding.
+const EDGE_TOLERANCE: f64 = 1e-3;
 
 /// The pixels in which an eye's view of the whole screen is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,7 +130,7 @@ fn bilinear(picture: PictureRef<'_>, at: DVec2) -> Option<[f64; 4]> {
 
 /// The two pixels around a coordinate and the share of the second.
 fn neighbours(coordinate: f64, count: u32) -> Option<(usize, usize, f64)> {
-    let inside = coordinate > -ALIGNED && coordinate < f64::from(count) + ALIGNED;
+    let inside = coordinate > -EDGE_TOLERANCE && coordinate < f64::from(count) + EDGE_TOLERANCE;
     if !inside {
         return None;
     }

@@ -1,12 +1,13 @@
 //! `lightloom simulate`.
 
 use super::{say, warn};
+use crate::FrontendError;
 use crate::cli::SimulateArgs;
 use crate::progress::Progress;
 use crate::report::{self, Report, units};
 use crate::scene::{Scene, VolumeFacts};
+use crate::session::{self, Backends};
 use crate::simulate::{Eye, Job};
-use crate::{FrontendError, session};
 use backend::output::{EyePlan, ScreenRaster};
 use backend::protocol::{FrameState, Setup};
 use display_config::Display;
@@ -19,8 +20,9 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = session::load_display(&args.display)?;
-    let setups = setups(args, &scene, &display)?;
     Job::prepare_output(&args.out)?;
+    let backends = Backends::connect(args.backends)?;
+    let setups = setups(args, &scene, &display, backends.count())?;
     let facts = session::volume_facts(&scene.volume_ref())?;
     let job = Job {
         frames: frames(args, &scene, &display, &facts)?,
@@ -29,7 +31,7 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         out: args.out.clone(),
         exr: args.exr,
     };
-    let (mut source, devices) = session::start(setups)?;
+    let (mut source, devices) = backends.start(setups)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let frames = job.run(source.as_mut(), &mut progress)?;
     source.finish()?;
@@ -39,8 +41,13 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     tell(args, &report)
 }
 
-fn setups(args: &SimulateArgs, scene: &Scene, display: &Display) -> Result<Vec<Setup>, FrontendError> {
-    let shares = session::assignment(display, args.backends)?;
+fn setups(
+    args: &SimulateArgs,
+    scene: &Scene,
+    display: &Display,
+    backends: u32,
+) -> Result<Vec<Setup>, FrontendError> {
+    let shares = session::assignment(display, backends)?;
     let setup = |(backend, projectors): (usize, Vec<u32>)| Setup {
         display: display.clone(),
         projectors,
