@@ -29,6 +29,11 @@ pub enum VolumeSource {
 }
 
 impl VolumeSource {
+    /// The volume of `procedural:NAME[@VOXELS]`; None for anything that does not begin so.
+    pub fn parse_procedural(text: &str) -> Result<Option<Self>, SceneError> {
+        text.strip_prefix(PROCEDURAL).map(Self::procedural).transpose()
+    }
+
     /// The volume of `NAME` or `NAME@VOXELS`, without `procedural:` in front.
     pub(super) fn procedural(text: &str) -> Result<Self, SceneError> {
         let (name, size) = text.split_once('@').map_or((text, None), |(name, size)| (name, Some(size)));
