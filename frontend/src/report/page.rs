@@ -154,13 +154,13 @@ const HEADS: [&str; 11] = [
     "time",
     "rays",
     "samples",
-    "cast",
-    "wanted",
+    "casting",
+    "bricks wanted",
     "resident",
     "loaded",
     "voxels loaded",
-    "working set",
-    "views' sum",
+    "bricks sampled",
+    "views' own, summed",
 ];
 
 fn numbers(report: &Report) -> String {

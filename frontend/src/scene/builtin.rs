@@ -16,13 +16,13 @@ type Points = &'static [(f64, f64, [f64; 3])];
 const SHELLS: Points = &[
     (0.0, 0.0, [0.02, 0.25, 0.75]),
     (0.085, 0.0, [0.02, 0.25, 0.75]),
-    (0.11, 13.0, [0.03, 0.45, 0.85]),
+    (0.11, 7.0, [0.02, 0.4, 0.9]),
     (0.14, 0.0, [0.05, 0.55, 0.7]),
     (0.31, 0.0, [0.35, 0.06, 0.6]),
-    (0.38, 34.0, [0.75, 0.07, 0.5]),
+    (0.38, 20.0, [0.7, 0.03, 0.45]),
     (0.43, 0.0, [0.85, 0.1, 0.35]),
     (0.62, 0.0, [0.95, 0.2, 0.05]),
-    (0.7, 60.0, [1.0, 0.33, 0.04]),
+    (0.7, 45.0, [1.0, 0.26, 0.02]),
     (0.76, 0.0, [1.0, 0.45, 0.06]),
     (0.86, 0.0, [1.0, 0.75, 0.2]),
     (0.93, 220.0, [1.0, 0.85, 0.45]),
@@ -78,7 +78,7 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
         voxel_size_m: None,
         placement: default_placement(&volume),
         look: default_look(&volume),
-        light: Some(Light::default()),
+        light: Some(default_light(&volume)),
         quality: Quality::default(),
         eta: None,
         observer_m: None,
@@ -90,12 +90,27 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
     }
 }
 
+/// Procedural fields are smooth: their shells and vessels need a light that answers to gentle slopes, whatever the
+/// number of voxels that a slope is spread over.
+fn default_light(volume: &VolumeSource) -> Light {
+    match volume {
+        VolumeSource::Store(_) => Light::default(),
+        VolumeSource::Procedural { dims, .. } => Light {
+            ambient: 0.3,
+            diffuse: 0.95,
+            specular: 0.12,
+            gradient_half: 1.5 / f64::from(dims.max_element()),
+            ..Light::default()
+        },
+    }
+}
+
 /// Turned so that there is something to see: into the shells, along the ripples, onto the tree.
 fn default_placement(volume: &VolumeSource) -> Placement {
     let (deg, share) = match procedural_name(volume) {
-        Some("shells") => (DVec3::new(20.0, -35.0, 0.0), 1.0),
-        Some("marschner-lobb") => (DVec3::new(-50.0, 0.0, 0.0), 0.72),
-        Some("sparse-vessels") => (DVec3::new(-90.0, 20.0, 0.0), 0.95),
+        Some("shells") => (DVec3::new(20.0, -35.0, 0.0), 1.3),
+        Some("marschner-lobb") => (DVec3::new(-50.0, 0.0, 0.0), 0.58),
+        Some("sparse-vessels") => (DVec3::new(-90.0, 20.0, 0.0), 0.85),
         _ => (DVec3::ZERO, 0.75),
     };
     let (rotation, size) = (placement::rotation_from_deg(deg), Size::ScreenShare(share));
