@@ -1,1 +1,32 @@
-fn main() {}
+//! `lightloom`: parses the command line, runs the command, and says in one sentence why it could not.
+
+use clap::Parser;
+use frontend::cli::Cli;
+use std::io::Write;
+use std::process::ExitCode;
+use tracing_subscriber::EnvFilter;
+
+fn main() -> ExitCode {
+    let cli = Cli::try_parse().unwrap_or_else(|error| usage(&error));
+    let filter = EnvFilter::try_from_env("LIGHTLOOM_LOG").unwrap_or_else(|_| EnvFilter::new("warn"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    match frontend::command::run(&cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => backend::transport::fail("lightloom", &error.to_string()),
+    }
+}
+
+/// Help goes to standard output; a usage error is a sentence of ours and exit code 2.
+fn usage(error: &clap::Error) -> ! {
+    if error.use_stderr() {
+        complain(error.render().to_string().trim_start_matches("error: ").trim_end());
+    } else {
+        let _ = error.print();
+    }
+    std::process::exit(error.exit_code())
+}
+
+/// Prints on standard error. Unlike `eprintln!` it does not panic where nobody reads it any more.
+fn complain(sentence: &str) {
+    let _ = writeln!(std::io::stderr(), "lightloom: {sentence}");
+}

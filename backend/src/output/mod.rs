@@ -1,1 +1,21 @@
 //! Files a person opens: PNG and EXR pictures, eye views, contact sheets.
+
+mod atomic;
+mod contact_sheet;
+mod error;
+mod exr;
+mod eye;
+mod picture;
+mod png;
+mod psnr;
+mod srgb;
+
+pub use atomic::{can_write_into, write_atomically};
+pub use contact_sheet::ContactSheet;
+pub use error::OutputError;
+pub use exr::write_exr;
+pub use eye::{EyePlan, EyeView, ScreenRaster};
+pub use picture::{Picture, PictureRef};
+pub use png::{encode_png, write_png};
+pub use psnr::ImageDifference;
+pub use srgb::srgb_code;

@@ -1,0 +1,75 @@
+//! The sRGB curve, exactly.
+
+use std::sync::LazyLock;
+
+/// Entries of the table that guesses a code; finer than the steepest part of the curve, so a guess is off by at most one.
+const GUESSES: usize = 4096;
+
+/// `THRESHOLDS[i]` is the smallest linear value whose code is above i.
+static THRESHOLDS: LazyLock<[f32; 255]> =
+    LazyLock::new(|| std::array::from_fn(|i| smallest_above((i as f64 + 0.5) / 255.0)));
+
+/// The code at the low end of each of `GUESSES` equal parts of [0, 1].
+static GUESS: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let code = |x: f32| THRESHOLDS.partition_point(|t| *t <= x) as u8;
+    (0..=GUESSES).map(|i| code(i as f32 / GUESSES as f32)).collect()
+});
+
+/// The 8-bit sRGB code of a linear value: `round(255 · curve(x))`, clamped; NaN is 0.
+pub fn srgb_code(linear: f32) -> u8 {
+    // Not `clamp`: it hands NaN on, while this comparison sends it to black.
+    let x = if linear > 0.0 { linear.min(1.0) } else { 0.0 };
+    let mut code = GUESS[(x * GUESSES as f32) as usize];
+    while usize::from(code) < THRESHOLDS.len() && THRESHOLDS[usize::from(code)] <= x {
+        code += 1;
+    }
+    code
+}
+
+/// The encoding curve of IEC 61966-2-1, from linear to sRGB, on [0, 1].
+fn encode(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The inverse of [`encode`].
+fn decode(encoded: f64) -> f64 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The smallest f32 that encodes to at least `encoded`.
+fn smallest_above(encoded: f64) -> f32 {
+    let mut x = decode(encoded) as f32;
+    while encode(f64::from(x)) >= encoded {
+        x = x.next_down();
+    }
+    while encode(f64::from(x)) < encoded {
+        x = x.next_up();
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn is_the_rounded_curve_everywhere() {
+        for i in 0..=200_000u32 {
+            let x = i as f32 / 200_000.0;
+            let expected = (255.0 * encode(f64::from(x))).round() as u8;
+            assert_eq!(srgb_code(x), expected, "at {x}");
+        }
+    }
+
+    #[test]
+    fn every_code_comes_back_from_its_own_value() {
+        for code in 0..=255u8 {
+            assert_eq!(srgb_code(decode(f64::from(code) / 255.0) as f32), code);
+        }
+    }
+
+    #[test]
+    fn what_is_outside_clamps() {
+        assert_eq!([2.0, f32::INFINITY, -1.0, f32::NAN].map(srgb_code), [255, 255, 0, 0]);
+    }
+}

@@ -1,0 +1,30 @@
+//! The commands: from arguments to what they print.
+
+mod displays;
+mod import;
+mod simulate;
+
+use crate::FrontendError;
+use crate::cli::Command;
+use std::io::Write;
+
+/// Does what the command line asks for.
+pub fn run(command: &Command) -> Result<(), FrontendError> {
+    match command {
+        Command::Simulate(args) => simulate::simulate(args),
+        Command::Import(args) => import::import(args),
+        Command::Displays => displays::displays(),
+    }
+}
+
+/// Prints on standard output. Unlike `println!` it does not panic where nobody reads it any more.
+fn say(text: &str) {
+    let mut out = std::io::stdout().lock();
+    // Whoever closed standard output does not want the rest.
+    let _ = writeln!(out, "{text}").and_then(|()| out.flush());
+}
+
+/// Prints a warning on standard error.
+fn warn(text: &str) {
+    let _ = writeln!(std::io::stderr(), "lightloom: warning: {text}");
+}

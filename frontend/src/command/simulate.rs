@@ -1,0 +1,98 @@
+//! `lightloom simulate`.
+
+use super::{say, warn};
+use crate::FrontendError;
+use crate::cli::SimulateArgs;
+use crate::progress::Progress;
+use crate::report::{self, Report, units};
+use crate::scene::{Scene, VolumeFacts};
+use crate::session::{self, Backends};
+use crate::simulate::{Eye, Job};
+use backend::output::{EyePlan, ScreenRaster};
+use backend::protocol::{FrameState, Setup};
+use display_config::Display;
+use glam::DVec3;
+use std::time::Instant;
+
+/// Renders, writes and reports. All that can be wrong with the arguments is found before any back-end starts.
+pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
+    let started = Instant::now();
+    let mut scene = Scene::load(&args.scene)?;
+    scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
+    let display = session::load_display(&args.display)?;
+    Job::prepare_output(&args.out)?;
+    let backends = Backends::connect(args.backends)?;
+    let setups = setups(args, &scene, &display, backends.count())?;
+    let facts = session::volume_facts(&scene.volume_ref())?;
+    let job = Job {
+        frames: frames(args, &scene, &display, &facts)?,
+        eyes: args.eyes.iter().map(|&eye| eye_before(&display, eye)).collect::<Result<_, _>>()?,
+        display,
+        out: args.out.clone(),
+        exr: args.exr,
+    };
+    let (mut source, devices) = backends.start(setups)?;
+    let mut progress = Progress::new(!args.quiet && !args.json);
+    let frames = job.run(source.as_mut(), &mut progress)?;
+    source.finish()?;
+    drop(progress);
+    let report = Report::new(&scene, &facts, &job, devices, frames, started.elapsed());
+    report::write(&report, &args.out)?;
+    tell(args, &report)
+}
+
+fn setups(
+    args: &SimulateArgs,
+    scene: &Scene,
+    display: &Display,
+    backends: u32,
+) -> Result<Vec<Setup>, FrontendError> {
+    let shares = session::assignment(display, backends)?;
+    let setup = |(backend, projectors): (usize, Vec<u32>)| Setup {
+        display: display.clone(),
+        projectors,
+        backend: backend as u32,
+        volume: scene.volume_ref(),
+        device: args.device.into(),
+        filter: args.filter.into(),
+        cache_bytes: args.cache_mib << 20,
+    };
+    Ok(shares.into_iter().enumerate().map(setup).collect())
+}
+
+fn frames(
+    args: &SimulateArgs,
+    scene: &Scene,
+    display: &Display,
+    facts: &VolumeFacts,
+) -> Result<Vec<FrameState>, FrontendError> {
+    let (first, end) = args.frames.unwrap_or((0, scene.frame_count));
+    if end > scene.frame_count {
+        return Err(FrontendError::Frames { first, end, count: scene.frame_count });
+    }
+    (first..end).map(|index| Ok(scene.frame(index, display, facts)?)).collect()
+}
+
+fn eye_before(display: &Display, position_m: DVec3) -> Result<Eye, FrontendError> {
+    let optics = session::eye_optics(display, position_m)?;
+    let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), optics.weights);
+    Ok(Eye { position_m, plan, warning: optics.warning })
+}
+
+fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {
+    for frame in report.frames.iter().filter(|frame| !frame.total.complete) {
+        warn(&format!("frame {} is not complete: {}", frame.index, frame.total.shortfall.join("; ")));
+    }
+    for warning in report.eyes.iter().filter_map(|eye| eye.warning.as_ref()) {
+        warn(warning);
+    }
+    if args.json {
+        say(&serde_json::to_string_pretty(report)?);
+    } else if !args.quiet {
+        let pictures: usize = report.frames.iter().map(|frame| frame.pictures.len()).sum();
+        let rays = units::count(report.total.rays);
+        let time = units::milliseconds(report.wall_ms);
+        say(&format!("{pictures} pictures, {rays} rays, {time}: {}", args.out.join(report::HTML).display()));
+    }
+    Ok(())
+}

@@ -1,0 +1,47 @@
+//! Why the program cannot do what it was asked to.
+
+use crate::scene::SceneError;
+use backend::output::OutputError;
+
+/// Each is one sentence for the person who started the program.
+#[derive(Debug, thiserror::Error)]
+pub enum FrontendError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The display or an eye before it is wrong; the sentence is the display's.
+    #[error("{0}")]
+    Display(String),
+    /// The volume cannot be opened or imported; the sentence is the store's.
+    #[error("{0}")]
+    Volume(String),
+    /// A back-end cannot go on; the sentence is its own.
+    #[error("{0}")]
+    Backend(String),
+    /// A frame ended without all of its pictures.
+    #[error(
+        "frame {frame} ended without the pictures of projectors {missing:?}; the back-ends that draw them are at fault"
+    )]
+    MissingPictures {
+        /// The frame.
+        frame: u32,
+        /// Indices into the display.
+        missing: Vec<usize>,
+    },
+    /// `--frames` asks for what the scene does not have.
+    #[error("--frames {first}..{end} lies outside the scene's frames 0..{count}; give a part of them")]
+    Frames {
+        /// The first frame asked for.
+        first: u32,
+        /// The frame after the last one asked for.
+        end: u32,
+        /// How many there are.
+        count: u32,
+    },
+    /// The report does not go into JSON.
+    #[error("cannot put the report into JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}

@@ -1,0 +1,12 @@
+//! The program people start: its command line, scenes, simulation and reports.
+
+pub mod cli;
+pub mod command;
+mod error;
+pub mod progress;
+pub mod report;
+pub mod scene;
+pub mod session;
+pub mod simulate;
+
+pub use error::FrontendError;

@@ -1,0 +1,106 @@
+//! The account of one frame.
+
+use backend::protocol::{FrameReport, FrameState, Stages};
+use serde::Serialize;
+use std::time::Duration;
+
+/// One frame: what each back-end tells, and the sums.
+#[derive(Clone, Debug, Serialize)]
+pub struct FrameSummary {
+    /// Frame number.
+    pub index: u32,
+    /// Time on the scene's clock, seconds.
+    pub time_s: f64,
+    /// Wall-clock milliseconds from the start of the frame to the last of its files.
+    pub wall_ms: f64,
+    /// All back-ends together.
+    pub total: Totals,
+    /// Each back-end's own account.
+    pub backends: Vec<FrameReport>,
+    /// Files of the projectors' pictures, from the output folder.
+    pub pictures: Vec<String>,
+    /// Files of the eyes' views, from the output folder.
+    pub eye_views: Vec<String>,
+}
+
+impl FrameSummary {
+    /// The account of a frame that is done.
+    pub fn new(
+        frame: &FrameState,
+        backends: Vec<FrameReport>,
+        wall: Duration,
+        pictures: Vec<String>,
+        eye_views: Vec<String>,
+    ) -> Self {
+        Self {
+            index: frame.index,
+            time_s: frame.time_s,
+            wall_ms: 1e3 * wall.as_secs_f64(),
+            total: Totals::of(&backends),
+            backends,
+            pictures,
+            eye_views,
+        }
+    }
+}
+
+/// Reports added up.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Totals {
+    /// Rays cast.
+    pub rays: u64,
+    /// Samples taken.
+    pub samples: u64,
+    /// Bricks asked for.
+    pub bricks_wanted: u64,
+    /// Bricks in the caches.
+    pub bricks_resident: u64,
+    /// Bricks loaded.
+    pub bricks_loaded: u64,
+    /// Bytes of voxels loaded.
+    pub bytes_loaded: u64,
+    /// Distinct bricks per back-end, added up over back-ends.
+    pub working_set_union: u64,
+    /// Distinct bricks per view, added up over views.
+    pub working_set_sum: u64,
+    /// Time per stage, added up over back-ends.
+    pub stages: Stages,
+    /// Whether nothing was missing anywhere.
+    pub complete: bool,
+    /// Why not, for each back-end that was not complete.
+    pub shortfall: Vec<String>,
+}
+
+impl Totals {
+    /// The sum of some reports; complete where all are.
+    pub fn of<'a>(reports: impl IntoIterator<Item = &'a FrameReport>) -> Self {
+        reports.into_iter().fold(Self { complete: true, ..Self::default() }, Self::plus)
+    }
+
+    fn plus(mut self, report: &FrameReport) -> Self {
+        self.rays += report.rays;
+        self.samples += report.samples;
+        self.bricks_wanted += report.bricks_wanted;
+        self.bricks_resident += report.bricks_resident;
+        self.bricks_loaded += report.bricks_loaded;
+        self.bytes_loaded += report.bytes_loaded;
+        self.working_set_union += report.working_set_union;
+        self.working_set_sum += report.working_set_sum;
+        self.stages = stages_sum(self.stages, report.stages);
+        self.complete &= report.complete;
+        if !report.complete {
+            self.shortfall.push(format!("back-end {}: {}", report.backend, report.shortfall));
+        }
+        self
+    }
+}
+
+fn stages_sum(a: Stages, b: Stages) -> Stages {
+    Stages {
+        refine_ms: a.refine_ms + b.refine_ms,
+        load_ms: a.load_ms + b.load_ms,
+        upload_ms: a.upload_ms + b.upload_ms,
+        cast_ms: a.cast_ms + b.cast_ms,
+        readback_ms: a.readback_ms + b.readback_ms,
+    }
+}

@@ -1,0 +1,119 @@
+//! What scalars look like, before the volume is known.
+
+use super::SceneError;
+use glam::DVec3;
+use shaders::optics::{Curve, CurveError, CurveValue, ExtinctionUnit, Mimda, Optics};
+
+/// A scene's look.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Look {
+    /// In data values, as scene files give it.
+    InDataUnits(DataLook),
+    /// In parts of the volume's value range and size, as the built-in ones are.
+    Relative {
+        /// Optical depth of the volume's longest edge, over the normalised scalar.
+        depth_across: Curve<f64>,
+        /// Linear RGB over the normalised scalar.
+        colour: Curve<DVec3>,
+    },
+}
+
+/// A look over data values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataLook {
+    /// Data values that become s = 0 and 1; None takes the volume's smallest and largest.
+    pub domain: Option<(f64, f64)>,
+    /// Extinction over data values.
+    pub extinction: Curve<f64>,
+    /// What the extinction is per.
+    pub extinction_unit: ExtinctionUnit,
+    /// Linear RGB over data values.
+    pub colour: Curve<DVec3>,
+    /// Importance accumulation, its curve over data values.
+    pub mimda: Option<Mimda>,
+}
+
+impl Look {
+    /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display.
+    pub fn optics(&self, value_range: (f64, f64), longest_m: f64) -> Result<Optics, SceneError> {
+        let result = match self {
+            Look::InDataUnits(look) => look.optics(value_range),
+            Look::Relative { depth_across, colour } => {
+                let per_metre =
+                    depth_across.points().iter().map(|&(s, depth)| (s, depth / longest_m)).collect();
+                Curve::new(per_metre).map_err(|e| e.to_string()).map(|extinction| Optics {
+                    domain: interval(value_range),
+                    extinction,
+                    extinction_unit: ExtinctionUnit::PerMetre,
+                    colour: colour.clone(),
+                    mimda: None,
+                })
+            }
+        };
+        let optics = result.and_then(|optics| optics.check().map_err(|e| e.to_string()).map(|()| optics));
+        optics.map_err(|reason| SceneError::Look { low: value_range.0, high: value_range.1, reason })
+    }
+}
+
+impl DataLook {
+    fn optics(&self, value_range: (f64, f64)) -> Result<Optics, String> {
+        let domain = self.domain.unwrap_or_else(|| interval(value_range));
+        let mimda = match &self.mimda {
+            None => None,
+            Some(mimda) => {
+                let importance =
+                    normalised(&mimda.importance, domain).map_err(|e| format!("importance: {e}"))?;
+                Some(Mimda { importance, ..mimda.clone() })
+            }
+        };
+        Ok(Optics {
+            domain,
+            extinction: normalised(&self.extinction, domain).map_err(|e| format!("extinction: {e}"))?,
+            extinction_unit: self.extinction_unit,
+            colour: normalised(&self.colour, domain).map_err(|e| format!("colour: {e}"))?,
+            mimda,
+        })
+    }
+}
+
+/// A curve over data values as one over s.
+fn normalised<V: CurveValue>(curve: &Curve<V>, (low, high): (f64, f64)) -> Result<Curve<V>, CurveError> {
+    Curve::new(curve.points().iter().map(|&(value, v)| ((value - low) / (high - low), v)).collect())
+}
+
+/// A value range as a rising interval: a volume of one value lies in the middle of a unit interval.
+fn interval((low, high): (f64, f64)) -> (f64, f64) {
+    if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn look(domain: Option<(f64, f64)>) -> Look {
+        Look::InDataUnits(DataLook {
+            domain,
+            extinction: Curve::new(vec![(-500.0, 0.0), (500.0, 10.0)]).unwrap(),
+            extinction_unit: ExtinctionUnit::PerMetre,
+            colour: Curve::constant(DVec3::ONE),
+            mimda: None,
+        })
+    }
+
+    #[test]
+    fn a_data_value_keeps_its_look_in_any_domain() {
+        for domain in [None, Some((-1000.0, 1000.0)), Some((0.0, 100.0))] {
+            let optics = look(domain).optics((-1024.0, 3033.0), 0.7).unwrap();
+            let at = |v: f64| optics.extinction.at(optics.normalise(v));
+            assert!((at(50.0) - 5.5).abs() < 1e-9, "{domain:?}");
+        }
+    }
+
+    #[test]
+    fn a_constant_volume_and_a_broken_one() {
+        let domain = look(None).optics((7.0, 7.0), 0.7).unwrap().domain;
+        assert_eq!(domain, (6.5, 7.5));
+        let error = look(None).optics((0.0, f64::INFINITY), 0.7).unwrap_err().to_string();
+        assert!(error.contains("domain") || error.contains("finite"), "{error}");
+    }
+}

@@ -1,0 +1,93 @@
+//! Where a volume floats.
+
+use super::VolumeAxes;
+use display_config::Display;
+use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
+
+/// How large a volume is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// Its longest edge, metres.
+    LongestM(f64),
+    /// Metres of the display per metre of the data.
+    Scale(f64),
+    /// Its longest edge as a part of the screen's shorter one: the default, on any display.
+    ScreenShare(f64),
+}
+
+/// Place, turn and size of a volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Where its centre is, display frame, metres.
+    pub centre_m: DVec3,
+    /// Its turn about the centre, after the axes were laid out.
+    pub rotation: DQuat,
+    /// Which way it stands.
+    pub axes: VolumeAxes,
+    /// Its size.
+    pub size: Size,
+}
+
+impl Default for Placement {
+    /// In the middle of the screen, half before it, three quarters of it high.
+    fn default() -> Self {
+        let (axes, size) = (VolumeAxes::default(), Size::ScreenShare(0.75));
+        Self { centre_m: DVec3::ZERO, rotation: DQuat::IDENTITY, axes, size }
+    }
+}
+
+impl Placement {
+    /// Metres of the display per metre of the data, for data of `extent_m`.
+    pub fn scale(&self, extent_m: DVec3, display: &Display) -> f64 {
+        match self.size {
+            Size::Scale(scale) => scale,
+            Size::LongestM(longest_m) => longest_m / extent_m.max_element(),
+            Size::ScreenShare(share) => {
+                share * display.width_m.min(display.height_m) / extent_m.max_element()
+            }
+        }
+    }
+
+    /// Volume frame (voxels of `spacing_m`) to display frame; the volume's centre goes to `centre_m`.
+    pub fn display_from_volume(&self, dims: UVec3, spacing_m: DVec3, scale: f64) -> DAffine3 {
+        let turn = DMat3::from_quat(self.rotation) * self.axes.display_from_volume();
+        let linear = turn * DMat3::from_diagonal(spacing_m * scale);
+        let centre_in_volume = 0.5 * dims.as_dvec3();
+        DAffine3::from_mat3_translation(linear, self.centre_m - linear * centre_in_volume)
+    }
+}
+
+/// Degrees about the display's x, then y, then z axis.
+pub(super) fn rotation_from_deg(deg: DVec3) -> DQuat {
+    let about = |axis, deg: f64| DQuat::from_axis_angle(axis, deg.to_radians());
+    about(DVec3::Z, deg.z) * about(DVec3::Y, deg.y) * about(DVec3::X, deg.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DIMS: UVec3 = UVec3::new(256, 256, 108);
+    const SPACING_M: DVec3 = DVec3::new(0.957e-3, 0.957e-3, 1.5e-3);
+
+    #[test]
+    fn the_centre_stays_and_the_spacing_counts() {
+        let place = Placement {
+            centre_m: DVec3::new(0.1, 0.2, 0.3),
+            size: Size::LongestM(0.7),
+            ..Default::default()
+        };
+        let extent_m = DIMS.as_dvec3() * SPACING_M;
+        let map = place.display_from_volume(DIMS, SPACING_M, 0.7 / extent_m.max_element());
+        assert!((map.transform_point3(0.5 * DIMS.as_dvec3()) - place.centre_m).length() < 1e-15);
+        let edge = |axis: DVec3| map.transform_vector3(axis * DIMS.as_dvec3()).length();
+        assert!((edge(DVec3::X) - 0.7).abs() < 1e-12);
+        assert!((edge(DVec3::Z) / edge(DVec3::X) - 108.0 * 1.5 / (256.0 * 0.957)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn rotations_turn_about_x_before_y() {
+        let turned = rotation_from_deg(DVec3::new(90.0, 90.0, 0.0)) * DVec3::Y;
+        assert!((turned - DVec3::X).length() < 1e-12, "{turned}");
+    }
+}

@@ -1,0 +1,148 @@
+//! Laws of scenes and of what they refuse.
+
+use super::text::SceneText;
+use super::*;
+use display_config::{Homography, Projector, Raster};
+use glam::{DMat3, UVec3};
+
+fn display() -> Display {
+    let raster = Raster { width: 8, height: 6, screen_from_pixel: Homography(DMat3::IDENTITY), output: None };
+    let projector =
+        Projector { name: "p".into(), centre_in_display: DVec3::new(0.0, 0.0, -6.0), raster, backend: 0 };
+    Display {
+        name: "test".into(),
+        width_m: 1.6,
+        height_m: 0.9,
+        pixel_size_m: 1.5e-3,
+        angular_accuracy: 0.014,
+        observer_in_display: DVec3::new(0.0, 0.0, 3.0),
+        eta: 1.0,
+        projectors: vec![projector],
+    }
+}
+
+const FACTS: VolumeFacts = VolumeFacts {
+    dims: UVec3::new(256, 256, 108),
+    voxel_size_m: DVec3::new(0.957e-3, 0.957e-3, 1.5e-3),
+    value_range: (-1024.0, 3033.0),
+};
+
+fn read(text: &str) -> Result<Scene, SceneError> {
+    read::scene_from_text(&SceneText { file: "a.toml".into(), text: text.into() }, "a", Path::new(""))
+}
+
+fn refusal(text: &str) -> String {
+    let said = read(text).unwrap_err().to_string();
+    assert!(!said.contains('\n'), "not one sentence: {said}");
+    said
+}
+
+const OPTICS: &str = "[volume]\nsource = 'a.lloom'\n[optics]\nextinction_unit = 'per_metre'\n";
+
+#[test]
+fn the_examples_are_scenes() {
+    for (name, text) in [
+        ("shells", include_str!("../../scenes/shells.toml")),
+        ("cranium", include_str!("../../scenes/cranium.toml")),
+    ] {
+        let scene = read(text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        for index in 0..scene.frame_count {
+            scene.frame(index, &display(), &FACTS).unwrap_or_else(|e| panic!("{name}: {e}"));
+        }
+    }
+}
+
+#[test]
+fn every_built_in_name_is_a_scene() {
+    for name in PROCEDURAL_NAMES {
+        let scene = Scene::load(&format!("procedural:{name}@128")).unwrap();
+        let facts = VolumeFacts { value_range: (0.0, 1.0), dims: UVec3::splat(128), ..FACTS };
+        let frame = scene.frame(0, &display(), &facts).unwrap();
+        assert!(!frame.optics.is_empty_on(0.0, 1.0));
+        assert!(
+            matches!(scene.volume_ref(), VolumeRef::Procedural { dims, .. } if dims == UVec3::splat(128))
+        );
+    }
+}
+
+#[test]
+fn arguments_that_are_no_scenes_are_named() {
+    for (argument, word) in [
+        ("procedural:shell", "shells"),
+        ("procedural:shells@0", "@"),
+        ("procedural:shells@big", "big"),
+        ("head.nii", "head.nii"),
+        ("/nowhere/a.toml", "/nowhere/a.toml"),
+        ("/nowhere/a.lloom", "lightloom import"),
+    ] {
+        let said = Scene::load(argument).unwrap_err().to_string();
+        assert!(said.contains(word), "{said}");
+    }
+}
+
+#[test]
+fn a_head_stands_upright_at_its_size() {
+    let scene = read(
+        "[volume]\nsource='a.lloom'\n[placement]\ncentre_m=[0.1,0,0.2]\nlongest_m=0.7\nup='+z'\nfront='-y'\n",
+    )
+    .unwrap();
+    let map = scene.frame(0, &display(), &FACTS).unwrap().display_from_volume;
+    assert!((map.transform_point3(0.5 * FACTS.dims.as_dvec3()) - DVec3::new(0.1, 0.0, 0.2)).length() < 1e-15);
+    let up = map.transform_vector3(DVec3::new(0.0, 0.0, 108.0));
+    assert!(up.y > 0.0 && up.x.abs() < 1e-15 && up.z.abs() < 1e-15);
+    assert!((map.transform_vector3(DVec3::new(256.0, 0.0, 0.0)).length() - 0.7).abs() < 1e-12);
+}
+
+#[test]
+fn keyframes_move_what_they_name_and_nothing_else() {
+    let scene = read(
+        "[volume]\nsource='a.lloom'\n[placement]\nscale=1\ncentre_m=[0,0,0.5]\n[frames]\ncount=3\nrate_hz=2\n\
+         [[keyframe]]\ntime_s=0\nobserver_m=[-1,0,3]\n[[keyframe]]\ntime_s=1\nobserver_m=[1,0,3]\n",
+    )
+    .unwrap();
+    let frame = |index| scene.frame(index, &display(), &FACTS).unwrap();
+    assert_eq!(frame(1).observer_in_display, DVec3::new(0.0, 0.0, 3.0));
+    assert_eq!(frame(2).observer_in_display.x, 1.0);
+    assert_eq!(frame(0).display_from_volume, frame(2).display_from_volume);
+    assert_eq!(frame(1).time_s, 0.5);
+}
+
+#[test]
+fn what_is_wrong_is_said_with_line_and_key() {
+    let points = "extinction = [\n[0, 0],\n[5, nan],\n]\ncolour = [[0, 1, 1, 1]]\n";
+    assert_eq!(
+        refusal(&format!("{OPTICS}{points}")),
+        "a.toml, line 7: `optics.extinction`: control point 1 is not a finite number, or is negative; correct that point"
+    );
+    let said = refusal(&format!("{OPTICS}extinction = [[5, 0], [2, 1]]\ncolour = [[0, 1, 1, 1]]\n"));
+    assert!(said.starts_with("a.toml, line 5: `optics.extinction`: control point 1 lies before"), "{said}");
+    let said = refusal(&format!("{OPTICS}extinction = [[5, 0]]\ncolour = [[0, 1, 1]]\n"));
+    assert!(said.starts_with("a.toml, line 6: `optics.colour`: a point has 3 numbers; give 4"), "{said}");
+    let said = refusal("[volume]\nsource = 'a.lloom'\ncolor = 3\n");
+    assert!(said.starts_with("a.toml, line 3: `volume.color`: unknown field"), "{said}");
+    let said = refusal("[volume]\nsource = 3\n");
+    assert!(said.starts_with("a.toml, line 2: `volume.source`: "), "{said}");
+}
+
+#[test]
+fn impossible_values_are_refused() {
+    let volume = "[volume]\nsource = 'a.lloom'\n";
+    for (rest, place) in [
+        ("[placement]\nlongest_m=1\nscale=2\n", "line 5: `placement.scale`"),
+        ("[placement]\ncentre_m=[0,0,0]\n", "line 3: `placement`"),
+        ("[placement]\nscale=1\nup='+z'\n", "line 5: `placement.up`"),
+        ("[placement]\nscale=-1\n", "line 4: `placement.scale`"),
+        ("[display]\neta=1.5\n", "line 4: `display.eta`"),
+        ("[display]\nobserver_m=[0,0,-3]\n", "line 4: `display.observer_m`"),
+        ("[light]\ntoward=[0,0,0]\n", "line 4: `light.toward`"),
+        ("[mimda]\ngamma=1\n", "line 3: `mimda`"),
+        ("[frames]\ncount=0\n", "line 4: `frames.count`"),
+        ("[[keyframe]]\ntime_s=1\n[[keyframe]]\ntime_s=1\n", "line 6: `keyframe.time_s`"),
+        ("[[keyframe]]\ntime_s=1\ntool_tip_m=[0,0,1]\n", "line 5: `keyframe.tool_tip_m`"),
+        ("[quality]\nstep_voxels=0\n", "line 4: `quality.step_voxels`"),
+        ("this is not toml\n", "line 3"),
+    ] {
+        let said = refusal(&format!("{volume}{rest}"));
+        assert!(said.contains(place), "{said}");
+    }
+}

@@ -1,0 +1,227 @@
+//! Where the front-end meets what it drives: displays, volumes, importers and back-ends.
+//!
+//! Everything that the commands need from elsewhere passes through this file and no other.
+
+use crate::FrontendError;
+use crate::cli::{BitsArg, CodecArg, EndianArg, ImportArgs};
+use crate::progress::Progress;
+use crate::scene::{VolumeFacts, VolumeSource};
+use crate::simulate::{Event, FrameSource};
+use backend::protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
+use backend::store::{self, BrickSource, BuildOptions, CodeBits, Codec, ImportOptions, Store};
+use backend::transport::{EventKind, Launch, Limits, Link, Session, launch, open_renderer, threads};
+use backend::volume::procedural::ProceduralVolume;
+use backend::volume::{ByteOrder, Element, RawLayout};
+use display_config::{Display, EyeModel};
+use glam::{DVec2, DVec3, UVec3};
+use serde::Serialize;
+use std::cell::RefCell;
+
+/// The displays that come with the program: name, and a line about each.
+pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
+    let about = |name: &str| {
+        let display = load_display(name)?;
+        let (count, (w, h)) = (display.projectors.len(), (display.width_m, display.height_m));
+        Ok((name.to_owned(), format!("{count} projectors on a screen of {w:.2} × {h:.2} m")))
+    };
+    display_config::presets().iter().map(|(name, _)| about(name)).collect()
+}
+
+/// A preset by its name, or the display in a file.
+pub fn load_display(name_or_path: &str) -> Result<Display, FrontendError> {
+    Display::load(name_or_path).map_err(|e| FrontendError::Display(e.to_string()))
+}
+
+/// What an eye sees of a display, before any picture is drawn.
+pub struct EyeOptics {
+    /// (projector, weight) pairs at a screen point, metres; they add to 1 where there are any.
+    pub weights: Box<dyn Fn(DVec2) -> Vec<(usize, f64)>>,
+    /// Where the eye is outside the viewing zone: a sentence that says so.
+    pub warning: Option<String>,
+}
+
+/// The optics of an eye, metres in the display frame.
+pub fn eye_optics(display: &Display, eye_m: DVec3) -> Result<EyeOptics, FrontendError> {
+    let model = EyeModel::new(display, eye_m).map_err(|e| FrontendError::Display(e.to_string()))?;
+    let warning = model.outside_zone();
+    Ok(EyeOptics { weights: Box::new(move |screen| model.weights(screen)), warning })
+}
+
+/// A map from screen metres to a projector's pixel coordinates; None where the raster is singular.
+pub fn pixel_from_screen(
+    display: &Display,
+    projector: usize,
+) -> Option<impl Fn(DVec2) -> Option<DVec2> + use<>> {
+    let inverse = display.projectors.get(projector)?.raster.inverse()?;
+    Some(move |screen| inverse.pixel(screen))
+}
+
+/// Opens a volume just to learn what it is.
+pub fn volume_facts(volume: &VolumeRef) -> Result<VolumeFacts, FrontendError> {
+    let wrong = |sentence: String| FrontendError::Volume(sentence);
+    let open: Box<dyn BrickSource> = match volume {
+        VolumeRef::Store(path) => Box::new(Store::open(path).map_err(|e| wrong(e.to_string()))?),
+        VolumeRef::Procedural { name, dims, voxel_size_m } => {
+            let volume =
+                ProceduralVolume::new(name, *dims, voxel_size_m.x).map_err(|e| wrong(e.to_string()))?;
+            Box::new(volume)
+        }
+    };
+    Ok(VolumeFacts::of(open.as_ref()))
+}
+
+/// Back-ends that run and wait to be set up.
+pub struct Backends {
+    link: Box<dyn Link>,
+}
+
+impl Backends {
+    /// Finds the back-ends that a launcher started, or starts `asked` of them (1 where it is None) in this process.
+    pub fn connect(asked: Option<u32>) -> Result<Self, FrontendError> {
+        let link = match launch().map_err(FrontendError::Backend)? {
+            Launch::OneProcess => Box::new(
+                threads::spawn(asked.unwrap_or(1) as usize, open_renderer)
+                    .map_err(|e| FrontendError::Backend(e.to_string()))?,
+            ),
+            Launch::Cluster => cluster_link()?,
+        };
+        Ok(Self { link })
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u32 {
+        self.link.backends() as u32
+    }
+
+    /// Sets them up, one with each setup, and gives what draws frames with them.
+    pub fn start(self, setups: Vec<Setup>) -> Result<(Box<dyn FrameSource>, Vec<DeviceInfo>), FrontendError> {
+        let session = Session::start(self.link, setups, Limits::default());
+        let session = session.map_err(|e| FrontendError::Backend(e.to_string()))?;
+        let devices = session.devices().to_vec();
+        Ok((Box::new(session), devices))
+    }
+}
+
+#[cfg(feature = "mpi")]
+fn cluster_link() -> Result<Box<dyn Link>, FrontendError> {
+    let link = backend::transport::cluster::connect().map_err(|e| FrontendError::Backend(e.to_string()))?;
+    Ok(Box::new(link))
+}
+
+#[cfg(not(feature = "mpi"))]
+fn cluster_link() -> Result<Box<dyn Link>, FrontendError> {
+    Err(FrontendError::Backend(
+        "this lightloom was built without MPI; build it with `--features mpi`".to_owned(),
+    ))
+}
+
+impl FrameSource for Session {
+    fn render(
+        &mut self,
+        frame: &FrameState,
+        on_event: &mut dyn FnMut(Event),
+    ) -> Result<Vec<FrameReport>, FrontendError> {
+        let reports = Session::render(self, frame, &mut |event| {
+            on_event(match event.kind {
+                EventKind::Progress { done, total } => {
+                    Event::Progress { backend: event.backend, done, total }
+                }
+                EventKind::Image(image) => Event::Image(image),
+            });
+        });
+        reports.map_err(|e| FrontendError::Backend(e.to_string()))
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), FrontendError> {
+        Session::finish(*self).map_err(|e| FrontendError::Backend(e.to_string()))
+    }
+}
+
+/// What an import did.
+#[derive(Clone, Debug, Serialize)]
+pub struct ImportSummary {
+    /// Voxels along each axis.
+    pub dims: UVec3,
+    /// Bytes of the source's voxels.
+    pub source_bytes: u64,
+    /// Bytes of the store.
+    pub store_bytes: u64,
+    /// Bricks that hold anything.
+    pub stored_bricks: u64,
+    /// Smallest and largest value.
+    pub value_range: (f64, f64),
+    /// Root mean square of the store's error, data units.
+    pub rms_error: f64,
+    /// Largest error, data units.
+    pub max_error: f64,
+    /// Voxels that were not finite, and were replaced.
+    pub non_finite: u64,
+    /// Time it took, milliseconds.
+    pub total_ms: f64,
+}
+
+/// Makes a store from a volume file or a procedural volume.
+pub fn import(args: &ImportArgs, progress: Progress) -> Result<ImportSummary, FrontendError> {
+    let (input, options) = import_options(args)?;
+    let progress = RefCell::new(progress);
+    let show = |done: u64, total: u64| {
+        progress.borrow_mut().set(done as f64 / total.max(1) as f64, "slabs");
+    };
+    let report = store::import(&input, raw_layout(args)?, &args.output, &options, &show)
+        .map_err(|e| FrontendError::Volume(e.to_string()))?;
+    Ok(ImportSummary {
+        dims: report.dims,
+        source_bytes: report.source_bytes,
+        store_bytes: report.store_bytes,
+        stored_bricks: report.stored_bricks,
+        value_range: report.value_range,
+        rms_error: report.rms_error,
+        max_error: report.max_error,
+        non_finite: report.non_finite,
+        total_ms: 1e3 * report.duration.as_secs_f64(),
+    })
+}
+
+/// The input as the importer wants it: without the `@VOXELS` of a procedural volume, which goes into the options.
+fn import_options(args: &ImportArgs) -> Result<(String, ImportOptions), FrontendError> {
+    let bits = match args.bits {
+        BitsArg::Eight => CodeBits::Eight,
+        BitsArg::Sixteen => CodeBits::Sixteen,
+    };
+    let codec = match args.codec {
+        CodecArg::Lz4 => Codec::Lz4,
+        CodecArg::None => Codec::None,
+    };
+    let mut options = ImportOptions {
+        build: BuildOptions { bits, codec, ..BuildOptions::default() },
+        ..ImportOptions::default()
+    };
+    let mut input = args.input.to_string_lossy().into_owned();
+    if let Some(VolumeSource::Procedural { name, dims }) = VolumeSource::parse_procedural(&input)? {
+        options.procedural_dims = dims;
+        input = format!("{}{name}", store::PROCEDURAL_PREFIX);
+    }
+    Ok((input, options))
+}
+
+fn raw_layout(args: &ImportArgs) -> Result<Option<RawLayout>, FrontendError> {
+    let (Some(dims), Some(element)) = (args.raw.dims, &args.raw.element) else { return Ok(None) };
+    let unknown = || {
+        FrontendError::Volume(format!("`{element}` is no voxel type; give uint8, int16, float or the like"))
+    };
+    Ok(Some(RawLayout {
+        dims,
+        element: Element::from_name(element).ok_or_else(unknown)?,
+        byte_order: match args.raw.endian {
+            EndianArg::Little => ByteOrder::Little,
+            EndianArg::Big => ByteOrder::Big,
+        },
+        spacing_mm: args.raw.spacing_mm,
+        header_skip_bytes: args.raw.skip_bytes,
+    }))
+}
+
+/// Which projectors each of `backends` back-ends drives: shares as even as can be, neighbours together.
+pub fn assignment(display: &Display, backends: u32) -> Result<Vec<Vec<u32>>, FrontendError> {
+    display.assign(backends as usize).map_err(|e| FrontendError::Display(e.to_string()))
+}

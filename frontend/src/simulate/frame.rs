@@ -1,0 +1,115 @@
+//! One frame of a run.
+
+use super::pictures::FramePictures;
+use super::{CONTACT_SHEET, Event, FrameSource, Job};
+use crate::FrontendError;
+use crate::report::FrameSummary;
+use backend::output::{EyePlan, OutputError};
+use backend::protocol::{FrameReport, FrameState, ProjectorImage};
+use glam::DVec3;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// Pictures that may wait for a writer: more would only take memory.
+const WAITING_PICTURES: usize = 2;
+/// Writers at most; a renderer on the same machine wants the cores too.
+const MOST_WRITERS: usize = 4;
+
+/// An eye before the display.
+pub struct Eye {
+    /// Where it is, display frame, metres.
+    pub position_m: DVec3,
+    /// What it sees of which projector.
+    pub plan: EyePlan,
+    /// Where it is outside the viewing zone: a sentence that says so.
+    pub warning: Option<String>,
+}
+
+impl Job {
+    /// Draws a frame into its folder and gives its account. `show` is told the part that is done, 0 to 1.
+    pub(super) fn draw(
+        &self,
+        source: &mut dyn FrameSource,
+        frame: &FrameState,
+        is_first: bool,
+        show: &mut dyn FnMut(f64),
+    ) -> Result<FrameSummary, FrontendError> {
+        let started = Instant::now();
+        let folder = PathBuf::from(format!("frame-{:04}", frame.index));
+        let path = self.out.join(&folder);
+        std::fs::create_dir_all(&path).map_err(|source| OutputError::Write { path: path.clone(), source })?;
+        let pictures = FramePictures::new(self, &path);
+        let reports = render_and_write(source, frame, &pictures, show)?;
+        pictures.finish(frame.index)?;
+        self.write_sheets(&pictures, &path, is_first)?;
+        let name = |name: String| folder.join(name).to_string_lossy().into_owned();
+        Ok(FrameSummary::new(
+            frame,
+            reports,
+            started.elapsed(),
+            (0..self.display.projectors.len()).map(|p| name(pictures.projector_file(p, "png"))).collect(),
+            (0..self.eyes.len()).map(|eye| name(FramePictures::eye_file(eye, "png"))).collect(),
+        ))
+    }
+
+    fn write_sheets(
+        &self,
+        pictures: &FramePictures<'_>,
+        folder: &Path,
+        is_first: bool,
+    ) -> Result<(), OutputError> {
+        if is_first {
+            pictures.write_sheet(&self.out.join(CONTACT_SHEET))?;
+        }
+        if self.frames.len() > 1 {
+            pictures.write_sheet(&folder.join(CONTACT_SHEET))?;
+        }
+        Ok(())
+    }
+}
+
+/// Renders on this thread while others write. A failed write lets the frame end first: back-ends know no half frames.
+fn render_and_write(
+    source: &mut dyn FrameSource,
+    frame: &FrameState,
+    pictures: &FramePictures<'_>,
+    show: &mut dyn FnMut(f64),
+) -> Result<Vec<FrameReport>, FrontendError> {
+    let (send, receive) = sync_channel::<ProjectorImage>(WAITING_PICTURES);
+    let receive = Mutex::new(receive);
+    let writers = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_WRITERS);
+    let reports = std::thread::scope(|scope| {
+        for _ in 0..writers {
+            scope.spawn(|| write_all(&receive, pictures));
+        }
+        let mut parts = Vec::new();
+        let reports = source.render(frame, &mut |event| match event {
+            Event::Progress { backend, done, total } => show(part_done(&mut parts, backend, done, total)),
+            // Sending fails only where all writers are gone: then the picture is missed, and said to be, at the end.
+            Event::Image(image) => drop(send.send(image)),
+        });
+        drop(send);
+        reports
+    })?;
+    show(1.0);
+    Ok(reports)
+}
+
+fn write_all(receive: &Mutex<Receiver<ProjectorImage>>, pictures: &FramePictures<'_>) {
+    let next = || receive.lock().unwrap_or_else(PoisonError::into_inner).recv();
+    while let Ok(image) = next() {
+        pictures.take(&image);
+    }
+}
+
+/// The part of all back-ends' rays that is final, as far as they have told.
+fn part_done(parts: &mut Vec<(u64, u64)>, backend: usize, done: u64, total: u64) -> f64 {
+    if parts.len() <= backend {
+        parts.resize(backend + 1, (0, 0));
+    }
+    parts[backend] = (done, total);
+    let (done, total) = parts.iter().fold((0, 0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+    done as f64 / total.max(1) as f64
+}

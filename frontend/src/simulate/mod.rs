@@ -1,0 +1,81 @@
+//! A run: frames are drawn, their pictures become files, and a report tells how it went.
+
+mod frame;
+mod pictures;
+mod source;
+
+pub use frame::Eye;
+pub use source::{Event, FrameSource};
+
+use crate::FrontendError;
+use crate::progress::Progress;
+use crate::report::{EyeSummary, FrameSummary};
+use backend::output::can_write_into;
+use backend::protocol::FrameState;
+use display_config::Display;
+use std::path::PathBuf;
+
+/// The contact sheet of the first frame, in the output folder.
+pub const CONTACT_SHEET: &str = "contact-sheet.png";
+
+/// All that a run needs besides the thing that draws.
+pub struct Job {
+    /// The display.
+    pub display: Display,
+    /// The frames, in order.
+    pub frames: Vec<FrameState>,
+    /// The eyes whose views are wanted.
+    pub eyes: Vec<Eye>,
+    /// The output folder.
+    pub out: PathBuf,
+    /// Whether linear OpenEXR pictures are wanted too.
+    pub exr: bool,
+}
+
+impl Job {
+    /// Makes the output folder, tries to write in it, and takes away what an earlier run said of itself: it would
+    /// describe other pictures. Call it before anything takes long.
+    pub fn prepare_output(out: &std::path::Path) -> Result<(), FrontendError> {
+        can_write_into(out)?;
+        for name in [CONTACT_SHEET, crate::report::JSON, crate::report::HTML] {
+            let path = out.join(name);
+            match std::fs::remove_file(&path) {
+                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(backend::output::OutputError::Write { path, source }.into());
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws all frames. Pictures are files as soon as they are final; after a failure those that are there are whole.
+    pub fn run(
+        &self,
+        source: &mut dyn FrameSource,
+        progress: &mut Progress,
+    ) -> Result<Vec<FrameSummary>, FrontendError> {
+        let mut summaries = Vec::with_capacity(self.frames.len());
+        for (place, frame) in self.frames.iter().enumerate() {
+            let mut show = |part: f64| {
+                let whole = (place as f64 + part) / self.frames.len() as f64;
+                progress.set(whole, &format!("frame {} of {}", place + 1, self.frames.len()));
+            };
+            summaries.push(self.draw(source, frame, place == 0, &mut show)?);
+        }
+        Ok(summaries)
+    }
+
+    /// What the report says of the eyes.
+    pub fn eye_summaries(&self) -> Vec<EyeSummary> {
+        let summary = |eye: &Eye| EyeSummary {
+            position_m: eye.position_m.to_array(),
+            projectors_seen: eye.plan.projectors_seen(),
+            warning: eye.warning.clone(),
+        };
+        self.eyes.iter().map(summary).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

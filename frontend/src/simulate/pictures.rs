@@ -1,0 +1,116 @@
+//! The pictures of one frame on their way to files, sheets and eyes.
+
+use super::Job;
+use crate::FrontendError;
+use crate::session::pixel_from_screen;
+use backend::output::{ContactSheet, EyeView, OutputError, Picture, PictureRef, write_exr, write_png};
+use backend::protocol::ProjectorImage;
+use display_config::Display;
+use glam::DVec2;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Takes pictures from several threads, in any order, and keeps none of them.
+pub(super) struct FramePictures<'a> {
+    job: &'a Job,
+    folder: PathBuf,
+    sheet: Mutex<ContactSheet>,
+    eyes: Vec<Mutex<EyeView<'a>>>,
+    /// Which projectors' pictures have come.
+    seen: Mutex<Vec<bool>>,
+    /// The first failure.
+    failure: Mutex<Option<OutputError>>,
+}
+
+impl<'a> FramePictures<'a> {
+    pub fn new(job: &'a Job, folder: &Path) -> Self {
+        let count = job.display.projectors.len();
+        Self {
+            job,
+            folder: folder.to_owned(),
+            sheet: Mutex::new(ContactSheet::new(count as u32, shown_aspect(&job.display))),
+            eyes: job.eyes.iter().map(|eye| Mutex::new(EyeView::new(&eye.plan))).collect(),
+            seen: Mutex::new(vec![false; count]),
+            failure: Mutex::new(None),
+        }
+    }
+
+    /// A projector's file; numbers have as many digits as the largest.
+    pub fn projector_file(&self, projector: usize, extension: &str) -> String {
+        let digits = self.job.display.projectors.len().saturating_sub(1).to_string().len().max(2);
+        format!("projector-{projector:0digits$}.{extension}")
+    }
+
+    /// An eye's file.
+    pub fn eye_file(eye: usize, extension: &str) -> String {
+        format!("eye-{eye}.{extension}")
+    }
+
+    /// Writes a picture and adds it to sheet and eyes; after a first failure nothing more is written.
+    pub fn take(&self, image: &ProjectorImage) {
+        if hold(&self.failure).is_some() {
+            return;
+        }
+        if let Err(error) = self.try_take(image) {
+            hold(&self.failure).get_or_insert(error);
+        }
+    }
+
+    fn try_take(&self, image: &ProjectorImage) -> Result<(), OutputError> {
+        let projector = image.projector as usize;
+        let picture = PictureRef::of(image)?;
+        if projector >= self.job.display.projectors.len() {
+            return Ok(());
+        }
+        self.write(picture, |extension| self.projector_file(projector, extension))?;
+        hold(&self.sheet).add(image.projector, picture);
+        if let Some(pixel) = pixel_from_screen(&self.job.display, projector) {
+            self.eyes.iter().try_for_each(|eye| hold(eye).add_image(image, &pixel))?;
+        }
+        hold(&self.seen)[projector] = true;
+        Ok(())
+    }
+
+    fn write(&self, picture: PictureRef<'_>, name: impl Fn(&str) -> String) -> Result<(), OutputError> {
+        write_png(&self.folder.join(name("png")), picture)?;
+        if self.job.exr { write_exr(&self.folder.join(name("exr")), picture) } else { Ok(()) }
+    }
+
+    /// All pictures have come: writes the eyes' views, or says what is missing.
+    pub fn finish(&self, frame: u32) -> Result<(), FrontendError> {
+        if let Some(error) = hold(&self.failure).take() {
+            return Err(error.into());
+        }
+        let missing: Vec<usize> =
+            hold(&self.seen).iter().enumerate().filter(|(_, seen)| !**seen).map(|(p, _)| p).collect();
+        if !missing.is_empty() {
+            return Err(FrontendError::MissingPictures { frame, missing });
+        }
+        for (index, eye) in self.eyes.iter().enumerate() {
+            let picture: Picture = hold(eye).picture();
+            self.write(picture.view()?, |extension| Self::eye_file(index, extension))?;
+        }
+        Ok(())
+    }
+
+    /// Writes the contact sheet.
+    pub fn write_sheet(&self, path: &Path) -> Result<(), OutputError> {
+        write_png(path, hold(&self.sheet).view()?)
+    }
+}
+
+/// A lock is only poisoned by a panic, which ends the run anyway.
+fn hold<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Width / height of what the first projector lights on the screen: its pixels need not be square there.
+fn shown_aspect(display: &Display) -> f64 {
+    let Some(projector) = display.projectors.first() else { return 1.0 };
+    let raster = &projector.raster;
+    let (w, h) = (f64::from(raster.width), f64::from(raster.height));
+    let at = |x: f64, y: f64| raster.screen_from_pixel.apply(DVec2::new(x, y));
+    let (across, up) = (at(w, 0.5 * h) - at(0.0, 0.5 * h), at(0.5 * w, h) - at(0.5 * w, 0.0));
+    let aspect = across.length() / up.length();
+    if aspect.is_finite() { aspect.clamp(0.1, 10.0) } else { 1.0 }
+}

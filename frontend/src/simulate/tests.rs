@@ -1,0 +1,217 @@
+//! Laws of a run, with a source that draws gradients instead of volumes.
+
+use super::*;
+use crate::report::{self, Report};
+use crate::scene::{Scene, VolumeFacts};
+use crate::session;
+use backend::output::{EyePlan, ScreenRaster};
+use backend::protocol::{DeviceInfo, FrameReport, ProjectorImage, Stages};
+use display_config::{Homography, Projector, Raster};
+use glam::{DMat3, DVec3, UVec3};
+use std::path::Path;
+
+const WIDTH: u32 = 40;
+const HEIGHT: u32 = 30;
+const FACTS: VolumeFacts =
+    VolumeFacts { dims: UVec3::splat(64), voxel_size_m: DVec3::splat(1e-3), value_range: (0.0, 1.0) };
+
+fn display(projectors: u32) -> Display {
+    let (w, h) = (f64::from(WIDTH), f64::from(HEIGHT));
+    let screen_from_pixel = Homography(DMat3::from_cols_array_2d(&[
+        [1.6 / w, 0.0, 0.0],
+        [0.0, -0.9 / h, 0.0],
+        [-0.8, 0.45, 1.0],
+    ]));
+    let projector = |index: u32| Projector {
+        name: format!("p{index}"),
+        centre_in_display: DVec3::new(0.1 * f64::from(index), 0.0, -6.0),
+        raster: Raster { width: WIDTH, height: HEIGHT, screen_from_pixel, output: None },
+        backend: 0,
+    };
+    Display {
+        name: "test".into(),
+        width_m: 1.6,
+        height_m: 0.9,
+        pixel_size_m: 1.5e-3,
+        angular_accuracy: 0.014,
+        observer_in_display: DVec3::new(0.0, 0.0, 3.0),
+        eta: 1.0,
+        projectors: (0..projectors).map(projector).collect(),
+    }
+}
+
+/// Draws a gradient per projector, last projector first, from two back-ends; stops where it is told to.
+struct Gradients {
+    projectors: u32,
+    fails_before: Option<u32>,
+    skips: Option<u32>,
+}
+
+fn gradient(projector: u32) -> ProjectorImage {
+    let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
+    let rgba =
+        pixels.flat_map(|(x, y)| [x as f32 / 64.0, y as f32 / 64.0, projector as f32 / 8.0, 1.0]).collect();
+    ProjectorImage { projector, width: WIDTH, height: HEIGHT, rgba }
+}
+
+fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
+    FrameReport {
+        frame,
+        backend,
+        rays: 1200 * projectors.len() as u64,
+        projectors,
+        samples: 345_678,
+        bricks_wanted: 20,
+        bricks_resident: 27,
+        bricks_loaded: 27,
+        bytes_loaded: 27 << 15,
+        working_set_union: 20,
+        working_set_sum: 60,
+        complete: backend == 0,
+        shortfall: if backend == 0 { String::new() } else { "the cache is full <b>".into() },
+        stages: Stages { refine_ms: 2.0, load_ms: 14.0, upload_ms: 3.0, cast_ms: 90.0, readback_ms: 1.5 },
+        total_ms: 110.5,
+    }
+}
+
+impl FrameSource for Gradients {
+    fn render(
+        &mut self,
+        frame: &FrameState,
+        on_event: &mut dyn FnMut(Event),
+    ) -> Result<Vec<FrameReport>, FrontendError> {
+        for projector in (0..self.projectors).rev() {
+            if self.fails_before == Some(projector) {
+                return Err(FrontendError::Backend("back-end 0 died".into()));
+            }
+            on_event(Event::Progress { backend: 0, done: 1, total: 2 });
+            if self.skips != Some(projector) {
+                on_event(Event::Image(gradient(projector)));
+            }
+        }
+        let half = self.projectors / 2;
+        let shares = [(0..half).collect(), (half..self.projectors).collect()];
+        Ok(shares.into_iter().zip(0..).map(|(share, b)| account(frame.index, b, share)).collect())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), FrontendError> {
+        Ok(())
+    }
+}
+
+fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 + Copy) -> (Scene, Job) {
+    let (scene, display) = (Scene::load("procedural:shells@64").unwrap(), display(projectors));
+    let all = move |_| (0..projectors as usize).map(move |p| (p, weights(p)));
+    let plan = EyePlan::new(ScreenRaster::of(&display), projectors as usize, all);
+    let warning = Some("the eye at x = 2 m is outside the viewing zone".to_owned());
+    let frames = (0..frames).map(|i| scene.frame(i, &display, &FACTS).unwrap()).collect();
+    let eyes = vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }];
+    (scene, Job { display, frames, eyes, out: out.to_owned(), exr: true })
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn source(projectors: u32) -> Gradients {
+    Gradients { projectors, fails_before: None, skips: None }
+}
+
+#[test]
+fn all_files_appear_and_the_report_adds_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, job) = job(folder.path(), 4, 2, |p| if p == 0 { 1.0 } else { 0.0 });
+    Job::prepare_output(folder.path()).unwrap();
+    let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
+    let device = DeviceInfo { adapter: "fake".into(), reason: "a test".into(), filter: "exact".into() };
+    let report =
+        Report::new(&scene, &FACTS, &job, vec![device; 2], frames, std::time::Duration::from_secs(1));
+    report::write(&report, folder.path()).unwrap();
+    assert_eq!(
+        files(folder.path()),
+        ["contact-sheet.png", "frame-0000", "frame-0001", "report.html", "report.json"]
+    );
+    let frame = files(&folder.path().join("frame-0001"));
+    assert_eq!(frame.len(), 1 + 2 * (4 + 1), "{frame:?}");
+    assert!(frame.contains(&"projector-03.exr".to_owned()) && frame.contains(&"eye-0.png".to_owned()));
+    let json: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.path().join(report::JSON)).unwrap()).unwrap();
+    assert_eq!(json["total"]["rays"], 2 * 4 * 1200);
+    assert_eq!(json["frames"][0]["total"]["complete"], false);
+    assert_eq!(json["frames"][1]["pictures"][2], "frame-0001/projector-02.png");
+    assert_eq!(json["eyes"][0]["projectors_seen"], 1);
+    assert!(json["peak_memory_bytes"].is_u64() || !Path::new("/proc/self/status").exists());
+    let html = std::fs::read_to_string(folder.path().join(report::HTML)).unwrap();
+    assert!(html.contains("the cache is full &lt;b&gt;") && html.contains("outside the viewing zone"));
+    assert!(!html.contains("src=\"frame") && !html.contains("http://") && !html.contains("https://"));
+}
+
+#[test]
+fn an_eye_sees_the_weighted_mean_of_the_projectors() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, job) = job(folder.path(), 4, 1, |p| 0.25 * f64::from(p == 1) + 0.75 * f64::from(p == 3));
+    job.run(&mut source(4), &mut Progress::new(false)).unwrap();
+    let seen = image::open(folder.path().join("frame-0000/eye-0.png")).unwrap().to_rgb8();
+    let blue = backend::output::srgb_code((0.25 + 0.75 * 3.0) / 8.0);
+    for (x, y) in [(0, 0), (17, 5), (39, 29)] {
+        let expected =
+            [backend::output::srgb_code(x as f32 / 64.0), backend::output::srgb_code(y as f32 / 64.0), blue];
+        assert_eq!(seen.get_pixel(x, y).0, expected);
+    }
+}
+
+#[test]
+fn two_runs_write_the_same_bytes() {
+    let read = || {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, job) = job(folder.path(), 9, 1, |p| (p as f64 + 0.3) / 43.2);
+        job.run(&mut source(9), &mut Progress::new(false)).unwrap();
+        ["contact-sheet.png", "frame-0000/eye-0.exr"]
+            .map(|name| std::fs::read(folder.path().join(name)).unwrap())
+    };
+    assert!(read() == read());
+}
+
+#[test]
+fn a_failure_midway_leaves_whole_pictures_and_no_report() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(report::HTML), "of an earlier run").unwrap();
+    let (_, job) = job(folder.path(), 4, 1, |_| 0.25);
+    Job::prepare_output(folder.path()).unwrap();
+    let mut source = Gradients { fails_before: Some(1), ..source(4) };
+    let error = job.run(&mut source, &mut Progress::new(false)).unwrap_err().to_string();
+    assert_eq!(error, "back-end 0 died");
+    assert_eq!(files(folder.path()), ["frame-0000"]);
+    let names = files(&folder.path().join("frame-0000"));
+    assert_eq!(names, ["projector-02.exr", "projector-02.png", "projector-03.exr", "projector-03.png"]);
+    for name in names.iter().filter(|name| name.ends_with("png")) {
+        image::open(folder.path().join("frame-0000").join(name)).unwrap();
+    }
+}
+
+#[test]
+fn a_missing_picture_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, job) = job(folder.path(), 4, 1, |_| 0.25);
+    let mut source = Gradients { skips: Some(2), ..source(4) };
+    let error = job.run(&mut source, &mut Progress::new(false)).unwrap_err().to_string();
+    assert!(error.contains("[2]"), "{error}");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_found_first() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file"), "").unwrap();
+    let error = Job::prepare_output(&folder.path().join("file/out")).unwrap_err().to_string();
+    assert!(error.starts_with("cannot write "), "{error}");
+}
+
+#[test]
+fn projectors_are_shared_evenly() {
+    let shares = session::assignment(&display(7), 3).unwrap();
+    assert_eq!(shares, [vec![0, 1], vec![2, 3], vec![4, 5, 6]]);
+    assert!(session::assignment(&display(7), 8).is_err());
+}
