@@ -34,19 +34,53 @@ fn scalar_at(brick: Brick, t: f32) -> f32 {
     return clamp(brick.offset + brick.scale * sample_atlas(brick.base + brick.slope * t), 0.0, 1.0);
 }
 
-// Adds one segment of `thickness` (extinction per metre of table value 1, times metres) with its middle at t.
-fn add_segment(front: Accumulated, brick: Brick, ray: Ray, k: vec4<f32>, s0: f32, s1: f32, t: f32,
-    thickness: f32) -> Accumulated {
-    if is_clear(k.w) {
-        return front;
+// Premultiplied colour and opacity of a segment of `thickness` (extinction per metre of table value 1, times metres) with
+// its middle at t, composited alone.
+fn segment_light(brick: Brick, ray: Ray, k: vec4<f32>, t: f32, thickness: f32) -> vec4<f32> {
+    if k.w <= 0.0 {
+        return vec4<f32>(0.0);
     }
     let depth = k.w * thickness;
     let mean = attenuation_mean(depth);
-    var lit = vec3<f32>(0.0);
-    if k.w > 0.0 {
-        lit = shade(k, brick.base + brick.slope * t, brick.gradient_scale, ray);
+    let lit = shade(k, brick.base + brick.slope * t, brick.gradient_scale, ray);
+    return vec4<f32>(lit * (thickness * mean), depth * mean);
+}
+
+// Adds one step that begins at t0, cut into parts.
+fn add_step(front_of_step: Accumulated, brick: Brick, ray: Ray, k: vec4<f32>, s0: f32, s1: f32, t0: f32, step: f32,
+    parts: f32) -> Accumulated {
+    let thickness = params.quality.z * step;
+    if parts == 1.0 {
+        if is_clear(k.w) {
+            return front_of_step;
+        }
+        return composite(front_of_step, segment_light(brick, ray, k, t0 + 0.5 * step, thickness), s0, s1);
     }
-    return composite(front, lit * (thickness * mean), depth * mean, s0, s1);
+    var front = front_of_step;
+    var alone = vec4<f32>(0.0);
+    let part = step / parts;
+    var from_s = s0;
+    for (var j = 1.0; j <= parts; j += 1.0) {
+        let t = t0 + j * part;
+        var to_s = s1;
+        if j < parts {
+            to_s = scalar_at(brick, t);
+        }
+        let mean = optics_between(from_s, to_s);
+        if !is_clear(mean.w) {
+            let light = segment_light(brick, ray, mean, t - 0.5 * part, thickness / parts);
+            if ONCE_PER_STEP {
+                alone += light * (1.0 - alone.w);
+            } else {
+                front = composite(front, light, from_s, to_s);
+            }
+        }
+        from_s = to_s;
+    }
+    if ONCE_PER_STEP {
+        front = composite(front, alone, s0, s1);
+    }
+    return front;
 }
 
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps are
@@ -66,25 +100,15 @@ fn march(front_of_brick: Accumulated, node: NodeRecord, ray: Ray, t_in: f32, t_o
         marched.samples += 2u;
         let first = optics_between(s0, s1);
         let second = optics_between(s1, s2);
-        if !is_clear(max(first.w, second.w)) {
+        let range = scalars_in_reach(s0, s1, s2);
+        let reach = optics_between(range.x, range.y);
+        if !is_clear(reach.w) {
+            let pair = Pair(first, second, optics_between(s0, s2), reach);
             let visible = still_to_come(marched.front);
-            let parts = parts_of_step(first, second, optics_between(s0, s2), thickness, visible);
-            if parts == 1.0 {
-                marched.front = add_segment(marched.front, brick, ray, first, s0, s1, t0 + 0.5 * step, thickness);
-                marched.front = add_segment(marched.front, brick, ray, second, s1, s2, t0 + 1.5 * step, thickness);
-            } else {
-                let part = step / parts;
-                var from_s = s0;
-                for (var j = 1.0; j <= 2.0 * parts; j += 1.0) {
-                    let t = t0 + j * part;
-                    let to_s = scalar_at(brick, t);
-                    let k = optics_between(from_s, to_s);
-                    marched.front = add_segment(marched.front, brick, ray, k, from_s, to_s, t - 0.5 * part,
-                        thickness / parts);
-                    from_s = to_s;
-                }
-                marched.samples += u32(2.0 * parts);
-            }
+            let parts = max(parts_of_step(pair, thickness, visible), parts_of_rise(marched.front, range));
+            marched.front = add_step(marched.front, brick, ray, first, s0, s1, t0, step, parts);
+            marched.front = add_step(marched.front, brick, ray, second, s1, s2, t0 + step, step, parts);
+            marched.samples += 2u * u32(parts - 1.0);
             if still_to_come(marched.front) < params.quality.y {
                 marched.is_done = true;
                 break;

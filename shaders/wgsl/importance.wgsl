@@ -2,6 +2,9 @@
 
 @group(0) @binding(9) var<storage, read> importance_table: array<ImportanceEntry>;
 
+// Parts of a step where all that lies in front may be erased within reach of it.
+const RISE: f32 = 64.0;
+
 struct Importance {
     mean: f32,
     // The larger of the values at the two ends.

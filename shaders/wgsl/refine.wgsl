@@ -2,15 +2,42 @@
 
 // A step is cut into this many parts at most.
 const MOST_PARTS: f32 = 16.0;
+// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
+const UNSEEN: f32 = 0.25;
 
-// `first` and `second` are the means of (τ c, τ) over two steps of `thickness` each, `both` the mean over the two taken
-// as one segment, `visible` the opacity that may still be added. Where the scalar is not linear along the two steps,
-// `both` differs from the mean of the two; where colours differ, taking the light of one step as if it came from
-// anywhere in it errs by up to the product of both depths. The first error falls with the square of the parts.
-fn parts_of_step(first: vec4<f32>, second: vec4<f32>, both: vec4<f32>, thickness: f32, visible: f32) -> f32 {
-    let depth = (first.w + second.w) * thickness;
-    let bend = abs(first + second - 2.0 * both) * (thickness / (1.0 + depth));
-    let order = abs(first.xyz * second.w - second.xyz * first.w) * (thickness * thickness / (1.0 + depth * depth));
-    let worst = max(max(max(bend.x, bend.y), max(bend.z, bend.w)), max(order.x, max(order.y, order.z)));
+// Means of (τ c, τ) over a pair of steps.
+struct Pair {
+    first: vec4<f32>,
+    second: vec4<f32>,
+    // Over both steps, taken as one segment.
+    both: vec4<f32>,
+    // Over all scalars within reach.
+    reach: vec4<f32>,
+}
+
+fn largest(v: vec4<f32>) -> f32 {
+    return max(max(v.x, v.y), max(v.z, v.w));
+}
+
+// Parts of each step of a pair, where a step has `thickness` and `visible` is the opacity that may still be added.
+// Three things err: where the scalar bends, `both` differs from the mean of the two steps, and something between the
+// samples may not have been seen at all; where colours differ, light taken as if it came from anywhere in a step errs by
+// up to the product of both depths; and so does shading. The first falls with the square of the parts.
+fn parts_of_step(pair: Pair, thickness: f32, visible: f32) -> f32 {
+    let depth = (pair.first.w + pair.second.w) * thickness;
+    let order_scale = thickness * thickness / (1.0 + depth * depth);
+    let bend = max(abs(pair.first + pair.second - 2.0 * pair.both), abs(pair.reach - pair.both) * UNSEEN);
+    let order = abs(pair.first.xyz * pair.second.w - pair.second.xyz * pair.first.w) * order_scale;
+    let shaded = pair.first.w * pair.second.w * order_scale * SPREAD;
+    let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, shaded)));
     return clamp(ceil(sqrt(worst * visible / params.quality.w)), 1.0, MOST_PARTS);
+}
+
+// The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the larger
+// step at both ends, as far as a kink of the trilinear field between two samples goes.
+fn scalars_in_reach(s0: f32, s1: f32, s2: f32) -> vec2<f32> {
+    let margin = 0.5 * max(abs(s1 - s0), abs(s2 - s1));
+    let low = min(min(s0, s1), s2);
+    let high = max(max(s0, s1), s2);
+    return vec2<f32>(max(low - margin, 0.0), min(high + margin, 1.0));
 }

@@ -30,6 +30,6 @@ pub mod worker;
 
 pub use launch::{Launch, fail, launch, under_mpi};
 pub use link::{Link, LinkError, WorkerLink};
-pub use renderer::open_renderer;
+pub use renderer::{open_renderer, open_volume};
 pub use session::{EventKind, Limits, Session, SessionError, SessionEvent};
 pub use worker::{Draw, DrawEvent, Opened, WorkerError, serve};

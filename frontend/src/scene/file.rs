@@ -109,6 +109,7 @@ pub(super) struct DisplayTable {
 pub(super) struct QualityTable {
     pub preset: Option<QualityPreset>,
     pub step_voxels: Option<Number>,
+    pub tolerance: Option<Number>,
     pub termination: Option<Number>,
     pub lod_scale: Option<Number>,
 }

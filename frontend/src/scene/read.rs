@@ -215,6 +215,7 @@ impl SceneText {
         };
         Ok(Quality {
             step_voxels: table.step_voxels.as_ref().map_or(Ok(preset.step_voxels), |n| self.above_zero(n))?,
+            tolerance: table.tolerance.as_ref().map_or(Ok(preset.tolerance), |n| self.above_zero(n))?,
             termination: or(&table.termination, preset.termination, 0.0..=1.0)?,
             lod_scale: or(&table.lod_scale, preset.lod_scale, 0.0..=f64::MAX)?,
         })

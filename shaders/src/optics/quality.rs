@@ -19,6 +19,6 @@ pub struct Quality {
 
 impl Default for Quality {
     fn default() -> Self {
-        Self { step_voxels: 0.5, tolerance: 1.0 / 1024.0, termination: 1.0 / 1024.0, lod_scale: 1.0 }
+        Self { step_voxels: 0.4, tolerance: 1e-4, termination: 1.0 / 1024.0, lod_scale: 1.0 }
     }
 }

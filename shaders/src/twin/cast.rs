@@ -1,6 +1,6 @@
 //! One ray from a pixel to its colour.
 
-use super::composite::{Accumulated, Composite, MimdaConsistent, MimdaPaper, Over};
+use super::composite::{Accumulated, Composite, Light, MimdaConsistent, MimdaPaper, Over};
 use super::shade::{Phong, Plain, Shade};
 use super::tables::{attenuation_mean, optics_between};
 use super::traverse::{node_low, voxel_edge};
@@ -99,29 +99,78 @@ impl<'a, F: Real> Brick<'a, F> {
         (self.offset + self.scale * stored).most(F::ZERO).least(F::ONE)
     }
 
-    /// Adds one segment of `thickness` with its middle at t.
+    /// Light of a segment of `thickness` with its middle at t, composited alone.
     #[inline(always)]
-    fn add_segment<S: Shade, C: Composite>(
+    fn segment_light<S: Shade>(
         &self,
         scene: &Scene<F>,
         ray: &Ray<F>,
-        front: Accumulated<F>,
         k: [F; 4],
-        (s0, s1): (F, F),
-        (t, thickness): (F, F),
-    ) -> Accumulated<F> {
-        if C::is_clear(k[3]) {
-            return front;
+        t: F,
+        thickness: F,
+    ) -> Light<F> {
+        if k[3] <= F::ZERO {
+            return Light::NONE;
         }
         let depth = k[3] * thickness;
         let mean = attenuation_mean(depth);
-        let lit = if k[3] > F::ZERO {
-            S::shade(scene.view, self.codes, k, self.base + self.slope * t, self.gradient_scale, ray)
-        } else {
-            Vec3::ZERO
-        };
-        C::composite(scene, front, lit * (thickness * mean), depth * mean, s0, s1)
+        let middle = self.base + self.slope * t;
+        let lit = S::shade(scene.view, self.codes, k, middle, self.gradient_scale, ray);
+        Light { rgb: lit * (thickness * mean), alpha: depth * mean }
     }
+
+    /// Adds one step, cut into parts.
+    #[inline(always)]
+    fn add_step<S: Shade, C: Composite>(
+        &self,
+        scene: &Scene<F>,
+        ray: &Ray<F>,
+        mut front: Accumulated<F>,
+        step: &Step<F>,
+        parts: F,
+    ) -> Accumulated<F> {
+        let Step { k, scalars: (s0, s1), t0, length } = *step;
+        let thickness = scene.view.extinction_per_metre * length;
+        let half = F::of(0.5);
+        if parts == F::ONE {
+            if C::is_clear(k[3]) {
+                return front;
+            }
+            let light = self.segment_light::<S>(scene, ray, k, t0 + half * length, thickness);
+            return C::composite(scene, front, light, (s0, s1));
+        }
+        let mut alone = Light::NONE;
+        let part = length / parts;
+        let mut from = s0;
+        let count = parts.to_index();
+        for j in 1..=count {
+            let t = t0 + F::of_u32(j) * part;
+            let to = if j < count { self.scalar_at(t) } else { s1 };
+            let mean = optics_between(scene.optics, from, to);
+            if !C::is_clear(mean[3]) {
+                let light = self.segment_light::<S>(scene, ray, mean, t - half * part, thickness / parts);
+                if C::ONCE_PER_STEP {
+                    alone = alone.then(light);
+                } else {
+                    front = C::composite(scene, front, light, (from, to));
+                }
+            }
+            from = to;
+        }
+        if C::ONCE_PER_STEP { C::composite(scene, front, alone, (s0, s1)) } else { front }
+    }
+}
+
+/// One step along a ray.
+struct Step<F> {
+    /// Mean of (τ c, τ).
+    k: [F; 4],
+    /// At its ends.
+    scalars: (F, F),
+    /// Where it begins.
+    t0: F,
+    /// Metres.
+    length: F,
 }
 
 /// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps
@@ -156,26 +205,12 @@ fn march<F: Real, S: Shade, C: Composite>(
         if !C::is_clear(reach[3]) {
             let pair = Pair { first, second, both: optics_between(scene.optics, s0, s2), reach };
             let visible = C::still_to_come(scene, front);
-            let parts = parts_of_step(&pair, thickness, visible, F::of(S::SPREAD), view.tolerance);
-            if parts == F::ONE {
-                let middle = t0 + half * step;
-                front = brick.add_segment::<S, C>(scene, ray, front, first, (s0, s1), (middle, thickness));
-                let middle = t0 + F::of(1.5) * step;
-                front = brick.add_segment::<S, C>(scene, ray, front, second, (s1, s2), (middle, thickness));
-            } else {
-                let part = step / parts;
-                let mut from = s0;
-                let count = (two * parts).to_index();
-                for j in 1..=count {
-                    let t = t0 + F::of_u32(j) * part;
-                    let to = brick.scalar_at(t);
-                    let k = optics_between(scene.optics, from, to);
-                    let place = (t - half * part, thickness / parts);
-                    front = brick.add_segment::<S, C>(scene, ray, front, k, (from, to), place);
-                    from = to;
-                }
-                samples += count;
-            }
+            let parts = parts_of_step(&pair, thickness, visible, F::of(S::SPREAD), view.tolerance)
+                .most(C::parts_of_rise(scene, front, (low, high)));
+            let step_of = |k, scalars, t0| Step { k, scalars, t0, length: step };
+            front = brick.add_step::<S, C>(scene, ray, front, &step_of(first, (s0, s1), t0), parts);
+            front = brick.add_step::<S, C>(scene, ray, front, &step_of(second, (s1, s2), t0 + step), parts);
+            samples += 2 * (parts.to_index() - 1);
             if C::still_to_come(scene, front) < view.termination {
                 return Marched { front, samples, is_done: true };
             }

@@ -3,7 +3,7 @@
 use super::Real;
 
 /// A step is cut into this many parts at most.
-const MOST_PARTS: f64 = 16.0;
+pub const MOST_PARTS: f64 = 16.0;
 
 /// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
 const UNSEEN: f64 = 0.25;

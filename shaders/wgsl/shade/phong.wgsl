@@ -1,5 +1,8 @@
 // Gradient shading: two-sided Phong, weighted by the strength of the gradient.
 
+// How much the shaded colour may vary within a step, for the estimate of a step's error.
+const SPREAD: f32 = 0.05;
+
 // `k` is the mean of (τ c, τ); `middle` the segment's middle in texels of the atlas; `gradient_scale` turns a
 // difference over two texels into a change of the scalar per finest voxel.
 fn shade(k: vec4<f32>, middle: vec3<f32>, gradient_scale: f32, ray: Ray) -> vec3<f32> {

@@ -1,7 +1,11 @@
 //! Maximum Importance Difference Accumulation in the form that telescopes: β = (1 − γ ι) / (1 − γ ι_max).
 
-use super::{Accumulated, Composite};
-use crate::twin::{Real, Scene, importance::importance_between, vector::Vec3};
+use super::{Accumulated, Composite, Light};
+use crate::twin::{
+    Real, Scene,
+    importance::{RISE, importance_between},
+    refine::MOST_PARTS,
+};
 
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
 pub struct MimdaConsistent;
@@ -17,6 +21,8 @@ fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
 }
 
 impl Composite for MimdaConsistent {
+    const ONCE_PER_STEP: bool = false;
+
     #[inline(always)]
     fn is_clear<F: Real>(_: F) -> bool {
         false
@@ -26,10 +32,8 @@ impl Composite for MimdaConsistent {
     fn composite<F: Real>(
         scene: &Scene<F>,
         front: Accumulated<F>,
-        rgb: Vec3<F>,
-        alpha: F,
-        s0: F,
-        s1: F,
+        light: Light<F>,
+        (s0, s1): (F, F),
     ) -> Accumulated<F> {
         let importance = importance_between(scene.importance, s0, s1);
         // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
@@ -37,8 +41,15 @@ impl Composite for MimdaConsistent {
         let end = middle.most(importance.at_ends);
         let beta = kept(scene.view.gamma, front.importance, middle);
         let rest = kept(scene.view.gamma, middle, end);
-        let all = front.then(beta, rgb, alpha, end);
+        let all = front.then(beta, light, end);
         Accumulated { rgb: all.rgb * rest, alpha: all.alpha * rest, importance: end }
+    }
+
+    #[inline(always)]
+    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, (low, high): (F, F)) -> F {
+        let reach = importance_between(scene.importance, low, high).at_ends;
+        let unseen = (F::ONE - kept(scene.view.gamma, front.importance, reach)) * front.alpha * F::of(RISE);
+        unseen.ceil().most(F::ONE).least(F::of(MOST_PARTS))
     }
 
     #[inline(always)]

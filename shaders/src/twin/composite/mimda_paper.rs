@@ -1,7 +1,7 @@
 //! Maximum Importance Difference Accumulation as published (LFD eq. 3): β = 1 − γ max(ι − ι_max, 0).
 
-use super::{Accumulated, Composite};
-use crate::twin::{Real, Scene, importance::importance_between, vector::Vec3};
+use super::{Accumulated, Composite, Light};
+use crate::twin::{Real, Scene, importance::importance_between};
 
 /// Twin of `wgsl/composite/mimda_paper.wgsl`.
 pub struct MimdaPaper;
@@ -13,6 +13,8 @@ fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
 }
 
 impl Composite for MimdaPaper {
+    const ONCE_PER_STEP: bool = true;
+
     #[inline(always)]
     fn is_clear<F: Real>(_: F) -> bool {
         false
@@ -22,14 +24,17 @@ impl Composite for MimdaPaper {
     fn composite<F: Real>(
         scene: &Scene<F>,
         front: Accumulated<F>,
-        rgb: Vec3<F>,
-        alpha: F,
-        s0: F,
-        s1: F,
+        light: Light<F>,
+        (s0, s1): (F, F),
     ) -> Accumulated<F> {
         let importance = importance_between(scene.importance, s0, s1).mean;
         let beta = kept(scene.view.gamma, front.importance, importance);
-        front.then(beta, rgb, alpha, front.importance.most(importance))
+        front.then(beta, light, front.importance.most(importance))
+    }
+
+    #[inline(always)]
+    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: (F, F)) -> F {
+        F::ONE
     }
 
     #[inline(always)]

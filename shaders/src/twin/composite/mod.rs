@@ -27,25 +27,52 @@ impl<F: Real> Accumulated<F> {
 
     /// `self` kept to β, with a segment behind it.
     #[inline(always)]
-    pub fn then(self, beta: F, rgb: Vec3<F>, alpha: F, importance: F) -> Self {
+    pub fn then(self, beta: F, light: Light<F>, importance: F) -> Self {
         let through = F::ONE - beta * self.alpha;
-        Self { rgb: self.rgb * beta + rgb * through, alpha: self.alpha * beta + alpha * through, importance }
+        Self {
+            rgb: self.rgb * beta + light.rgb * through,
+            alpha: self.alpha * beta + light.alpha * through,
+            importance,
+        }
+    }
+}
+
+/// The light of a segment, composited alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Light<F> {
+    /// Linear RGB, premultiplied.
+    pub rgb: Vec3<F>,
+    /// Opacity.
+    pub alpha: F,
+}
+
+impl<F: Real> Light<F> {
+    /// Of nothing.
+    pub const NONE: Self = Self { rgb: Vec3::ZERO, alpha: F::ZERO };
+
+    /// `self` with another segment behind it.
+    #[inline(always)]
+    pub fn then(self, behind: Self) -> Self {
+        let through = F::ONE - self.alpha;
+        Self { rgb: self.rgb + behind.rgb * through, alpha: self.alpha + behind.alpha * through }
     }
 }
 
 /// A module for the compositing slot.
 pub trait Composite {
+    /// Whether the parts of a step are composited among themselves first.
+    const ONCE_PER_STEP: bool;
     /// Whether a segment without extinction changes nothing.
     fn is_clear<F: Real>(extinction: F) -> bool;
-    /// A segment of opacity `alpha` and premultiplied `rgb`, over scalars [s0, s1], behind what is in front.
+    /// A segment's light, over scalars [s0, s1], behind what is in front.
     fn composite<F: Real>(
         scene: &Scene<F>,
         front: Accumulated<F>,
-        rgb: Vec3<F>,
-        alpha: F,
-        s0: F,
-        s1: F,
+        light: Light<F>,
+        scalars: (F, F),
     ) -> Accumulated<F>;
+    /// Parts of each step of a pair, by what a rise of importance over the scalars within reach may have erased unseen.
+    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, range: (F, F)) -> F;
     /// The opacity that what follows may still add.
     fn still_to_come<F: Real>(scene: &Scene<F>, front: Accumulated<F>) -> F;
 }
