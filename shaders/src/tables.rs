@@ -1,11 +1,45 @@
 //! Pre-integrated transfer functions: curves made into tables of f and F = ∫ f.
 
+use crate::compose::Compositing;
 use crate::layout::{ImportanceEntry, OpticsEntry};
 use crate::optics::{Curve, Optics};
 use glam::DVec3;
 
 /// Entries of a table: nodes at s = i / (TABLE_ENTRIES − 1).
 pub const TABLE_ENTRIES: usize = 1024;
+
+/// All tables of an optical model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tables {
+    /// (τ c, τ).
+    pub optics: Vec<OpticsEntry>,
+    /// ι; empty where importance plays no part.
+    pub importance: Vec<ImportanceEntry>,
+    /// See [`occupancy`].
+    pub occupied: Vec<u32>,
+}
+
+impl Tables {
+    /// The tables that a kernel for these optics reads.
+    pub fn new(optics: &Optics) -> Self {
+        let importance = match (&optics.mimda, Compositing::for_optics(optics)) {
+            (Some(mimda), Compositing::Mimda(_)) => importance_table(&mimda.importance),
+            (Some(_) | None, _) => Vec::new(),
+        };
+        let optics = optics_table(optics);
+        let occupied = occupancy(&optics, &importance);
+        Self { optics, importance, occupied }
+    }
+
+    /// Whether nothing within scalars [low, high] changes a picture. A scalar that rounds into the next cell is
+    /// taken to lie there.
+    pub fn is_vacant(&self, low: f64, high: f64) -> bool {
+        let cells = (TABLE_ENTRIES - 1) as f64;
+        let cell = |s: f64| ((s.clamp(0.0, 1.0) * cells) as usize).min(TABLE_ENTRIES - 2);
+        const ROUNDING: f64 = 1e-6;
+        self.occupied[cell(low - ROUNDING)] == self.occupied[cell(high + ROUNDING) + 1]
+    }
+}
 
 /// The table of (τ c, τ). Values are the curve's at the nodes; integrals are exact, whatever the curve does between
 /// nodes (τ c is quadratic between control points, so Simpson's rule is exact there).
@@ -39,6 +73,25 @@ pub fn importance_table(importance: &Curve<f64>) -> Vec<ImportanceEntry> {
             ImportanceEntry { value: value[0] as f32, integral: hi, integral_rest: rest, padding: 0.0 }
         })
         .collect()
+}
+
+/// How many table cells below each node change a picture: cells with any extinction, or any importance where
+/// `importance` is not empty. So cells a to b together change nothing where the counts at a and b + 1 are equal.
+pub fn occupancy(optics: &[OpticsEntry], importance: &[ImportanceEntry]) -> Vec<u32> {
+    let has_extinction = |a: &OpticsEntry, b: &OpticsEntry| {
+        let grows = b.integral[3] > a.integral[3] || b.integral_rest[3] != a.integral_rest[3];
+        a.value[3] > 0.0 || b.value[3] > 0.0 || grows
+    };
+    let has_importance = |cell: usize| match importance.get(cell..cell + 2) {
+        Some([a, b]) => a.value > 0.0 || b.value > 0.0 || b.integral > a.integral,
+        _ => false,
+    };
+    let mut count = 0;
+    let counts = optics.windows(2).enumerate().map(|(cell, pair)| {
+        count += u32::from(has_extinction(&pair[0], &pair[1]) || has_importance(cell));
+        count
+    });
+    std::iter::once(0).chain(counts).collect()
 }
 
 /// The importance where no table is needed: its largest value on [0, 1].
@@ -153,5 +206,16 @@ mod tests {
             let sum = f64::from(entry.integral[3]) + f64::from(entry.integral_rest[3]);
             assert!(sum.is_finite() && entry.integral_rest[3].abs() <= entry.integral[3] * 6e-8 + 1e-30);
         }
+    }
+
+    #[test]
+    fn occupancy_counts_cells_with_anything_in_them() {
+        let cells = (TABLE_ENTRIES - 1) as f64;
+        let spike =
+            optics_table(&optics(vec![(10.2 / cells, 0.0), (10.5 / cells, 1.0), (10.8 / cells, 0.0)]));
+        let counts = occupancy(&spike, &[]);
+        assert_eq!((counts[10], counts[11], counts[TABLE_ENTRIES - 1]), (0, 1, 1));
+        let importance = importance_table(&Curve::new(vec![(0.5, 0.0), (0.6, 1.0)]).unwrap());
+        assert!(occupancy(&spike, &importance)[TABLE_ENTRIES - 1] > 500);
     }
 }

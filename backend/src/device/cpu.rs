@@ -3,7 +3,8 @@
 use super::{CastJob, CastOutcome, DeviceError};
 use crate::store::BRICK_VOXELS;
 use rayon::prelude::*;
-use shaders::layout::{ImportanceEntry, NodeRecord, OpticsEntry};
+use shaders::layout::NodeRecord;
+use shaders::tables::Tables;
 use shaders::twin::{Cast, FeedbackCell, Scene, cast_pixel};
 
 /// The brick cache in main memory, and the last picture.
@@ -11,8 +12,8 @@ use shaders::twin::{Cast, FeedbackCell, Scene, cast_pixel};
 pub struct CpuDevice {
     atlas: Vec<u16>,
     nodes: Vec<NodeRecord>,
-    optics: Vec<OpticsEntry>,
-    importance: Vec<ImportanceEntry>,
+    cells: Vec<u32>,
+    tables: Tables,
     pixels: Vec<f32>,
 }
 
@@ -25,8 +26,8 @@ impl CpuDevice {
         Self {
             atlas: vec![0; slots as usize * BRICK_VOXELS],
             nodes: Vec::new(),
-            optics: Vec::new(),
-            importance: Vec::new(),
+            cells: Vec::new(),
+            tables: Tables::default(),
             pixels: Vec::new(),
         }
     }
@@ -40,13 +41,13 @@ impl CpuDevice {
         self.atlas[start..start + BRICK_VOXELS].copy_from_slice(samples);
     }
 
-    pub(super) fn write_index(&mut self, nodes: &[NodeRecord]) {
+    pub(super) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
         self.nodes = nodes.to_vec();
+        self.cells = cells.to_vec();
     }
 
-    pub(super) fn write_tables(&mut self, optics: &[OpticsEntry], importance: &[ImportanceEntry]) {
-        self.optics = optics.to_vec();
-        self.importance = importance.to_vec();
+    pub(super) fn write_tables(&mut self, tables: Tables) {
+        self.tables = tables;
     }
 
     pub(super) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
@@ -54,8 +55,10 @@ impl CpuDevice {
         let scene = Scene {
             view: job.view,
             nodes: &self.nodes,
-            optics: &self.optics,
-            importance: &self.importance,
+            optics: &self.tables.optics,
+            importance: &self.tables.importance,
+            occupied: &self.tables.occupied,
+            cells: &self.cells,
             atlas: &self.atlas,
             feedback: &feedback,
         };
@@ -67,7 +70,9 @@ impl CpuDevice {
             for &((x, y), cast) in casts {
                 let at = 4 * (y as usize * width as usize + x as usize);
                 self.pixels[at..at + 4].copy_from_slice(&cast.rgba);
-                outcome.samples += u64::from(cast.samples);
+                if job.grid.stride == 1 {
+                    outcome.samples += u64::from(cast.samples);
+                }
             }
             outcome.rays += casts.len() as u64;
             if casts.iter().any(|(_, cast)| cast.is_missing) {

@@ -10,7 +10,8 @@ pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use job::{CastJob, CastOutcome, TileGrid};
 
-use shaders::layout::{ImportanceEntry, NodeRecord, OpticsEntry};
+use shaders::layout::NodeRecord;
+use shaders::tables::Tables;
 
 /// Why a device cannot go on: one sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -49,14 +50,14 @@ impl Device {
         on_device!(self, device => device.write_brick(slot, samples));
     }
 
-    /// Replaces the spatial index.
-    pub fn write_index(&mut self, nodes: &[NodeRecord]) {
-        on_device!(self, device => device.write_index(nodes));
+    /// Replaces the spatial index, and which cells of each slot show anything.
+    pub fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
+        on_device!(self, device => device.write_index(nodes, cells));
     }
 
-    /// Replaces the transfer functions' tables; `importance` may be empty where no kernel reads it.
-    pub fn write_tables(&mut self, optics: &[OpticsEntry], importance: &[ImportanceEntry]) {
-        on_device!(self, device => device.write_tables(optics, importance));
+    /// Replaces the transfer functions' tables.
+    pub fn write_tables(&mut self, tables: Tables) {
+        on_device!(self, device => device.write_tables(tables));
     }
 
     /// Casts the rays of some tiles; their colours stay on the device.

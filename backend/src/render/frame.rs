@@ -8,12 +8,15 @@ use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages};
 use crate::store::NodeKey;
 use crate::working_set::{LodRule, Touched};
 use shaders::compose::{Compositing, Shading};
-use shaders::tables::{importance_table, optics_table};
+use shaders::tables::Tables;
 use std::collections::HashSet;
 use std::time::Instant;
 
 /// The coarse look casts every 16th pixel along x and y.
 const COARSE_STRIDE: u32 = 16;
+
+/// Cells are kept with a margin of one voxel for half a pair of steps.
+const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;
 
 /// A frame being drawn.
 struct Drawing<'a> {
@@ -38,7 +41,8 @@ pub(super) fn draw(
     let started = Instant::now();
     frame.optics.check()?;
     let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
-    let mut drawing = Drawing::new(renderer, frame);
+    let tables = Tables::new(&frame.optics);
+    let mut drawing = Drawing::new(renderer, frame, &tables);
     drawing.start(frame)?;
     let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
     sink(RenderEvent::Progress { done: 0, total });
@@ -71,7 +75,7 @@ impl WorkingSets {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(renderer: &'a mut Renderer, frame: &'a FrameState) -> Self {
+    fn new(renderer: &'a mut Renderer, frame: &'a FrameState, tables: &'a Tables) -> Self {
         let lod = LodRule {
             display_from_volume: frame.display_from_volume,
             pixel_size_m: renderer.display.pixel_size_m,
@@ -83,7 +87,12 @@ impl<'a> Drawing<'a> {
         let cast = renderer.residency.cut.node(0).last_used;
         Self {
             renderer,
-            rules: FrameRules { lod, optics: &frame.optics },
+            rules: FrameRules {
+                lod,
+                optics: &frame.optics,
+                tables,
+                can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
+            },
             shading,
             compositing: Compositing::for_optics(&frame.optics),
             stages: Stages::default(),
@@ -97,11 +106,7 @@ impl<'a> Drawing<'a> {
     /// Uploads the transfer functions and a first index.
     fn start(&mut self, frame: &FrameState) -> Result<(), RenderError> {
         let started = Instant::now();
-        let importance = match (&frame.optics.mimda, self.compositing) {
-            (Some(mimda), Compositing::Mimda(_)) => importance_table(&mimda.importance),
-            (Some(_) | None, _) => Vec::new(),
-        };
-        self.renderer.device.write_tables(&optics_table(&frame.optics), &importance);
+        self.renderer.device.write_tables(self.rules.tables.clone());
         self.stages.upload_ms += milliseconds(started);
         let Renderer { residency, device, .. } = &mut *self.renderer;
         residency.start_frame(frame, &self.rules, device, &mut self.stages)

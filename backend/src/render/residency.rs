@@ -5,9 +5,11 @@ use crate::device::Device;
 use crate::protocol::{FrameState, Stages};
 use crate::store::{BrickSource, NodeKey, NodeSummary, OctreeShape};
 use crate::working_set::{
-    Cut, IndexRules, LoadedBrick, Loader, LodRule, ResidentBrick, SlotPool, Wanted, build_index,
+    CellRanges, Cut, IndexRules, LoadedBrick, Loader, LodRule, ResidentBrick, SlotPool, Wanted, build_index,
 };
+use shaders::layout::CELL_WORDS;
 use shaders::optics::Optics;
+use shaders::tables::Tables;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use std::time::Instant;
@@ -19,6 +21,10 @@ pub(super) struct Residency {
     shape: OctreeShape,
     slots: SlotPool,
     loader: Loader,
+    /// Of each slot: the ranges of its cells.
+    ranges: Vec<Option<CellRanges>>,
+    /// Of each slot: the bits of its visible cells in this frame.
+    cells: Vec<u32>,
     /// Bricks asked for in the current frame, resident or not.
     pub(super) wanted: HashSet<NodeKey>,
     pub(super) bricks_loaded: u64,
@@ -30,6 +36,20 @@ pub(super) struct Residency {
 pub(super) struct FrameRules<'a> {
     pub(super) lod: LodRule,
     pub(super) optics: &'a Optics,
+    pub(super) tables: &'a Tables,
+    /// Whether steps are short enough for the margin that cells are kept with.
+    pub(super) can_pass_over: bool,
+}
+
+impl FrameRules<'_> {
+    /// The bits of the cells of a brick that show anything.
+    fn visible_cells(&self, ranges: &CellRanges, brick: ResidentBrick) -> [u32; CELL_WORDS] {
+        let (low, high) = self.optics.domain;
+        let scalar =
+            |sample: u16| (brick.low + brick.span * f64::from(sample) / 65535.0 - low) / (high - low);
+        ranges
+            .visible(|least, most| !self.can_pass_over || !self.tables.is_vacant(scalar(least), scalar(most)))
+    }
 }
 
 impl Residency {
@@ -41,6 +61,8 @@ impl Residency {
             shape,
             slots: SlotPool::new(slots),
             loader,
+            ranges: vec![None; slots as usize],
+            cells: vec![0; slots as usize * CELL_WORDS],
             wanted: HashSet::new(),
             bricks_loaded: 0,
             bytes_loaded: 0,
@@ -87,8 +109,9 @@ impl Residency {
             places = newly_visible(self);
         }
         tracing::debug!(frame = frame.index, bricks = places.len(), "bricks that became visible");
+        self.refresh_cells(rules);
         let keys: Vec<(NodeKey, u32)> = places.iter().map(|&p| (self.cut.node(p).key, p)).collect();
-        self.load(&keys, device, stages)?;
+        self.load(&keys, rules, device, stages)?;
         self.write_index(rules, device, stages);
         Ok(())
     }
@@ -120,11 +143,21 @@ impl Residency {
             any = true;
         }
         stages.refine_ms += milliseconds(started);
-        self.load(&to_load, device, stages)?;
+        self.load(&to_load, rules, device, stages)?;
         if any {
             self.write_index(rules, device, stages);
         }
         Ok(any)
+    }
+
+    /// Tells the visible cells of all resident bricks anew: the transfer functions may have changed.
+    fn refresh_cells(&mut self, rules: &FrameRules) {
+        for place in self.cut.walk().collect::<Vec<_>>() {
+            let Some(brick) = self.cut.node(place).brick else { continue };
+            let Some(ranges) = &self.ranges[brick.slot as usize] else { continue };
+            let start = brick.slot as usize * CELL_WORDS;
+            self.cells[start..start + CELL_WORDS].copy_from_slice(&rules.visible_cells(ranges, brick));
+        }
     }
 
     fn is_visible(&self, key: NodeKey, rules: &FrameRules) -> bool {
@@ -153,6 +186,7 @@ impl Residency {
     fn load(
         &mut self,
         wanted: &[(NodeKey, u32)],
+        rules: &FrameRules,
         device: &mut Device,
         stages: &mut Stages,
     ) -> Result<(), RenderError> {
@@ -164,12 +198,17 @@ impl Residency {
         let places: HashMap<NodeKey, u32> = wanted.iter().copied().collect();
         let keys: Vec<NodeKey> = wanted.iter().map(|&(key, _)| key).collect();
         let (cut, slots) = (&mut self.cut, &mut self.slots);
+        let (ranges, all_cells) = (&mut self.ranges, &mut self.cells);
         let (bricks_loaded, bytes_loaded) = (&mut self.bricks_loaded, &mut self.bytes_loaded);
-        let outcome = self.loader.fetch(&keys, |LoadedBrick { key, samples, low, span, bytes }| {
+        let outcome = self.loader.fetch(&keys, |LoadedBrick { key, samples, cells, low, span, bytes }| {
             let upload = Instant::now();
             let slot = slots.take().expect("room was made before loading");
             device.write_brick(slot, &samples);
-            cut.set_brick(places[&key], ResidentBrick { slot, low, span });
+            let brick = ResidentBrick { slot, low, span };
+            cut.set_brick(places[&key], brick);
+            let start = slot as usize * CELL_WORDS;
+            all_cells[start..start + CELL_WORDS].copy_from_slice(&rules.visible_cells(&cells, brick));
+            ranges[slot as usize] = Some(cells);
             *bricks_loaded += 1;
             *bytes_loaded += bytes;
             upload_ms += milliseconds(upload);
@@ -184,7 +223,7 @@ impl Residency {
         let index = build_index(&self.cut, &self.rules(rules));
         stages.refine_ms += milliseconds(started);
         let started = Instant::now();
-        device.write_index(&index);
+        device.write_index(&index, &self.cells);
         stages.upload_ms += milliseconds(started);
     }
 }

@@ -1,5 +1,6 @@
 //! Loader threads: they fetch and unpack bricks while others wait or work.
 
+use super::CellRanges;
 use crate::store::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use std::sync::Arc;
@@ -12,6 +13,8 @@ pub struct LoadedBrick {
     pub key: NodeKey,
     /// 32³ samples; 65535 stands for 1. 8-bit codes are spread over the same range without loss.
     pub samples: Vec<u16>,
+    /// Range of the samples around each of the 8³ cells.
+    pub cells: CellRanges,
     /// Data value of sample 0.
     pub low: f64,
     /// Data value of sample 65535, less `low`.
@@ -104,5 +107,13 @@ fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickErro
             samples.len()
         )));
     }
-    Ok(LoadedBrick { key, samples, low: f64::from(brick.low), span: f64::from(brick.step) * largest, bytes })
+    let cells = CellRanges::of(&samples);
+    Ok(LoadedBrick {
+        key,
+        samples,
+        cells,
+        low: f64::from(brick.low),
+        span: f64::from(brick.step) * largest,
+        bytes,
+    })
 }

@@ -1,10 +1,12 @@
 //! The structs that kernels read and write, byte for byte as WGSL lays them out.
 
+mod cells;
 mod feedback;
 mod node;
 mod params;
 mod table_entry;
 
+pub use cells::{CELL_EDGE, CELL_WORDS, CELLS_ACROSS};
 pub use feedback::{FeedbackEntry, code_from_deficit, deficit_from_code};
 pub use node::{NO_NODE, NO_SLOT, NodeRecord};
 pub use params::{Params, TILE_EDGE};

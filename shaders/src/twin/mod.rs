@@ -5,6 +5,7 @@
 //! codes instead of parts of one texture, so a point to sample is relative to its brick; a table entry is read as
 //! f32 and widened; and generics stand where the composer puts one module or another into a slot.
 
+mod brick;
 pub mod cast;
 pub mod composite;
 pub mod importance;

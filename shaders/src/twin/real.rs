@@ -21,7 +21,7 @@ pub trait Real:
     fn of(value: f64) -> Self;
     /// The same number, or the nearest, of a stored f32.
     fn of_f32(value: f32) -> Self;
-    /// A code or a count.
+    /// A code or a count below 2³¹.
     fn of_u32(value: u32) -> Self;
     /// Rounded to f32.
     fn to_f32(self) -> f32;
@@ -70,7 +70,8 @@ macro_rules! real {
             }
             #[inline(always)]
             fn of_u32(value: u32) -> Self {
-                value as Self
+                // Through i32: that is one instruction, and no count or code reaches 2³¹.
+                value as i32 as Self
             }
             #[inline(always)]
             fn to_f32(self) -> f32 {

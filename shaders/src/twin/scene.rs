@@ -1,7 +1,7 @@
 //! What a twin reads, and the feedback it writes.
 
 use super::{Real, View};
-use crate::layout::{FeedbackEntry, ImportanceEntry, NodeRecord, OpticsEntry, code_from_deficit};
+use crate::layout::{CELL_WORDS, FeedbackEntry, ImportanceEntry, NodeRecord, OpticsEntry, code_from_deficit};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Codes of one brick: 32³.
@@ -18,6 +18,10 @@ pub struct Scene<'a, F> {
     pub optics: &'a [OpticsEntry],
     /// ι; empty where nothing reads it.
     pub importance: &'a [ImportanceEntry],
+    /// See [`crate::tables::occupancy`].
+    pub occupied: &'a [u32],
+    /// Which 4³ cells of each slot's brick show anything: 16 words of bits a slot, see [`crate::layout::CELL_WORDS`].
+    pub cells: &'a [u32],
     /// The brick cache: slot i holds the codes from i · 32³.
     pub atlas: &'a [u16],
     /// One per node.
@@ -53,6 +57,13 @@ impl FeedbackCell {
 }
 
 impl<'a, F: Real> Scene<'a, F> {
+    /// The visible cells of a slot.
+    #[inline(always)]
+    pub fn cells(&self, slot: u32) -> &'a [u32; CELL_WORDS] {
+        let start = slot as usize * CELL_WORDS;
+        self.cells[start..start + CELL_WORDS].first_chunk().expect("a slot has 16 words of cells")
+    }
+
     /// The codes of a slot.
     #[inline(always)]
     pub fn brick(&self, slot: u32) -> &'a [u16; BRICK_VOXELS] {

@@ -43,6 +43,13 @@ pub fn optics_between<F: Real>(table: &[OpticsEntry], s0: F, s1: F) -> [F; 4] {
     })
 }
 
+/// Whether nothing within scalars [low, high] changes a picture; `occupied` as [`crate::tables::occupancy`] counts.
+#[inline(always)]
+pub fn is_vacant<F: Real>(occupied: &[u32], low: F, high: F) -> bool {
+    let (_, _, c0, c1) = span(occupied.len(), low, high);
+    occupied[c0] == occupied[c1 + 1]
+}
+
 /// φ(x) = (1 − e^−x) / x; a series where the difference would cancel.
 #[inline(always)]
 pub fn attenuation_mean<F: Real>(x: F) -> F {

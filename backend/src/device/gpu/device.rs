@@ -9,7 +9,8 @@ use crate::device::{CastJob, CastOutcome, DeviceError};
 use crate::protocol::{DeviceInfo, FilterChoice};
 use bytemuck::Pod;
 use shaders::compose::{Filter, KernelKey};
-use shaders::layout::{FeedbackEntry, ImportanceEntry, NodeRecord, OpticsEntry, Params};
+use shaders::layout::{FeedbackEntry, NodeRecord, Params};
+use shaders::tables::Tables;
 use shaders::twin::view::Dispatch;
 use std::sync::Arc;
 
@@ -29,8 +30,10 @@ pub struct GpuDevice {
     kernels: Kernels,
     params: wgpu::Buffer,
     nodes: Storage,
+    cells: Storage,
     optics: Storage,
     importance: Storage,
+    occupied: Storage,
     tiles: Storage,
     pixels: Storage,
     counts: Storage,
@@ -122,6 +125,8 @@ impl GpuDevice {
             kernels: Kernels::default(),
             params,
             nodes: storage("nodes"),
+            cells: storage("visible cells"),
+            occupied: storage("occupied table cells"),
             optics: storage("optics table"),
             importance: storage("importance table"),
             tiles: storage("tiles"),
@@ -163,17 +168,19 @@ impl GpuDevice {
         self.atlas.write(&self.context, slot, samples);
     }
 
-    pub(in crate::device) fn write_index(&mut self, nodes: &[NodeRecord]) {
+    pub(in crate::device) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
         let _turn = self.context.turn();
         self.nodes.write(&self.context, nodes);
+        self.cells.write(&self.context, cells);
         self.places = nodes.len();
         self.feedback.reserve(&self.context, (self.places * size_of::<FeedbackEntry>()) as u64);
     }
 
-    pub(in crate::device) fn write_tables(&mut self, optics: &[OpticsEntry], importance: &[ImportanceEntry]) {
+    pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
         let _turn = self.context.turn();
-        self.optics.write(&self.context, optics);
-        self.importance.write(&self.context, importance);
+        self.optics.write(&self.context, &tables.optics);
+        self.importance.write(&self.context, &tables.importance);
+        self.occupied.write(&self.context, &tables.occupied);
     }
 
     pub(in crate::device) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
@@ -238,6 +245,8 @@ impl GpuDevice {
             (4, &self.pixels),
             (5, &self.counts),
             (6, &self.feedback),
+            (10, &self.occupied),
+            (11, &self.cells),
         ];
         let mut entries: Vec<wgpu::BindGroupEntry> = buffers
             .into_iter()

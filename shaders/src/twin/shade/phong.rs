@@ -1,6 +1,6 @@
 //! Gradient shading: two-sided Phong, weighted by the strength of the gradient.
 
-use super::Shade;
+use super::{Lighting, Shade};
 use crate::twin::{Real, View, ray::Ray, sample::sample_brick, scene::BRICK_VOXELS, vector::Vec3};
 
 /// Twin of `wgsl/shade/phong.wgsl`.
@@ -10,26 +10,24 @@ impl Shade for Phong {
     const SPREAD: f64 = 0.05;
 
     #[inline(always)]
-    fn shade<F: Real>(
+    fn lighting<F: Real>(
         view: &View<F>,
         brick: &[u16; BRICK_VOXELS],
-        k: [F; 4],
-        middle: Vec3<F>,
+        place: Vec3<F>,
         gradient_scale: F,
         ray: &Ray<F>,
-    ) -> Vec3<F> {
-        let colour = Vec3([k[0], k[1], k[2]]);
+    ) -> Lighting<F> {
         let difference = Vec3(std::array::from_fn(|axis| {
             let mut unit = Vec3::ZERO;
             unit.0[axis] = F::ONE;
-            sample_brick(brick, middle + unit) - sample_brick(brick, middle - unit)
+            sample_brick(brick, place + unit) - sample_brick(brick, place - unit)
         }));
         let in_volume = difference * gradient_scale;
         let m = &view.volume_from_display;
         let gradient = Vec3([m[0].dot(in_volume), m[1].dot(in_volume), m[2].dot(in_volume)]) * view.voxel_m;
         let square = gradient.dot(gradient);
         if square < F::of(1e-30) {
-            return colour;
+            return Lighting::NONE;
         }
         let weight = square / (square + view.gradient_half_square);
         let length = square.sqrt();
@@ -37,8 +35,10 @@ impl Shade for Phong {
         let [ambient, diffuse, specular, shininess] = view.material;
         let lit = normal.dot(view.toward_light).abs();
         let highlight = highlight(normal, view.toward_light - ray.direction_in_display, shininess);
-        let body = F::ONE - weight + weight * (ambient + diffuse * lit);
-        colour * body + Vec3::splat(k[3] * weight * specular * highlight)
+        Lighting {
+            body: F::ONE - weight + weight * (ambient + diffuse * lit),
+            highlight: weight * specular * highlight,
+        }
     }
 }
 
