@@ -4,7 +4,7 @@ use super::composite::{Accumulated, Composite, Light};
 use super::sample::sample_brick;
 use super::scene::BRICK_VOXELS;
 use super::shade::{Lighting, Shade};
-use super::tables::{attenuation_mean, optics_between};
+use super::tables::{attenuation_mean, locate, optics_between};
 use super::traverse::{node_low, voxel_edge};
 use super::{Real, Scene, ray::Ray, vector::Vec3};
 use crate::layout::{CELL_WORDS, NodeRecord};
@@ -138,11 +138,13 @@ impl<'a, F: Real> Brick<'a, F> {
         let thickness = scene.view.extinction_per_metre * part;
         let mut alone = Light::NONE;
         let (mut from, end) = step.scalars;
+        let mut from_located = locate(scene.optics, from);
         let count = parts.to_index();
         for j in 1..=count {
             let t = step.t0 + F::of_u32(j) * part;
             let to = if j < count { self.scalar_at(t) } else { end };
-            let k = optics_between(scene.optics, from, to);
+            let to_located = locate(scene.optics, to);
+            let k = optics_between(scene.optics, &from_located, &to_located);
             if !C::is_clear(k[3]) {
                 let light = self.lighting::<S>(scene, ray, k[3], t - F::of(0.5) * part);
                 let light = segment_light(k, thickness, light);
@@ -152,7 +154,7 @@ impl<'a, F: Real> Brick<'a, F> {
                     front = C::composite(scene, front, light, (from, to));
                 }
             }
-            from = to;
+            (from, from_located) = (to, to_located);
         }
         if C::ONCE_PER_STEP { C::composite(scene, front, alone, step.scalars) } else { front }
     }

@@ -3,7 +3,7 @@
 use super::brick::{Brick, Step};
 use super::composite::{Accumulated, Composite, MimdaConsistent, MimdaPaper, Over};
 use super::shade::{Phong, Plain, Shade};
-use super::tables::is_vacant;
+use super::tables::{is_vacant, locate};
 use super::traverse::voxel_edge;
 use super::{
     Real, Scene,
@@ -102,7 +102,8 @@ fn march<F: Real, S: Shade, C: Composite>(
         if is_vacant(scene.occupied, low, high) {
             continue;
         }
-        let pair = Pair::new(scene.optics, [s0, s1, s2], (low, high));
+        let [l0, l1, l2] = [s0, s1, s2].map(|s| locate(scene.optics, s));
+        let pair = Pair::new(scene.optics, [&l0, &l1, &l2], (low, high));
         let visible = C::still_to_come(scene, front);
         let thickness = view.extinction_per_metre * step;
         let parts = parts_of_step(&pair, thickness, visible, F::of(S::SPREAD), view.tolerance)

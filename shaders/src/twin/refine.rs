@@ -1,6 +1,7 @@
 //! How many parts a step is cut into, by what a pair of steps tells of its own error.
 
-use super::{Real, tables::optics_between};
+use super::Real;
+use super::tables::{Located, locate, optics_between};
 use crate::layout::OpticsEntry;
 
 /// A step is cut into this many parts at most.
@@ -25,12 +26,12 @@ pub struct Pair<F> {
 impl<F: Real> Pair<F> {
     /// The means over scalars s0 to s1 to s2, with `reach` as [`scalars_in_reach`] tells it.
     #[inline(always)]
-    pub fn new(table: &[OpticsEntry], [s0, s1, s2]: [F; 3], reach: (F, F)) -> Self {
+    pub fn new(table: &[OpticsEntry], [s0, s1, s2]: [&Located<F>; 3], reach: (F, F)) -> Self {
         Self {
             first: optics_between(table, s0, s1),
             second: optics_between(table, s1, s2),
             both: optics_between(table, s0, s2),
-            reach: optics_between(table, reach.0, reach.1),
+            reach: optics_between(table, &locate(table, reach.0), &locate(table, reach.1)),
         }
     }
 }

@@ -4,6 +4,9 @@ use super::{Real, scene::BRICK_VOXELS, vector::Vec3};
 
 /// Stored samples along an edge.
 const EDGE: u32 = 32;
+/// Samples to the next along y and along z.
+const ROW: usize = 32;
+const LAYER: usize = 32 * 32;
 
 /// `point` in texels of the brick, sample centres at integer + 0.5, from 0.5 to 31.5; the result is in [0, 1].
 #[inline(always)]
@@ -17,14 +20,16 @@ pub fn sample_brick<F: Real>(brick: &[u16; BRICK_VOXELS], point: Vec3<F>) -> F {
         f[axis] = shifted - F::of_u32(index[axis]);
     }
     let base = ((index[2] * EDGE + index[1]) * EDGE + index[0]) as usize;
-    let at = |offset: usize| F::of_u32(u32::from(brick[base + offset]));
-    let (row, layer) = (EDGE as usize, (EDGE * EDGE) as usize);
-    let a = [at(0), at(1), at(row), at(row + 1)];
-    let b = [at(layer), at(layer + 1), at(layer + row), at(layer + row + 1)];
-    let along_z: [F; 4] = std::array::from_fn(|c| a[c] + (b[c] - a[c]) * f[2]);
+    // One bounds check for all eight; neighbours along x come as one word.
+    let window = &brick[base..base + LAYER + ROW + 2];
+    let pair = |offset: usize| u32::from(window[offset]) | u32::from(window[offset + 1]) << 16;
+    let pairs = [pair(0), pair(ROW), pair(LAYER), pair(LAYER + ROW)];
+    let low: [F; 4] = std::array::from_fn(|c| F::of_u32(pairs[c] & 0xffff));
+    let high: [F; 4] = std::array::from_fn(|c| F::of_u32(pairs[c] >> 16));
+    let along_x: [F; 4] = std::array::from_fn(|c| low[c] + (high[c] - low[c]) * f[0]);
     let along_y =
-        [along_z[0] + (along_z[2] - along_z[0]) * f[1], along_z[1] + (along_z[3] - along_z[1]) * f[1]];
-    (along_y[0] + (along_y[1] - along_y[0]) * f[0]) * F::of(1.0 / 65535.0)
+        [along_x[0] + (along_x[1] - along_x[0]) * f[1], along_x[2] + (along_x[3] - along_x[2]) * f[1]];
+    (along_y[0] + (along_y[1] - along_y[0]) * f[2]) * F::of(1.0 / 65535.0)
 }
 
 #[cfg(test)]

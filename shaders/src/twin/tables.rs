@@ -3,14 +3,29 @@
 use super::Real;
 use crate::layout::OpticsEntry;
 
+/// A scalar's place in a table, and the values there: looked up once, used for every mean that ends at it.
+#[derive(Clone, Copy, Debug)]
+pub struct Located<F> {
+    /// Position in cells.
+    u: F,
+    /// The cell it lies in.
+    cell: usize,
+    /// (τ c, τ).
+    value: [F; 4],
+}
+
+/// Looks up a scalar in [0, 1].
 #[inline(always)]
-fn optics_at<F: Real>(table: &[OpticsEntry], u: F, cell: usize) -> [F; 4] {
+pub fn locate<F: Real>(table: &[OpticsEntry], s: F) -> Located<F> {
+    let u = s * F::of_u32(table.len() as u32 - 1);
+    let cell = (u.to_index() as usize).min(table.len() - 2);
     let f = u - F::of_u32(cell as u32);
     let (a, b) = (&table[cell].value, &table[cell + 1].value);
-    std::array::from_fn(|c| {
+    let value = std::array::from_fn(|c| {
         let (a, b) = (F::of_f32(a[c]), F::of_f32(b[c]));
         a + (b - a) * f
-    })
+    });
+    Located { u, cell, value }
 }
 
 /// The part of a table that two scalars span: positions in cells, smaller first, and the cells they lie in.
@@ -22,24 +37,23 @@ pub(super) fn span<F: Real>(entries: usize, s0: F, s1: F) -> (F, F, usize, usize
     (u0, u1, (u0.to_index() as usize).min(last), (u1.to_index() as usize).min(last))
 }
 
-/// Mean of (τ c, τ) over scalars [s0, s1]; see the WGSL for why nothing cancels.
+/// Mean of (τ c, τ) between two scalars; see the WGSL for why nothing cancels.
 #[inline(always)]
-pub fn optics_between<F: Real>(table: &[OpticsEntry], s0: F, s1: F) -> [F; 4] {
-    let (u0, u1, c0, c1) = span(table.len(), s0, s1);
+pub fn optics_between<F: Real>(table: &[OpticsEntry], a: &Located<F>, b: &Located<F>) -> [F; 4] {
     let half = F::of(0.5);
-    if c0 == c1 {
-        return optics_at(table, half * (u0 + u1), c0);
+    if a.cell == b.cell {
+        return std::array::from_fn(|c| half * (a.value[c] + b.value[c]));
     }
-    let (first, last) = (optics_at(table, u0, c0), optics_at(table, u1, c1));
-    let (after, before) = (&table[c0 + 1], &table[c1]);
-    let left = half * (F::of_u32(c0 as u32 + 1) - u0);
-    let right = half * (u1 - F::of_u32(c1 as u32));
-    let width = u1 - u0;
+    let (first, last) = if a.cell < b.cell { (a, b) } else { (b, a) };
+    let (after, before) = (&table[first.cell + 1], &table[last.cell]);
+    let left = half * (F::of_u32(first.cell as u32 + 1) - first.u);
+    let right = half * (last.u - F::of_u32(last.cell as u32));
+    let width = last.u - first.u;
     std::array::from_fn(|c| {
         let whole = (F::of_f32(before.integral[c]) - F::of_f32(after.integral[c]))
             + (F::of_f32(before.integral_rest[c]) - F::of_f32(after.integral_rest[c]));
-        let ends = (first[c] + F::of_f32(after.value[c])) * left;
-        (ends + whole + (F::of_f32(before.value[c]) + last[c]) * right) / width
+        let ends = (first.value[c] + F::of_f32(after.value[c])) * left;
+        (ends + whole + (F::of_f32(before.value[c]) + last.value[c]) * right) / width
     })
 }
 
@@ -70,6 +84,10 @@ mod tests {
 
     /// Six terms of the series, cut off at x = 1/4: the next term is x⁶/5040.
     const SERIES_ERROR: f64 = 0.25 * 0.25 * 0.25 * 0.25 * 0.25 * 0.25 / 5040.0;
+
+    fn mean(table: &[OpticsEntry], s0: f32, s1: f32) -> f32 {
+        optics_between(table, &locate(table, s0), &locate(table, s1))[3]
+    }
 
     fn table(points: Vec<(f64, f64)>) -> Vec<OpticsEntry> {
         optics_table(&Optics {
@@ -102,7 +120,7 @@ mod tests {
         let mut table = table(vec![(0.0, 1e6), (0.1, 1e6), (0.1, 1e-6), (1.0, 1e-6)]);
         let worst = |table: &[OpticsEntry]| {
             [(0.2f32, 0.9f32), (0.5, 0.503), (0.9, 0.8999)].into_iter().fold(0.0f64, |worst, (s0, s1)| {
-                let error = (f64::from(optics_between(table, s0, s1)[3]) - 1e-6).abs();
+                let error = (f64::from(mean(table, s0, s1)) - 1e-6).abs();
                 let cells = f64::from((s1 - s0).abs()) * (table.len() - 1) as f64;
                 let whole = f64::from(table[table.len() - 1].integral[3]);
                 worst.max(error / (TWO_FLOATS * whole / cells + 1e-12))
@@ -122,9 +140,9 @@ mod tests {
             let points: Vec<_> = values.iter().enumerate().map(|(i, &v)| (i as f64 / 4.0, v)).collect();
             let most = values.iter().fold(0.0f64, |m, &v| m.max(v)) as f32;
             let table = table(points);
-            let mean = optics_between(&table, s0, s1)[3];
-            prop_assert!(mean >= 0.0 && mean <= most * 1.0001 + 1e-6);
-            prop_assert_eq!(mean, optics_between(&table, s1, s0)[3]);
+            let found = mean(&table, s0, s1);
+            prop_assert!(found >= 0.0 && found <= most * 1.0001 + 1e-6);
+            prop_assert_eq!(found, mean(&table, s1, s0));
         }
     }
 }

@@ -6,11 +6,11 @@ fn sample_atlas(point: vec3<f32>) -> f32 {
     let base = floor(shifted);
     let f = shifted - base;
     let i = vec3<i32>(base);
-    let a = vec4<f32>(texel_at(i, 0, 0, 0), texel_at(i, 1, 0, 0), texel_at(i, 0, 1, 0), texel_at(i, 1, 1, 0));
-    let b = vec4<f32>(texel_at(i, 0, 0, 1), texel_at(i, 1, 0, 1), texel_at(i, 0, 1, 1), texel_at(i, 1, 1, 1));
-    let along_z = a + (b - a) * f.z;
-    let along_y = along_z.xy + (along_z.zw - along_z.xy) * f.y;
-    return along_y.x + (along_y.y - along_y.x) * f.x;
+    let low = vec4<f32>(texel_at(i, 0, 0, 0), texel_at(i, 0, 1, 0), texel_at(i, 0, 0, 1), texel_at(i, 0, 1, 1));
+    let high = vec4<f32>(texel_at(i, 1, 0, 0), texel_at(i, 1, 1, 0), texel_at(i, 1, 0, 1), texel_at(i, 1, 1, 1));
+    let along_x = low + (high - low) * f.x;
+    let along_y = along_x.xz + (along_x.yw - along_x.xz) * f.y;
+    return along_y.x + (along_y.y - along_y.x) * f.z;
 }
 
 fn texel_at(base: vec3<i32>, x: i32, y: i32, z: i32) -> f32 {

@@ -1,7 +1,7 @@
 // Gradient shading: two-sided Phong, weighted by the strength of the gradient.
 
 // How much the shaded colour may vary within a step, for the estimate of a step's error.
-const SPREAD: f32 = 0.05;
+const SPREAD: f32 = 0.1;
 
 // `k` is the mean of (τ c, τ); `middle` the segment's middle in texels of the atlas; `gradient_scale` turns a
 // difference over two texels into a change of the scalar per finest voxel.

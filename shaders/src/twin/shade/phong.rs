@@ -7,7 +7,7 @@ use crate::twin::{Real, View, ray::Ray, sample::sample_brick, scene::BRICK_VOXEL
 pub struct Phong;
 
 impl Shade for Phong {
-    const SPREAD: f64 = 0.05;
+    const SPREAD: f64 = 0.1;
 
     #[inline(always)]
     fn lighting<F: Real>(
