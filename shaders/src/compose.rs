@@ -97,6 +97,7 @@ impl KernelKey {
             sample,
             shade,
             composite,
+            include_str!("../wgsl/brick.wgsl"),
             include_str!("../wgsl/cast.wgsl"),
         ]
         .join("\n")

@@ -33,7 +33,7 @@ fn every_permutation_is_valid() {
 #[test]
 fn a_spoiled_kernel_is_not_valid() {
     let key = KernelKey::all().next().unwrap();
-    assert!(is_valid(&key.wgsl().replace("fn shade(", "fn shade_not(")).is_err());
+    assert!(is_valid(&key.wgsl().replace("fn lighting(", "fn not_lighting(")).is_err());
 }
 
 fn offsets(module: &naga::Module, name: &str) -> (Vec<(String, u32)>, u32) {

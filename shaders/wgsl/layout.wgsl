@@ -51,6 +51,9 @@ const TILE_EDGE: u32 = 8u;
 const BRICK_EDGE: u32 = 32u;
 const OVERLAP: f32 = 2.0;
 const OWN_EDGE: f32 = 28.0;
+// Texels along the edge of a cell, and words of cells a slot.
+const CELL_EDGE: f32 = 4.0;
+const CELL_WORDS: u32 = 16u;
 // Set in the count of samples where a ray met a node that is too coarse.
 const MISSING: u32 = 0x80000000u;
 
@@ -62,3 +65,7 @@ const MISSING: u32 = 0x80000000u;
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(6) var<storage, read_write> feedback: array<FeedbackEntry>;
 @group(0) @binding(7) var atlas: texture_3d<f32>;
+// How many table cells below each node change a picture.
+@group(0) @binding(10) var<storage, read> occupied: array<u32>;
+// Which 4³ cells of each slot's brick show anything: 16 words a slot, cell (x, y, z) is bit (z 8 + y) 8 + x.
+@group(0) @binding(11) var<storage, read> cells: array<u32>;

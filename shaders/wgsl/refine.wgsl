@@ -19,6 +19,11 @@ fn largest(v: vec4<f32>) -> f32 {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
+fn pair_of(s0: Located, s1: Located, s2: Located, reach: vec2<f32>) -> Pair {
+    return Pair(optics_between(s0, s1), optics_between(s1, s2), optics_between(s0, s2),
+        optics_between(locate(reach.x), locate(reach.y)));
+}
+
 // Parts of each step of a pair, where a step has `thickness` and `visible` is the opacity that may still be added.
 // Three things err: where the scalar bends, `both` differs from the mean of the two steps, and something between the
 // samples may not have been seen at all; where colours differ, light taken as if it came from anywhere in a step errs by

@@ -1,26 +1,47 @@
 // Averages of the transfer functions over a segment, from tables of f and F = ∫ f.
 
-fn optics_at(u: f32, cell: u32) -> vec4<f32> {
-    return mix(optics_table[cell].value, optics_table[cell + 1u].value, u - f32(cell));
+// A scalar's place in the tables, and the values there: looked up once, used for every mean that ends at it.
+struct Located {
+    // Position in cells, and the cell.
+    u: f32,
+    cell: u32,
+    // (τ c, τ).
+    value: vec4<f32>,
 }
 
-// Mean of (τ c, τ) over scalars [s0, s1]. Within one table cell f is linear, so the mean is the value in the middle;
-// over several cells the end pieces are trapezoids and only whole cells use the difference of integrals, kept as the
-// sum of two floats: nothing cancels.
-fn optics_between(s0: f32, s1: f32) -> vec4<f32> {
+fn locate(s: f32) -> Located {
     let entries = params.tables.x;
-    let u0 = min(s0, s1) * f32(entries - 1u);
-    let u1 = max(s0, s1) * f32(entries - 1u);
-    let c0 = min(u32(u0), entries - 2u);
-    let c1 = min(u32(u1), entries - 2u);
-    if c0 == c1 {
-        return optics_at(0.5 * (u0 + u1), c0);
+    let u = s * f32(entries - 1u);
+    let cell = min(u32(u), entries - 2u);
+    return Located(u, cell, mix(optics_table[cell].value, optics_table[cell + 1u].value, u - f32(cell)));
+}
+
+// Mean of (τ c, τ) between two scalars. Within one table cell f is linear, so the mean is that of the ends; over several
+// cells the end pieces are trapezoids and only whole cells use the difference of integrals, kept as the sum of two
+// floats: nothing cancels.
+fn optics_between(a: Located, b: Located) -> vec4<f32> {
+    if a.cell == b.cell {
+        return 0.5 * (a.value + b.value);
     }
-    let left = (optics_at(u0, c0) + optics_table[c0 + 1u].value) * (0.5 * (f32(c0 + 1u) - u0));
-    let right = (optics_table[c1].value + optics_at(u1, c1)) * (0.5 * (u1 - f32(c1)));
-    let whole = (optics_table[c1].integral - optics_table[c0 + 1u].integral)
-        + (optics_table[c1].integral_rest - optics_table[c0 + 1u].integral_rest);
-    return (left + whole + right) / (u1 - u0);
+    var first = a;
+    var last = b;
+    if b.cell < a.cell {
+        first = b;
+        last = a;
+    }
+    let left = (first.value + optics_table[first.cell + 1u].value) * (0.5 * (f32(first.cell + 1u) - first.u));
+    let right = (optics_table[last.cell].value + last.value) * (0.5 * (last.u - f32(last.cell)));
+    let whole = (optics_table[last.cell].integral - optics_table[first.cell + 1u].integral)
+        + (optics_table[last.cell].integral_rest - optics_table[first.cell + 1u].integral_rest);
+    return (left + whole + right) / (last.u - first.u);
+}
+
+// Whether nothing within scalars [low, high] changes a picture.
+fn is_vacant(low: f32, high: f32) -> bool {
+    let entries = params.tables.x;
+    let c0 = min(u32(low * f32(entries - 1u)), entries - 2u);
+    let c1 = min(u32(high * f32(entries - 1u)), entries - 2u);
+    return occupied[c0] == occupied[c1 + 1u];
 }
 
 // φ(x) = (1 − e^−x) / x; a series where the difference would cancel.

@@ -3,20 +3,20 @@
 // How much the shaded colour may vary within a step, for the estimate of a step's error.
 const SPREAD: f32 = 0.1;
 
-// `k` is the mean of (τ c, τ); `middle` the segment's middle in texels of the atlas; `gradient_scale` turns a
-// difference over two texels into a change of the scalar per finest voxel.
-fn shade(k: vec4<f32>, middle: vec3<f32>, gradient_scale: f32, ray: Ray) -> vec3<f32> {
+// `place` in texels of the atlas; `gradient_scale` turns a difference over two texels into a change of the scalar per
+// finest voxel.
+fn lighting(place: vec3<f32>, gradient_scale: f32, ray: Ray) -> Lighting {
     let difference = vec3<f32>(
-        sample_atlas(middle + vec3<f32>(1.0, 0.0, 0.0)) - sample_atlas(middle - vec3<f32>(1.0, 0.0, 0.0)),
-        sample_atlas(middle + vec3<f32>(0.0, 1.0, 0.0)) - sample_atlas(middle - vec3<f32>(0.0, 1.0, 0.0)),
-        sample_atlas(middle + vec3<f32>(0.0, 0.0, 1.0)) - sample_atlas(middle - vec3<f32>(0.0, 0.0, 1.0)));
+        sample_atlas(place + vec3<f32>(1.0, 0.0, 0.0)) - sample_atlas(place - vec3<f32>(1.0, 0.0, 0.0)),
+        sample_atlas(place + vec3<f32>(0.0, 1.0, 0.0)) - sample_atlas(place - vec3<f32>(0.0, 1.0, 0.0)),
+        sample_atlas(place + vec3<f32>(0.0, 0.0, 1.0)) - sample_atlas(place - vec3<f32>(0.0, 0.0, 1.0)));
     let in_volume = difference * gradient_scale;
     let m = params.volume_from_display;
     let gradient = vec3<f32>(dot(m[0].xyz, in_volume), dot(m[1].xyz, in_volume), dot(m[2].xyz, in_volume))
         * params.volume.w;
     let square = dot(gradient, gradient);
     if square < 1e-30 {
-        return k.xyz;
+        return Lighting(1.0, 0.0);
     }
     let weight = square / (square + params.light.w);
     let normal = gradient / sqrt(square);
@@ -31,5 +31,5 @@ fn shade(k: vec4<f32>, middle: vec3<f32>, gradient_scale: f32, ray: Ray) -> vec3
         }
     }
     let body = 1.0 - weight + weight * (params.material.x + params.material.y * diffuse);
-    return k.xyz * body + vec3<f32>(k.w * weight * params.material.z * specular);
+    return Lighting(body, weight * params.material.z * specular);
 }
