@@ -8,6 +8,7 @@
 mod brick;
 pub mod cast;
 pub mod composite;
+mod four;
 pub mod importance;
 pub mod ray;
 pub mod real;

@@ -1,6 +1,7 @@
 //! How many parts a step is cut into, by what a pair of steps tells of its own error.
 
 use super::Real;
+use super::four::each;
 use super::tables::{Located, locate, optics_between};
 use crate::layout::OpticsEntry;
 
@@ -44,16 +45,15 @@ pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: 
     let depth = (first[3] + second[3]) * thickness;
     let bend_scale = thickness / (F::ONE + depth);
     let order_scale = thickness * thickness / (F::ONE + depth * depth);
-    let mut worst = first[3] * second[3] * order_scale * spread;
-    for c in 0..4 {
-        let bend = (first[c] + second[c] - F::of(2.0) * both[c]).abs();
-        let unseen = (reach[c] - both[c]).abs() * F::of(UNSEEN);
-        worst = worst.most(bend.most(unseen) * bend_scale);
-    }
-    for c in 0..3 {
-        let order = (first[c] * second[3] - second[c] * first[3]).abs() * order_scale;
-        worst = worst.most(order);
-    }
+    let two = F::of(2.0);
+    let share = F::of(UNSEEN);
+    let bend: [F; 4] = each!(C => {
+        (first[C] + second[C] - two * both[C]).abs().most((reach[C] - both[C]).abs() * share)
+    });
+    let order: [F; 4] = each!(C => (first[C] * second[3] - second[C] * first[3]).abs());
+    let shaded = first[3] * second[3] * spread;
+    let worst_order = order[0].most(order[1]).most(order[2].most(shaded)) * order_scale;
+    let worst = (bend[0].most(bend[1]).most(bend[2].most(bend[3])) * bend_scale).most(worst_order);
     (worst * visible / tolerance).sqrt().ceil().most(F::ONE).least(F::of(MOST_PARTS))
 }
 

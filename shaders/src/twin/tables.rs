@@ -1,6 +1,7 @@
 //! Averages of the transfer functions over a segment, from tables of f and F = ∫ f.
 
 use super::Real;
+use super::four::{each, mix, widen};
 use crate::layout::OpticsEntry;
 
 /// A scalar's place in a table, and the values there: looked up once, used for every mean that ends at it.
@@ -20,12 +21,8 @@ pub fn locate<F: Real>(table: &[OpticsEntry], s: F) -> Located<F> {
     let u = s * F::of_u32(table.len() as u32 - 1);
     let cell = (u.to_index() as usize).min(table.len() - 2);
     let f = u - F::of_u32(cell as u32);
-    let (a, b) = (&table[cell].value, &table[cell + 1].value);
-    let value = std::array::from_fn(|c| {
-        let (a, b) = (F::of_f32(a[c]), F::of_f32(b[c]));
-        a + (b - a) * f
-    });
-    Located { u, cell, value }
+    let ends = &table[cell..cell + 2];
+    Located { u, cell, value: mix(widen(&ends[0].value), widen(&ends[1].value), f) }
 }
 
 /// The part of a table that two scalars span: positions in cells, smaller first, and the cells they lie in.
@@ -42,18 +39,19 @@ pub(super) fn span<F: Real>(entries: usize, s0: F, s1: F) -> (F, F, usize, usize
 pub fn optics_between<F: Real>(table: &[OpticsEntry], a: &Located<F>, b: &Located<F>) -> [F; 4] {
     let half = F::of(0.5);
     if a.cell == b.cell {
-        return std::array::from_fn(|c| half * (a.value[c] + b.value[c]));
+        return each!(C => half * (a.value[C] + b.value[C]));
     }
     let (first, last) = if a.cell < b.cell { (a, b) } else { (b, a) };
     let (after, before) = (&table[first.cell + 1], &table[last.cell]);
     let left = half * (F::of_u32(first.cell as u32 + 1) - first.u);
     let right = half * (last.u - F::of_u32(last.cell as u32));
     let width = last.u - first.u;
-    std::array::from_fn(|c| {
-        let whole = (F::of_f32(before.integral[c]) - F::of_f32(after.integral[c]))
-            + (F::of_f32(before.integral_rest[c]) - F::of_f32(after.integral_rest[c]));
-        let ends = (first.value[c] + F::of_f32(after.value[c])) * left;
-        (ends + whole + (F::of_f32(before.value[c]) + last.value[c]) * right) / width
+    let per_width = F::ONE / width;
+    each!(C => {
+        let whole = (F::of_f32(before.integral[C]) - F::of_f32(after.integral[C]))
+            + (F::of_f32(before.integral_rest[C]) - F::of_f32(after.integral_rest[C]));
+        let ends = (first.value[C] + F::of_f32(after.value[C])) * left;
+        (ends + whole + (F::of_f32(before.value[C]) + last.value[C]) * right) * per_width
     })
 }
 

@@ -1,7 +1,7 @@
 //! Gradient shading: two-sided Phong, weighted by the strength of the gradient.
 
 use super::{Lighting, Shade};
-use crate::twin::{Real, View, ray::Ray, sample::sample_brick, scene::BRICK_VOXELS, vector::Vec3};
+use crate::twin::{Real, View, ray::Ray, sample::differences, scene::BRICK_VOXELS, vector::Vec3};
 
 /// Twin of `wgsl/shade/phong.wgsl`.
 pub struct Phong;
@@ -17,11 +17,7 @@ impl Shade for Phong {
         gradient_scale: F,
         ray: &Ray<F>,
     ) -> Lighting<F> {
-        let difference = Vec3(std::array::from_fn(|axis| {
-            let mut unit = Vec3::ZERO;
-            unit.0[axis] = F::ONE;
-            sample_brick(brick, place + unit) - sample_brick(brick, place - unit)
-        }));
+        let difference = differences(brick, place);
         let in_volume = difference * gradient_scale;
         let m = &view.volume_from_display;
         let gradient = Vec3([m[0].dot(in_volume), m[1].dot(in_volume), m[2].dot(in_volume)]) * view.voxel_m;
