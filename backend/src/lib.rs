@@ -6,6 +6,7 @@ pub mod protocol;
 pub mod reference;
 pub mod render;
 pub mod store;
+mod temporary;
 pub mod transport;
 pub mod volume;
 pub mod working_set;

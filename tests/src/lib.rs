@@ -4,4 +4,6 @@ pub mod closure_volume;
 pub mod compare;
 pub mod data;
 pub mod draw;
+#[cfg(unix)]
+pub mod program;
 pub mod scenes;

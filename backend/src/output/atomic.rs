@@ -1,10 +1,10 @@
 //! Files that appear whole or not at all.
 
 use super::OutputError;
+use crate::temporary::temporary_in;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
-use tempfile::{Builder, NamedTempFile};
 
 /// Writes `path` through a temporary file beside it: whoever looks sees the old file or the new one, never a part.
 pub fn write_atomically(
@@ -26,18 +26,6 @@ pub fn can_write_into(folder: &Path) -> Result<(), OutputError> {
     std::fs::create_dir_all(folder).map_err(|e| OutputError::write(folder, e))?;
     let mut file = temporary_in(folder).map_err(|e| OutputError::write(folder, e))?;
     file.write_all(b"lightloom").map_err(|e| OutputError::write(folder, e))
-}
-
-/// A file that deletes itself unless it is given a name; readable as any other file of the user would be.
-fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    builder.prefix(".lightloom-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The file system said no.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}; check permissions and free space, or give another folder", path.display())]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -14,7 +14,7 @@ pub enum OutputError {
         source: std::io::Error,
     },
     /// An encoder said no.
-    #[error("cannot encode {}: {reason}", path.display())]
+    #[error("cannot encode {}: {reason}; check the free space, or give another folder", path.display())]
     Encode {
         /// The file.
         path: PathBuf,

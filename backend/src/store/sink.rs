@@ -3,9 +3,11 @@
 use super::format::{ENTRY_BYTES, Entry, Header};
 use super::node_table::NodeTable;
 use super::{NodeKey, OctreeShape, StoreError};
+use crate::temporary::temporary_in;
+use std::fs::File;
 use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 /// Bytes collected before they are written.
 const WRITE_BUFFER_BYTES: usize = 1 << 20;
@@ -20,7 +22,9 @@ pub(super) struct PackedBrick {
 /// The file being written, and its table.
 pub(super) struct Sink {
     path: PathBuf,
-    file: BufWriter<NamedTempFile>,
+    file: BufWriter<File>,
+    /// Where it is while it is being written.
+    working_path: TempPath,
     shape: OctreeShape,
     table: NodeTable,
     entries: Vec<Entry>,
@@ -39,12 +43,13 @@ impl Sink {
         if path.is_dir() {
             return Err(StoreError::write(path)(std::io::ErrorKind::IsADirectory.into()));
         }
-        let file = working_file(folder_of(path)).map_err(StoreError::write(path))?;
+        let (file, working_path) =
+            temporary_in(folder_of(path)).map_err(StoreError::write(path))?.into_parts();
         let mut file = BufWriter::with_capacity(WRITE_BUFFER_BYTES, file);
         let position = header.table_offset() + table.nodes() * ENTRY_BYTES as u64;
         file.seek(SeekFrom::Start(position)).map_err(StoreError::write(path))?;
         let entries = vec![Entry::default(); table.nodes() as usize];
-        Ok(Self { path: path.into(), file, shape, table, entries, position, stored_bricks: 0 })
+        Ok(Self { path: path.into(), file, working_path, shape, table, entries, position, stored_bricks: 0 })
     }
 
     /// Writes a brick; each node once.
@@ -76,9 +81,9 @@ impl Sink {
             self.file.write_all(&entry.to_bytes()).map_err(&failed)?;
         }
         let file = self.file.into_inner().map_err(|error| failed(error.into_error()))?;
-        file.as_file().set_len(self.position).map_err(&failed)?;
-        file.as_file().sync_all().map_err(&failed)?;
-        file.persist(&self.path).map_err(|error| failed(error.error))?;
+        file.set_len(self.position).map_err(&failed)?;
+        file.sync_all().map_err(&failed)?;
+        self.working_path.persist(&self.path).map_err(|error| failed(error.error))?;
         Ok(())
     }
 
@@ -102,13 +107,4 @@ pub(super) fn folder_of(path: &Path) -> &Path {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     }
-}
-
-/// A file that vanishes unless it is given a name, with the permissions of any new file.
-fn working_file(folder: &Path) -> std::io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lloom-");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
 }

@@ -20,9 +20,6 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = session::load_display(&args.display)?;
-    Job::prepare_output(&args.out)?;
-    let backends = Backends::connect(args.backends)?;
-    let setups = setups(args, &scene, &display, backends.count())?;
     let facts = session::volume_facts(&scene.volume_ref())?;
     let job = Job {
         frames: frames(args, &scene, &display, &facts)?,
@@ -31,6 +28,9 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         out: args.out.clone(),
         exr: args.exr,
     };
+    Job::prepare_output(&args.out)?;
+    let backends = Backends::connect(args.backends)?;
+    let setups = setups(args, &scene, &job.display, backends.count())?;
     let (mut source, devices) = backends.start(setups)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let frames = job.run(source.as_mut(), &mut progress)?;

@@ -10,10 +10,10 @@ pub use source::{Event, FrameSource};
 use crate::FrontendError;
 use crate::progress::Progress;
 use crate::report::{EyeSummary, FrameSummary};
-use backend::output::can_write_into;
+use backend::output::{OutputError, can_write_into};
 use backend::protocol::FrameState;
 use display_config::Display;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The contact sheet of the first frame, in the output folder.
 pub const CONTACT_SHEET: &str = "contact-sheet.png";
@@ -33,28 +33,19 @@ pub struct Job {
 }
 
 impl Job {
-    /// Makes the output folder, tries to write in it, and takes away what an earlier run said of itself: it would
-    /// describe other pictures. Call it before anything takes long.
-    pub fn prepare_output(out: &std::path::Path) -> Result<(), FrontendError> {
-        can_write_into(out)?;
-        for name in [CONTACT_SHEET, crate::report::JSON, crate::report::HTML] {
-            let path = out.join(name);
-            match std::fs::remove_file(&path) {
-                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(backend::output::OutputError::Write { path, source }.into());
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+    /// Makes the output folder and tries to write in it. Call it before anything takes long.
+    pub fn prepare_output(out: &Path) -> Result<(), FrontendError> {
+        Ok(can_write_into(out)?)
     }
 
     /// Draws all frames. Pictures are files as soon as they are final; after a failure those that are there are whole.
+    /// What an earlier run said of itself goes first: it would describe other pictures.
     pub fn run(
         &self,
         source: &mut dyn FrameSource,
         progress: &mut Progress,
     ) -> Result<Vec<FrameSummary>, FrontendError> {
+        self.forget_earlier_run()?;
         let mut summaries = Vec::with_capacity(self.frames.len());
         for (place, frame) in self.frames.iter().enumerate() {
             let mut show = |part: f64| {
@@ -64,6 +55,19 @@ impl Job {
             summaries.push(self.draw(source, frame, place == 0, &mut show)?);
         }
         Ok(summaries)
+    }
+
+    fn forget_earlier_run(&self) -> Result<(), OutputError> {
+        for name in [CONTACT_SHEET, crate::report::JSON, crate::report::HTML] {
+            let path = self.out.join(name);
+            match std::fs::remove_file(&path) {
+                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(OutputError::Write { path, source });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     /// What the report says of the eyes.
