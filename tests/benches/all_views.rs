@@ -1,0 +1,164 @@
+//! All 72 views of holo72, of a CT-like volume: seconds and samples per second, next to the error they were had at.
+//!
+//! `cargo bench -p lightloom-tests --bench all_views`; LIGHTLOOM_BENCH_VIEWS=n takes n views, evenly spread, and
+//! LIGHTLOOM_BENCH_DEVICES=cpu,gpu the devices named.
+
+use backend::protocol::{FrameState, ProjectorImage};
+use backend::render::{RenderEvent, Renderer};
+use backend::store::{BrickSource, BuildOptions, CodeBits, ImportOptions, Store, import};
+use backend::volume::{ByteOrder, Element, RawLayout};
+use display_config::Display;
+use glam::{DQuat, DVec3, UVec3};
+use lightloom_tests::{compare, draw, scenes};
+use shaders::optics::{Light, Optics, Quality};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// As a scanner gives a head: 512 × 512 × 133.
+const DIMS: UVec3 = UVec3::new(512, 512, 133);
+/// Views whose pictures are compared with the reference.
+const COMPARED: usize = 3;
+/// Every so many pixels of them, along x and y.
+const COMPARED_STRIDE: u32 = 12;
+
+/// A head in Hounsfield units: skin, a skull with sutures, tissue with folds, and a scanner's noise.
+fn head(voxel: UVec3) -> i16 {
+    let p = (voxel.as_dvec3() + 0.5) / DIMS.as_dvec3() * 2.0 - 1.0;
+    let r = (p / DVec3::new(0.78, 0.9, 0.95)).length();
+    let folds = (24.0 * p.x + 3.0 * (9.0 * p.y).sin()).sin() * (20.0 * p.y + 4.0 * (7.0 * p.z).cos()).cos();
+    let suture = (40.0 * (p.y + 0.2 * (12.0 * p.x).sin())).cos().abs();
+    let value = match r {
+        r if r > 1.0 => -1000.0,
+        r if r > 0.93 => 20.0 + 60.0 * folds,
+        r if r > 0.84 => 900.0 + 500.0 * suture,
+        _ => 35.0 + 25.0 * folds,
+    };
+    let hash = (voxel.x ^ voxel.y.rotate_left(11) ^ voxel.z.rotate_left(22)).wrapping_mul(2_654_435_761);
+    (value + 30.0 * (f64::from(hash >> 8) / f64::from(1u32 << 24) - 0.5)) as i16
+}
+
+fn store(folder: &Path) -> Store {
+    let raw = folder.join("head.raw");
+    let index = |i: u32| UVec3::new(i % DIMS.x, i / DIMS.x % DIMS.y, i / (DIMS.x * DIMS.y));
+    let bytes: Vec<u8> = (0..DIMS.element_product()).flat_map(|i| head(index(i)).to_le_bytes()).collect();
+    std::fs::write(&raw, bytes).expect("a temporary folder takes 70 MB");
+    let layout = RawLayout {
+        dims: DIMS,
+        element: Element::I16,
+        byte_order: ByteOrder::Little,
+        spacing_mm: DVec3::new(0.45, 0.45, 1.2),
+        header_skip_bytes: 0,
+    };
+    let options = ImportOptions {
+        build: BuildOptions { bits: CodeBits::Eight, ..Default::default() },
+        ..Default::default()
+    };
+    let out = folder.join("head.lloom");
+    import(&raw.to_string_lossy(), Some(layout), &out, &options, &|_, _| {}).expect("a whole file imports");
+    Store::open(&out).expect("a store just built opens")
+}
+
+fn semi_transparent() -> Optics {
+    scenes::optics(
+        (-1024.0, 3071.0),
+        &vec![(-400.0, 0.0), (-100.0, 0.006), (100.0, 0.004), (300.0, 0.008), (1500.0, 0.03)],
+        &vec![(-400.0, [0.8, 0.45, 0.3]), (150.0, [0.8, 0.3, 0.2]), (700.0, [0.95, 0.9, 0.8])],
+    )
+}
+
+fn opaque() -> Optics {
+    scenes::optics(
+        (-1024.0, 3071.0),
+        &vec![(300.0, 0.0), (600.0, 0.8), (1500.0, 1.5)],
+        &vec![(300.0, [0.9, 0.6, 0.4]), (900.0, [0.95, 0.9, 0.8])],
+    )
+}
+
+/// Most memory this process has held, MiB.
+fn peak_mib() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    line.and_then(|rest| rest.trim().trim_end_matches(" kB").parse::<f64>().ok())
+        .map_or(f64::NAN, |k| k / 1024.0)
+}
+
+struct Measured {
+    seconds: f64,
+    samples: u64,
+    complete: bool,
+    images: Vec<ProjectorImage>,
+    peak_mib: f64,
+}
+
+/// Draws all views, and keeps the pictures of those that will be compared.
+fn measure(renderer: &mut Renderer, frame: &FrameState, keep: &[u32]) -> Measured {
+    let started = Instant::now();
+    let mut images = Vec::new();
+    let mut sink = |event| match event {
+        RenderEvent::Image(image) if keep.contains(&image.projector) => images.push(image),
+        RenderEvent::Image(_) | RenderEvent::Progress { .. } => {}
+    };
+    let report = renderer.draw(frame, &mut sink).expect("the bench scene can be drawn");
+    Measured {
+        seconds: started.elapsed().as_secs_f64(),
+        samples: report.samples,
+        complete: report.complete,
+        images,
+        peak_mib: peak_mib(),
+    }
+}
+
+fn main() {
+    let views: usize =
+        std::env::var("LIGHTLOOM_BENCH_VIEWS").ok().and_then(|n| n.parse().ok()).unwrap_or(72).clamp(1, 72);
+    let wanted = std::env::var("LIGHTLOOM_BENCH_DEVICES").unwrap_or_else(|_| "cpu,gpu".into());
+    let display = Display::load("holo72").expect("a preset");
+    let projectors: Vec<u32> = (0..views).map(|i| ((2 * i + 1) * 72 / (2 * views)) as u32).collect();
+    let keep: Vec<u32> = (0..COMPARED.min(views))
+        .map(|i| projectors[(2 * i + 1) * views / (2 * COMPARED.min(views))])
+        .collect();
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let source: Arc<dyn BrickSource> = Arc::new(store(folder.path()));
+    let place = scenes::placed(&*source, 0.75, DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
+    let one_voxel =
+        Quality { step_voxels: 1.0, tolerance: f64::INFINITY, lod_scale: 0.0, ..Quality::default() };
+    let settings = [("default", Quality::default()), ("one-voxel steps, finest level", one_voxel)];
+    println!(
+        "{views} views of 800 × 600, {} × {} × {} voxels at 8 bits, 0.75 m wide",
+        DIMS.x, DIMS.y, DIMS.z
+    );
+    println!(
+        "device | scene | setting | seconds | Msamples/s | Gsamples | error of 255: RMS, 99.9 %, max | peak MiB"
+    );
+    for device in draw::devices() {
+        let name = format!("{device:?}").to_lowercase();
+        if !wanted.contains(&name) {
+            continue;
+        }
+        for (scene, optics, light) in [
+            ("semi-transparent", semi_transparent(), None),
+            ("opaque, lit", opaque(), Some(Light::default())),
+        ] {
+            for (setting, quality) in settings {
+                let mut frame = scenes::frame(&display, place, optics.clone(), light);
+                frame.quality = quality;
+                let with = draw::With { cache_bytes: 512 << 20, ..draw::With::device(device) };
+                let (mut renderer, info) = draw::renderer(&display, &source, &projectors, with);
+                let Measured { seconds, samples, complete, images, peak_mib } =
+                    measure(&mut renderer, &frame, &keep);
+                drop(renderer);
+                let truth = compare::truth(&display, &frame, &source, &keep, COMPARED_STRIDE);
+                let errors = compare::errors(&images, &truth);
+                let rate = samples as f64 / seconds / 1e6;
+                let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
+                let whole = if complete { "" } else { ", INCOMPLETE" };
+                println!(
+                    "{} | {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {rms:.3}, {p999:.2}, {max:.2}{whole} | {peak_mib:.0}",
+                    info.adapter,
+                    samples as f64 / 1e9,
+                );
+            }
+        }
+    }
+}
