@@ -85,7 +85,9 @@ fn host_structs_and_wgsl_structs_agree() {
         deficit,
         offset,
         scale,
-        neighbours
+        neighbours,
+        most_extinction,
+        padding
     );
     assert_layout!(&module, OpticsEntry, value, integral, integral_rest);
     assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);

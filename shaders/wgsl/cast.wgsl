@@ -11,7 +11,9 @@ struct Marched {
 fn march(front_of_brick: Accumulated, node: NodeRecord, ray: Ray, t_in: f32, t_out: f32) -> Marched {
     let brick = brick_of(node, ray);
     let span = t_out - t_in;
-    let pairs = max(1.0, ceil(span * ray.speed / (2.0 * params.quality.x * voxel_edge(node.depth))));
+    let edge = voxel_edge(node.depth);
+    let longest = step_voxels(node.most_extinction * params.quality.z * (edge / ray.speed));
+    let pairs = max(1.0, ceil(span * ray.speed / (2.0 * longest * edge)));
     let step = 0.5 * span / pairs;
     let thickness = params.quality.z * step;
     var marched = Marched(front_of_brick, 0u, false);

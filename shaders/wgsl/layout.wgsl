@@ -25,6 +25,8 @@ struct NodeRecord {
     offset: f32,
     scale: f32,
     neighbours: array<u32, 6>,
+    most_extinction: f32,
+    padding: array<u32, 3>,
 }
 
 struct OpticsEntry {

@@ -2,8 +2,20 @@
 
 // A step is cut into this many parts at most.
 const MOST_PARTS: f32 = 16.0;
+// Steps grow to this many voxels at most.
+const LONGEST_STEP: f32 = 1.0;
 // Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
 const UNSEEN: f32 = 0.25;
+
+// The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
+// optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no tolerance) do not grow.
+fn step_voxels(depth: f32) -> f32 {
+    let shortest = params.quality.x;
+    if params.quality.w >= 1.0 || depth * shortest >= SAFE_DEPTH {
+        return shortest;
+    }
+    return min(SAFE_DEPTH / max(depth, 1e-30), max(shortest, LONGEST_STEP));
+}
 
 // Means of (τ c, τ) over a pair of steps.
 struct Pair {

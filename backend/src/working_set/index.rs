@@ -1,7 +1,8 @@
 //! The spatial index: the cut as rays traverse it.
 
 use super::{Cut, CutNode, LodRule};
-use crate::store::OctreeShape;
+use crate::store::{NodeSummary, OctreeShape};
+use shaders::compose::Compositing;
 use shaders::layout::{NO_NODE, NO_SLOT, NodeRecord};
 use shaders::optics::Optics;
 
@@ -42,6 +43,19 @@ impl IndexRules<'_> {
             offset: visible.map_or(0.0, |brick| (brick.low - low) * per_value) as f32,
             scale: visible.map_or(0.0, |brick| brick.span * per_value) as f32,
             neighbours,
+            most_extinction: self.most_extinction(node) as f32,
+            padding: [0; 3],
+        }
+    }
+
+    /// Steps may grow where extinction is low; not where importance acts, which has no part in extinction.
+    fn most_extinction(&self, node: &CutNode) -> f64 {
+        match (node.summary, Compositing::for_optics(self.optics)) {
+            (Some(NodeSummary { min, max }), Compositing::Over) => {
+                let [low, high] = [min, max].map(|value| self.optics.normalise(f64::from(value)));
+                self.optics.extinction.max_on(low, high)
+            }
+            (_, Compositing::Mimda(_)) | (None, _) => f64::from(f32::MAX),
         }
     }
 }

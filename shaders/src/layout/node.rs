@@ -7,7 +7,7 @@ pub const NO_NODE: u32 = u32::MAX;
 /// Stands for "no brick": nothing of the node is visible.
 pub const NO_SLOT: u32 = u32::MAX;
 
-/// One node as the traversal sees it. 64 bytes.
+/// One node as the traversal sees it. 80 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct NodeRecord {
@@ -29,4 +29,9 @@ pub struct NodeRecord {
     pub scale: f32,
     /// The node beyond each face (−x, +x, −y, +y, −z, +z) at this depth or coarser, or [`NO_NODE`].
     pub neighbours: [u32; 6],
+    /// The largest extinction that any of the node's values has, in units of the table; beyond all bounds where steps
+    /// may not be longer than the shortest.
+    pub most_extinction: f32,
+    /// Fills the struct to a multiple of 16 bytes.
+    pub padding: [u32; 3],
 }

@@ -8,7 +8,7 @@ use super::traverse::voxel_edge;
 use super::{
     Real, Scene,
     ray::Ray,
-    refine::{Pair, parts_of_step, scalars_in_reach},
+    refine::{Pair, parts_of_step, scalars_in_reach, step_voxels},
 };
 use crate::compose::{Compositing, Shading};
 use crate::layout::{NO_NODE, NO_SLOT, NodeRecord};
@@ -74,8 +74,10 @@ fn march<F: Real, S: Shade, C: Composite>(
     let brick = Brick::new(scene, node, ray);
     let two = F::of(2.0);
     let span = t_out - t_in;
-    let longest_pair = two * view.step_voxels * voxel_edge::<F>(view.finest_depth, node.depth);
-    let pairs = (span * ray.speed / longest_pair).ceil().most(F::ONE);
+    let edge = voxel_edge::<F>(view.finest_depth, node.depth);
+    let depth = F::of_f32(node.most_extinction) * view.extinction_per_metre * (edge / ray.speed);
+    let longest = step_voxels(view.step_voxels, depth, F::of(S::SAFE_DEPTH), view.tolerance);
+    let pairs = (span * ray.speed / (two * longest * edge)).ceil().most(F::ONE);
     let step = F::of(0.5) * span / pairs;
     let count = pairs.to_index();
     let mut marched = Marched { front, samples: 0, is_done: false };

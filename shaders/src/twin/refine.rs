@@ -8,6 +8,19 @@ use crate::layout::OpticsEntry;
 /// A step is cut into this many parts at most.
 pub const MOST_PARTS: f64 = 16.0;
 
+/// Steps grow to this many voxels at most.
+const LONGEST_STEP: f64 = 1.0;
+
+/// The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
+/// optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no `tolerance`) do not grow.
+#[inline(always)]
+pub fn step_voxels<F: Real>(shortest: F, depth: F, safe: F, tolerance: F) -> F {
+    if tolerance >= F::ONE || depth * shortest >= safe {
+        return shortest;
+    }
+    (safe / depth.most(F::of(1e-30))).least(shortest.most(F::of(LONGEST_STEP)))
+}
+
 /// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
 const UNSEEN: f64 = 0.25;
 

@@ -2,6 +2,8 @@
 
 // How much the shaded colour may vary within a step, for the estimate of a step's error.
 const SPREAD: f32 = 0.1;
+// Steps may grow while the optical depth of one stays below this.
+const SAFE_DEPTH: f32 = 0.01;
 
 // `place` in texels of the atlas; `gradient_scale` turns a difference over two texels into a change of the scalar per
 // finest voxel.

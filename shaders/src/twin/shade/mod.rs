@@ -12,6 +12,8 @@ use super::{Real, View, ray::Ray, scene::BRICK_VOXELS, vector::Vec3};
 pub trait Shade {
     /// How much the shaded colour may vary within a step, for the estimate of a step's error.
     const SPREAD: f64;
+    /// Steps may grow while the optical depth of one stays below this.
+    const SAFE_DEPTH: f64;
 
     /// The light at `place`, in texels of the brick; `gradient_scale` turns a difference over two texels into a change
     /// of the scalar per finest voxel.

@@ -8,6 +8,7 @@ pub struct Phong;
 
 impl Shade for Phong {
     const SPREAD: f64 = 0.1;
+    const SAFE_DEPTH: f64 = 0.01;
 
     #[inline(always)]
     fn lighting<F: Real>(

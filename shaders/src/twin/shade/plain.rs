@@ -8,6 +8,7 @@ pub struct Plain;
 
 impl Shade for Plain {
     const SPREAD: f64 = 0.0;
+    const SAFE_DEPTH: f64 = 0.04;
 
     #[inline(always)]
     fn lighting<F: Real>(_: &View<F>, _: &[u16; BRICK_VOXELS], _: Vec3<F>, _: F, _: &Ray<F>) -> Lighting<F> {
