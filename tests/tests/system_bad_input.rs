@@ -1,5 +1,9 @@
 //! What cannot work is refused with one sentence that names the thing and says what to do, and leaves no file behind.
 #![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    reason = "rules out what the test would fail on anyway; clippy knows the test functions only"
+)]
 
 use lightloom_tests::program::{SMALL_DISPLAY, cluster, files, lightloom, report, run, small_display};
 use std::fs;

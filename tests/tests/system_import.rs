@@ -1,5 +1,9 @@
 //! From a volume file to pictures and a report, as a user goes.
 #![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    reason = "rules out what the test would fail on anyway; clippy knows the test functions only"
+)]
 
 use lightloom_tests::data::cranium_raw;
 use lightloom_tests::program::{Ran, files, lightloom, report, run, small_display};

@@ -1,5 +1,9 @@
 //! The same pictures byte for byte, whoever draws them: one back-end, several, processes, or the run before.
 #![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    reason = "rules out what the test would fail on anyway; clippy knows the test functions only"
+)]
 
 use lightloom_tests::program::{
     LIMIT, assert_same, cluster, has_gpu, lightloom, pictures, report, run, small_display, start,

@@ -83,9 +83,7 @@ fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {
     for frame in report.frames.iter().filter(|frame| !frame.total.complete) {
         warn(&format!("frame {} is not complete: {}", frame.index, frame.total.shortfall.join("; ")));
     }
-    for warning in report.eyes.iter().filter_map(|eye| eye.warning.as_ref()) {
-        warn(warning);
-    }
+    report.eye_warnings().for_each(|warning| warn(&warning));
     if args.json {
         say(&serde_json::to_string_pretty(report)?);
     } else if !args.quiet {

@@ -123,6 +123,12 @@ impl Report {
             wall_ms: 1e3 * wall.as_secs_f64(),
         }
     }
+
+    /// A sentence for each eye outside the viewing zone, led by which one it is.
+    pub fn eye_warnings(&self) -> impl Iterator<Item = String> {
+        let warnings = self.eyes.iter().enumerate();
+        warnings.filter_map(|(index, eye)| Some(format!("eye {index}: {}", eye.warning.as_ref()?)))
+    }
 }
 
 impl SceneSummary {

@@ -67,8 +67,10 @@ fn notes(report: &Report) -> String {
     let incomplete = report.frames.iter().filter(|frame| !frame.total.complete);
     let shortfalls = incomplete
         .map(|frame| format!("Frame {} is not complete: {}", frame.index, frame.total.shortfall.join("; ")));
-    let warnings = report.eyes.iter().filter_map(|eye| eye.warning.clone());
-    shortfalls.chain(warnings).map(|note| format!("<p class=\"note\">{}</p>", escape(&note))).collect()
+    shortfalls
+        .chain(report.eye_warnings())
+        .map(|note| format!("<p class=\"note\">{}</p>", escape(&note)))
+        .collect()
 }
 
 fn eyes(report: &Report, out: &Path) -> Result<String, OutputError> {
@@ -129,7 +131,7 @@ fn scene_facts(report: &Report) -> String {
         ("values", format!("{low} to {high}")),
         ("longest edge in the display", format!("{:.3} m", scene.longest_m)),
         ("step", format!("{} voxels", quality.step_voxels)),
-        ("a ray ends below an opacity of", format!("{:.2e}", quality.termination)),
+        ("a ray ends where less shines through than", format!("{:.2e}", quality.termination)),
         ("voxel size per display resolution", format!("{}", quality.lod_scale)),
     ])
 }
