@@ -43,7 +43,7 @@ fn point_in(brick: Brick, t: f32) -> vec3<f32> {
 }
 
 fn scalar_at(brick: Brick, t: f32) -> f32 {
-    return clamp(brick.offset + brick.scale * sample_atlas(brick.origin + point_in(brick, t)), 0.0, 1.0);
+    return clamp(brick.offset + brick.scale * sample_atlas(brick.origin, point_in(brick, t)), 0.0, 1.0);
 }
 
 // Whether anything shows within a voxel of the cell around a point.
@@ -70,7 +70,7 @@ struct Lighting {
 // The light at t, where there is extinction to be lit.
 fn light_at(brick: Brick, ray: Ray, extinction: f32, t: f32) -> Lighting {
     if extinction > 0.0 {
-        return lighting(brick.origin + point_in(brick, t), brick.gradient_scale, ray);
+        return lighting(brick.origin, point_in(brick, t), brick.gradient_scale, ray);
     }
     return Lighting(1.0, 0.0);
 }

@@ -56,7 +56,10 @@ type OpenGpu = Box<dyn FnOnce() -> Result<ChosenDevice, DeviceError>>;
 #[cfg(feature = "gpu")]
 fn open_gpu(filter: FilterChoice, cache_bytes: u64, slots_needed: u64) -> Option<OpenGpu> {
     Some(Box::new(move || {
-        let device = super::gpu::GpuDevice::open(filter, slots_within(cache_bytes, slots_needed))?;
+        // A power of two, the larger one where the cache allows it.
+        let slots = slots_within(cache_bytes, slots_needed).next_power_of_two();
+        let slots = if slots > slots_within(cache_bytes, u64::MAX).max(16) { slots / 2 } else { slots };
+        let device = super::gpu::GpuDevice::open(filter, slots)?;
         let info = device.info();
         Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })
     }))

@@ -1,11 +1,12 @@
-// The stored sample at a point of the atlas, interpolated in f32 from eight fetches.
+// The stored sample at a point of a brick, interpolated in f32 from eight fetches.
 
-// `point` in texels of the atlas, sample centres at integer + 0.5.
-fn sample_atlas(point: vec3<f32>) -> f32 {
+// `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5. The slot enters as
+// whole numbers alone, so that the same point of a brick gives the same bits from whatever slot it lies in.
+fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
     let shifted = point - 0.5;
     let base = floor(shifted);
     let f = shifted - base;
-    let i = vec3<i32>(base);
+    let i = vec3<i32>(origin) + vec3<i32>(base);
     let low = vec4<f32>(texel_at(i, 0, 0, 0), texel_at(i, 0, 1, 0), texel_at(i, 0, 0, 1), texel_at(i, 0, 1, 1));
     let high = vec4<f32>(texel_at(i, 1, 0, 0), texel_at(i, 1, 1, 0), texel_at(i, 1, 0, 1), texel_at(i, 1, 1, 1));
     let along_x = low + (high - low) * f.x;

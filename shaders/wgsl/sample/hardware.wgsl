@@ -1,8 +1,13 @@
-// The stored sample at a point of the atlas, interpolated by the texture unit.
+// The stored sample at a point of a brick, interpolated by the texture unit.
 
 @group(0) @binding(8) var trilinear: sampler;
 
-// `point` in texels of the atlas, sample centres at integer + 0.5.
-fn sample_atlas(point: vec3<f32>) -> f32 {
-    return textureSampleLevel(atlas, trilinear, point * params.texel.xyz, 0.0).x;
+// Points are taken to the nearest 1/4096 texel: with slots at whole texels and an atlas of 2^n texels along each axis, the
+// texture coordinate is then exact, so that the same point of a brick gives the same bits from whatever slot it lies in.
+const GRID: f32 = 4096.0;
+
+// `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5.
+fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
+    let exact = origin + round(point * GRID) / GRID;
+    return textureSampleLevel(atlas, trilinear, exact * params.texel.xyz, 0.0).x;
 }

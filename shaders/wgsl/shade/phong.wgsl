@@ -5,13 +5,13 @@ const SPREAD: f32 = 0.1;
 // Steps may grow while the optical depth of one stays below this.
 const SAFE_DEPTH: f32 = 0.01;
 
-// `place` in texels of the atlas; `gradient_scale` turns a difference over two texels into a change of the scalar per
+// `place` in texels of the brick whose first texel is `origin`; `gradient_scale` turns a difference over two texels into a change of the scalar per
 // finest voxel.
-fn lighting(place: vec3<f32>, gradient_scale: f32, ray: Ray) -> Lighting {
+fn lighting(origin: vec3<f32>, place: vec3<f32>, gradient_scale: f32, ray: Ray) -> Lighting {
     let difference = vec3<f32>(
-        sample_atlas(place + vec3<f32>(1.0, 0.0, 0.0)) - sample_atlas(place - vec3<f32>(1.0, 0.0, 0.0)),
-        sample_atlas(place + vec3<f32>(0.0, 1.0, 0.0)) - sample_atlas(place - vec3<f32>(0.0, 1.0, 0.0)),
-        sample_atlas(place + vec3<f32>(0.0, 0.0, 1.0)) - sample_atlas(place - vec3<f32>(0.0, 0.0, 1.0)));
+        sample_atlas(origin, place + vec3<f32>(1.0, 0.0, 0.0)) - sample_atlas(origin, place - vec3<f32>(1.0, 0.0, 0.0)),
+        sample_atlas(origin, place + vec3<f32>(0.0, 1.0, 0.0)) - sample_atlas(origin, place - vec3<f32>(0.0, 1.0, 0.0)),
+        sample_atlas(origin, place + vec3<f32>(0.0, 0.0, 1.0)) - sample_atlas(origin, place - vec3<f32>(0.0, 0.0, 1.0)));
     let in_volume = difference * gradient_scale;
     let m = params.volume_from_display;
     let gradient = vec3<f32>(dot(m[0].xyz, in_volume), dot(m[1].xyz, in_volume), dot(m[2].xyz, in_volume))

@@ -4,8 +4,8 @@ use super::context::Context;
 use crate::device::DeviceError;
 use crate::store::BRICK_EDGE;
 
-/// Slots along x and along y: 16 × 32 texels = 512.
-const SLOTS_ACROSS: u32 = 16;
+/// Most slots along x and along y: 2⁴ × 32 texels = 512.
+const SLOT_BITS_ACROSS: u32 = 4;
 
 /// The texture, and how its slots lie.
 #[derive(Debug)]
@@ -16,20 +16,23 @@ pub(super) struct Atlas {
 }
 
 impl Atlas {
-    /// Room for at least `slots` bricks, as far as a texture goes.
+    /// Room for `slots` bricks, a power of two, as far as a texture goes. Every edge is a power of two, so that texture
+    /// coordinates of whole texels are exact.
     pub(super) fn new(context: &Context, slots: u32) -> Result<Self, DeviceError> {
+        assert!(slots.is_power_of_two(), "the caller rounds the number of slots");
         let edge = BRICK_EDGE as u32;
-        let deepest = context.device.limits().max_texture_dimension_3d / edge;
-        let across = SLOTS_ACROSS.min(deepest);
-        let deep = slots.div_ceil(across * across).min(deepest);
-        let slots = [across, across, deep];
+        let deepest = (context.device.limits().max_texture_dimension_3d / edge).ilog2();
+        let across = slots.ilog2().min(SLOT_BITS_ACROSS);
+        let down = (slots.ilog2() - across).min(SLOT_BITS_ACROSS);
+        let deep = (slots.ilog2() - across - down).min(deepest);
+        let slots = [1 << across, 1 << down, 1 << deep];
         let scope = context.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let texture = context.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("brick atlas"),
             size: wgpu::Extent3d {
-                width: across * edge,
-                height: across * edge,
-                depth_or_array_layers: deep * edge,
+                width: slots[0] * edge,
+                height: slots[1] * edge,
+                depth_or_array_layers: slots[2] * edge,
             },
             mip_level_count: 1,
             sample_count: 1,
@@ -42,7 +45,7 @@ impl Atlas {
             return Err(DeviceError(format!(
                 "{} has no memory for a brick cache of {} slots ({error}); make the cache smaller",
                 context.name,
-                across * across * deep
+                slots.iter().product::<u32>()
             )));
         }
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
