@@ -29,7 +29,7 @@ pub enum Command {
 /// `lightloom simulate`.
 #[derive(Clone, Debug, Args)]
 pub struct SimulateArgs {
-    /// A .toml scene, a .lloom store, or procedural:NAME[@VOXELS] with shells, marschner-lobb or sparse-vessels.
+    /// A .toml scene, a .lloom store, procedural:NAME or procedural:NAME@VOXELS with shells, marschner-lobb or sparse-vessels.
     pub scene: String,
     /// A display: a preset's name (see `lightloom displays`) or a .toml file.
     #[arg(long, value_name = "DISPLAY", default_value = "holo72")]
@@ -72,7 +72,7 @@ pub struct SimulateArgs {
 /// `lightloom import`.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArgs {
-    /// A NIfTI, NRRD, MetaImage or raw file, or procedural:NAME[@VOXELS].
+    /// A NIfTI, NRRD, MetaImage or raw file, procedural:NAME or procedural:NAME@VOXELS.
     pub input: PathBuf,
     /// The store to write.
     #[arg(short, long, value_name = "OUT.lloom")]

@@ -37,11 +37,13 @@ fn a_spoiled_kernel_is_not_valid() {
 }
 
 fn offsets(module: &naga::Module, name: &str) -> (Vec<(String, u32)>, u32) {
-    let (_, found) = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).unwrap();
+    let (_, found) =
+        module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).expect("the kernel declares it");
     match &found.inner {
-        naga::TypeInner::Struct { members, span } => {
-            (members.iter().map(|m| (m.name.clone().unwrap(), m.offset)).collect(), *span)
-        }
+        naga::TypeInner::Struct { members, span } => (
+            members.iter().map(|m| (m.name.clone().expect("WGSL members have names"), m.offset)).collect(),
+            *span,
+        ),
         other => panic!("{name} is not a struct but {other:?}"),
     }
 }
