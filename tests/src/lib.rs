@@ -7,3 +7,4 @@ pub mod draw;
 #[cfg(unix)]
 pub mod program;
 pub mod scenes;
+pub mod twin_scene;
