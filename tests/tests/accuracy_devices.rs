@@ -15,6 +15,11 @@ const PROJECTORS: [u32; 2] = [1, 5];
 /// other, and the pixel differs by a part of what the integration errs there, which is up to 4/255.
 const SAME_TO_ROUNDING: Limits = Limits::of_255(0.002, 0.02, 1.0);
 
+/// The texture unit is asked at points rounded to 1/4096 texel, which is what makes its samples independent of the slot.
+/// Half of that, on slopes of up to a third of the range per voxel, moves a scalar by up to 4e-5; steep curves of
+/// extinction and importance make that up to ten times as much per step.
+const SAME_TO_THE_GRID: Limits = Limits::of_255(0.005, 0.05, 1.0);
+
 /// An error of extinction that nobody would see; it must not pass for rounding.
 const UNSEEN_EXTINCTION: f64 = 1.001;
 
@@ -78,7 +83,8 @@ fn kernel_and_twin_tell_the_same_picture() {
         for kernel in &kernels {
             let errors = errors_between(&kernel.images, &twin.images);
             println!("{:28} {}: {errors}", scene.name, kernel.info.filter);
-            assert!(SAME_TO_ROUNDING.hold(&errors), "{}, {}: {errors}", scene.name, kernel.info.filter);
+            let limits = if kernel.info.filter == "exact" { SAME_TO_ROUNDING } else { SAME_TO_THE_GRID };
+            assert!(limits.hold(&errors), "{}, {}: {errors}", scene.name, kernel.info.filter);
         }
         assert_canaries_fail(&display, &scene, &kernels[0].images);
     }
@@ -101,5 +107,5 @@ fn an_imprecise_texture_unit_is_not_the_default() {
     let by_default = draw(FilterChoice::Auto).info.filter;
     println!("{}: the texture unit differs by {errors}; the default is {by_default}", hardware.info.adapter);
     assert_eq!((exact.info.filter.as_str(), hardware.info.filter.as_str()), ("exact", "hardware"));
-    assert!(by_default == "exact" || SAME_TO_ROUNDING.hold(&errors), "{errors}");
+    assert!(by_default == "exact" || SAME_TO_THE_GRID.hold(&errors), "{errors}");
 }

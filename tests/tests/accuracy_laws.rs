@@ -180,7 +180,7 @@ fn what_was_drawn_before_leaves_no_trace() {
     elsewhere.quality.lod_scale = 0.5;
     elsewhere.optics.extinction = Curve::constant(0.01);
     for device in draw::devices() {
-        let with = With { cache_bytes: 100 * 65536, ..With::device(device) };
+        let with = With { cache_bytes: 128 * 65536, ..With::device(device) };
         let fresh = draw(&display, &scene.frame, &scene.source, &[1, 5], with);
         let (mut used, _) = renderer(&display, &scene.source, &[1, 5], with);
         let (others, _) = draw_with(&mut used, &elsewhere);
