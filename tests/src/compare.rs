@@ -88,6 +88,29 @@ impl fmt::Display for Errors {
     }
 }
 
+/// What errors must stay within, linear colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Of the root of the mean square.
+    pub rms: f64,
+    /// Of what 99.9 % of the pixels stay within.
+    pub p999: f64,
+    /// Of the largest.
+    pub max: f64,
+}
+
+impl Limits {
+    /// Limits in units of 1/255.
+    pub const fn of_255(rms: f64, p999: f64, max: f64) -> Self {
+        Self { rms: rms / 255.0, p999: p999 / 255.0, max: max / 255.0 }
+    }
+
+    /// Whether errors stay within; a NaN does not.
+    pub fn hold(&self, errors: &Errors) -> bool {
+        errors.rms < self.rms && errors.p999 < self.p999 && errors.max < self.max
+    }
+}
+
 /// Pictures against the truth.
 pub fn errors(images: &[ProjectorImage], truth: &[TruePixel]) -> Errors {
     let pairs = truth.iter().map(|pixel| {
@@ -103,14 +126,29 @@ pub fn errors(images: &[ProjectorImage], truth: &[TruePixel]) -> Errors {
     errors_of(pairs)
 }
 
+/// Pictures against other pictures of the same projectors, every pixel.
+pub fn errors_between(found: &[ProjectorImage], expected: &[ProjectorImage]) -> Errors {
+    assert_eq!(found.len(), expected.len(), "both made the same pictures");
+    let numbers = |pixel: &[f32]| -> [f64; 4] { std::array::from_fn(|c| f64::from(pixel[c])) };
+    errors_of(found.iter().zip(expected).flat_map(|(found, expected)| {
+        assert_eq!((found.projector, found.rgba.len()), (expected.projector, expected.rgba.len()));
+        let pixels = found.rgba.chunks_exact(4).zip(expected.rgba.chunks_exact(4));
+        pixels.map(move |(a, b)| (numbers(a), numbers(b)))
+    }))
+}
+
+/// The larger of two errors; NaN where either is.
+fn largest_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
 /// Errors of pairs (found, true).
 pub fn errors_of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Errors {
     let (mut squares, mut worst, mut lit) = (0.0, Vec::new(), 0);
     for (found, truth) in pairs {
         let difference: [f64; 4] = std::array::from_fn(|c| (found[c] - truth[c]).abs());
         squares += difference.iter().map(|d| d * d).sum::<f64>();
-        // Not f64::max: a NaN must not get lost.
-        worst.push(difference.iter().fold(0.0, |m, &d| if d <= m { m } else { d }));
+        worst.push(difference.into_iter().fold(0.0, largest_or_nan));
         lit += usize::from(truth[3] > 0.01);
     }
     assert!(!worst.is_empty(), "nothing was compared");
@@ -122,5 +160,29 @@ pub fn errors_of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Errors {
         max: worst[pixels - 1],
         pixels,
         lit,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDE: Limits = Limits { rms: 1e9, p999: 1e9, max: 1e9 };
+
+    #[test]
+    fn a_nan_in_any_number_holds_within_no_limits() {
+        for c in 0..4 {
+            let mut found = [0.5; 4];
+            found[c] = f64::NAN;
+            let errors = errors_of([(found, [0.5; 4]), ([0.5; 4], [0.5; 4])].into_iter());
+            assert!(errors.max.is_nan() && !WIDE.hold(&errors), "{errors}");
+        }
+    }
+
+    #[test]
+    fn one_wrong_pixel_is_the_largest_error() {
+        let pairs = (0..2000).map(|i| ([if i == 7 { 1.0 } else { 0.0 }; 4], [0.0; 4]));
+        let errors = errors_of(pairs);
+        assert_eq!((errors.max, errors.p999, errors.pixels, errors.lit), (1.0, 0.0, 2000, 0));
     }
 }

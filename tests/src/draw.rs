@@ -6,7 +6,7 @@ use backend::protocol::{
 use backend::render::{RenderEvent, Renderer};
 use backend::store::BrickSource;
 use display_config::Display;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What a device made of a frame.
 #[derive(Clone, Debug)]
@@ -79,6 +79,18 @@ pub fn draw_with(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorI
     };
     let report = renderer.draw(frame, &mut sink).expect("a test scene can be drawn");
     (images, report)
+}
+
+/// A turn: tests that hold one run one after the other. A device uses all cores, and a GPU is not shared.
+pub fn turn() -> MutexGuard<'static, ()> {
+    static TURN: Mutex<()> = Mutex::new(());
+    // A test that failed while it held the turn has said so itself.
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Whether there is a GPU to test. Its lack is told aloud, and is a failure where LIGHTLOOM_REQUIRE_GPU=1.
+pub fn has_gpu() -> bool {
+    devices().contains(&DeviceChoice::Gpu)
 }
 
 /// The devices to test: the CPU, and the GPU where there is one. Its lack is told aloud, and is a failure where

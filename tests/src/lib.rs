@@ -5,3 +5,4 @@ pub mod compare;
 pub mod data;
 pub mod draw;
 pub mod scenes;
+pub mod twin_scene;

@@ -4,8 +4,8 @@ use crate::data;
 use backend::protocol::FrameState;
 use backend::store::BrickSource;
 use backend::volume::procedural::ProceduralVolume;
-use display_config::Display;
-use glam::{DAffine3, DQuat, DVec3, UVec3};
+use display_config::{Display, Homography, Raster};
+use glam::{DAffine3, DQuat, DVec2, DVec3, UVec3};
 use shaders::optics::{Curve, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -22,10 +22,10 @@ pub struct TestScene {
 }
 
 /// Extinction control points in data units.
-type Points = Vec<(f64, f64)>;
+pub type Points = Vec<(f64, f64)>;
 
 /// Colour control points in data units.
-type Colours = Vec<(f64, [f64; 3])>;
+pub type Colours = Vec<(f64, [f64; 3])>;
 
 /// An optical model from control points in data units; extinction per finest voxel.
 pub fn optics(domain: (f64, f64), extinction: &Points, colour: &Colours) -> Optics {
@@ -69,6 +69,24 @@ pub fn frame(
         quality: Quality::default(),
         tool: None,
     }
+}
+
+/// The display with rasters of `width` × `height` pixels, each on the whole screen.
+pub fn with_raster(display: &Display, width: u32, height: u32) -> Display {
+    let mut display = display.clone();
+    let pixels = DVec2::new(f64::from(width), f64::from(height));
+    let size = DVec2::new(display.width_m, display.height_m);
+    for projector in &mut display.projectors {
+        let screen_from_pixel = Homography::of_rectangle(pixels, -0.5 * size, size);
+        projector.raster = Raster { width, height, screen_from_pixel, output: None };
+    }
+    display
+}
+
+/// The curve with every value times `factor`.
+pub fn scaled(curve: &Curve<f64>, factor: f64) -> Curve<f64> {
+    let points = curve.points().iter().map(|&(s, value)| (s, value * factor)).collect();
+    Curve::new(points).expect("a curve times a positive number is a curve")
 }
 
 fn procedural(name: &str, edge: u32) -> Arc<dyn BrickSource> {
@@ -134,7 +152,11 @@ pub fn cranium_mimda(display: &Display, form: MimdaForm) -> Option<TestScene> {
     let importance = Curve::new(vec![(s(100.0), 0.0), (s(600.0), 1.0)]).expect("rising points make a curve");
     let mut frame = scene.frame.clone();
     frame.optics.mimda = Some(Mimda { importance, gamma: 0.8, form });
-    Some(TestScene { name: "cranium, consistent MImDA", frame, ..scene })
+    let name = match form {
+        MimdaForm::Consistent => "cranium, consistent MImDA",
+        MimdaForm::Paper => "cranium, MImDA as published",
+    };
+    Some(TestScene { name, frame, ..scene })
 }
 
 /// The head MRI as a cloud, unshaded.

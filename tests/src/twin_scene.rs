@@ -1,0 +1,109 @@
+//! A scene for the twin, put together without the renderer: the ideal cut, every brick of it resident.
+
+use crate::compare::lod_rule;
+use backend::protocol::FrameState;
+use backend::store::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
+use backend::working_set::{Cut, IndexRules, ResidentBrick, build_index};
+use display_config::Display;
+use rayon::prelude::*;
+use shaders::compose::{Compositing, Shading};
+use shaders::layout::{ImportanceEntry, NodeRecord, OpticsEntry};
+use shaders::tables::{importance_table, optics_table};
+use shaders::twin::view::Placement;
+use shaders::twin::{FeedbackCell, Real, Scene, View, cast_pixel};
+
+/// All that a twin reads of a scene, for any view of it. Fields are open so that tests can spoil them.
+#[derive(Clone)]
+pub struct TwinScene {
+    /// The spatial index.
+    pub nodes: Vec<NodeRecord>,
+    /// The bricks, slot by slot.
+    pub atlas: Vec<u16>,
+    /// The table of (τ c, τ).
+    pub optics: Vec<OpticsEntry>,
+    /// The table of ι; empty where nothing reads it.
+    pub importance: Vec<ImportanceEntry>,
+    /// The shading module.
+    pub shading: Shading,
+    /// The compositing module.
+    pub compositing: Compositing,
+}
+
+impl TwinScene {
+    /// The scene of `frame` on `display`.
+    pub fn new(display: &Display, frame: &FrameState, source: &dyn BrickSource) -> Self {
+        let shape = source.shape();
+        let lod = lod_rule(display, frame);
+        let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics };
+        let mut cut = Cut::new(source.summary(NodeKey::ROOT));
+        let mut atlas = Vec::new();
+        let mut places = vec![0];
+        while let Some(place) = places.pop() {
+            let node = *cut.node(place);
+            if rules.is_empty(&node) {
+                continue;
+            }
+            if rules.deficit(&node) > 0.0 {
+                let first = cut.split(place, |key| shape.contains(key).then(|| source.summary(key)));
+                places.extend(first..first + 8);
+            } else {
+                cut.set_brick(place, resident(source, node.key, &mut atlas));
+            }
+        }
+        Self {
+            nodes: build_index(&cut, &rules),
+            atlas,
+            optics: optics_table(&frame.optics),
+            importance: frame
+                .optics
+                .mimda
+                .as_ref()
+                .map_or(vec![], |mimda| importance_table(&mimda.importance)),
+            shading: if frame.light.is_some() { Shading::Phong } else { Shading::Plain },
+            compositing: Compositing::for_optics(&frame.optics),
+        }
+    }
+
+    /// The colours of some pixels (x, y).
+    pub fn cast<F: Real>(&self, view: &View<F>, pixels: &[(u32, u32)]) -> Vec<[F; 4]> {
+        let feedback: Vec<FeedbackCell> = self.nodes.iter().map(|_| FeedbackCell::default()).collect();
+        let scene = Scene {
+            view,
+            nodes: &self.nodes,
+            optics: &self.optics,
+            importance: &self.importance,
+            atlas: &self.atlas,
+            feedback: &feedback,
+        };
+        let cast = |&(x, y): &(u32, u32)| cast_pixel(&scene, self.shading, self.compositing, x, y).rgba;
+        pixels.par_iter().map(cast).collect()
+    }
+}
+
+/// Puts a brick behind the others.
+fn resident(source: &dyn BrickSource, key: NodeKey, atlas: &mut Vec<u16>) -> ResidentBrick {
+    let brick = source.brick(key).expect("every brick of a test scene can be read");
+    let slot = (atlas.len() / BRICK_VOXELS) as u32;
+    let span = f64::from(brick.step) * f64::from(brick.codes.largest());
+    match &brick.codes {
+        Codes::U8(codes) => atlas.extend(codes.iter().map(|&code| u16::from(code) * 257)),
+        Codes::U16(codes) => atlas.extend(codes),
+    }
+    ResidentBrick { slot, low: f64::from(brick.low), span }
+}
+
+/// The view of one projector.
+pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn BrickSource) -> View<f64> {
+    let law = display
+        .beam_law(projector as usize, frame.observer_in_display, frame.eta)
+        .expect("a test scene goes with its display");
+    let shape = source.shape();
+    let place = Placement {
+        raster: &display.projectors[projector as usize].raster,
+        law: &law,
+        display_from_volume: frame.display_from_volume,
+        dims: shape.dims(),
+        finest_depth: shape.finest_depth(),
+    };
+    View::new(place, &frame.optics, frame.light_in_effect(), &frame.quality)
+}
