@@ -1,5 +1,7 @@
 //! The kernel on the GPU against its f32 twin on the CPU: they tell the same picture to rounding.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::protocol::{DeviceChoice, FilterChoice, FrameState, ProjectorImage};
 use display_config::Display;
 use lightloom_tests::compare::{Limits, errors_between};

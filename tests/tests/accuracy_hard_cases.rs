@@ -1,5 +1,7 @@
 //! Hard cases: pictures of light, whatever comes, and as near to the reference as each case allows.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::protocol::{FrameState, ProjectorImage};
 use backend::store::BrickSource;
 use display_config::Display;

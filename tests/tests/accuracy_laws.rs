@@ -1,5 +1,7 @@
 //! Laws that whole pictures obey, on both devices.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
 use backend::store::BrickSource;
 use backend::volume::procedural::ProceduralVolume;

@@ -1,5 +1,7 @@
 //! MImDA as published, whose picture depends on the step, against the reference over the same steps.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
 use backend::reference::{Field, Integrator, Radiance, Ray, Reference, Segmentation};
 use backend::store::BrickSource;

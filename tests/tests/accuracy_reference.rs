@@ -1,5 +1,7 @@
 //! Both devices at default quality against the reference, on every scene.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
 use backend::store::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
 use display_config::Display;

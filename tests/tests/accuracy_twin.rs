@@ -1,5 +1,7 @@
 //! The twin alone: what rounding costs it, and that a spoiled twin does not pass for a good one.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::protocol::{DeviceChoice, FrameState};
 use backend::store::BrickSource;
 use display_config::Display;

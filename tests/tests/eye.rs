@@ -6,6 +6,8 @@
 //! wide as that spacing. Two beams that meet at a screen point are up to |z| · spacing apart at depth z: that is the
 //! blur, nothing at the screen and, for a smooth object, an error that grows with the square of |z|.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use backend::output::{EyePlan, EyeView, ImageDifference, Picture, ScreenRaster};
 use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
 use backend::reference::{Integrator, Reference};
