@@ -108,7 +108,7 @@ fn default_light(volume: &VolumeSource) -> Light {
 /// Turned so that there is something to see: into the shells, along the ripples, onto the tree.
 fn default_placement(volume: &VolumeSource) -> Placement {
     let (deg, share) = match procedural_name(volume) {
-        Some("shells") => (DVec3::new(20.0, -35.0, 0.0), 1.3),
+        Some("shells") => (DVec3::new(20.0, -35.0, 0.0), 1.0),
         Some("marschner-lobb") => (DVec3::new(-50.0, 0.0, 0.0), 0.58),
         Some("sparse-vessels") => (DVec3::new(-90.0, 20.0, 0.0), 0.85),
         _ => (DVec3::ZERO, 0.75),
