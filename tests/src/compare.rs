@@ -11,12 +11,7 @@ use std::sync::Arc;
 
 /// The cut that a frame asks for on a display.
 pub fn lod_rule(display: &Display, frame: &FrameState) -> LodRule {
-    LodRule {
-        display_from_volume: frame.display_from_volume,
-        pixel_size_m: display.pixel_size_m,
-        angular_accuracy: display.angular_accuracy,
-        lod_scale: frame.quality.lod_scale,
-    }
+    LodRule::new(display, frame)
 }
 
 /// A pixel and what it should be.

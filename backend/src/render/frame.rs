@@ -76,12 +76,7 @@ impl WorkingSets {
 
 impl<'a> Drawing<'a> {
     fn new(renderer: &'a mut Renderer, frame: &'a FrameState, tables: &'a Tables) -> Self {
-        let lod = LodRule {
-            display_from_volume: frame.display_from_volume,
-            pixel_size_m: renderer.display.pixel_size_m,
-            angular_accuracy: renderer.display.angular_accuracy,
-            lod_scale: frame.quality.lod_scale,
-        };
+        let lod = LodRule::new(&renderer.display, frame);
         let shading = if frame.light.is_some() { Shading::Phong } else { Shading::Plain };
         // Casts are numbered across frames, so that detail of older frames is the first to go.
         let cast = renderer.residency.cut.node(0).last_used;

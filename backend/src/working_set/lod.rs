@@ -1,6 +1,8 @@
 //! How fine a node must be: the display's resolution at its depth.
 
+use crate::protocol::FrameState;
 use crate::store::{NodeKey, OctreeShape};
+use display_config::Display;
 use glam::{DAffine3, DVec3};
 
 /// The level of detail a picture asks for. It depends on where a node floats, never on who looks: so every
@@ -18,6 +20,16 @@ pub struct LodRule {
 }
 
 impl LodRule {
+    /// What a frame asks for on a display.
+    pub fn new(display: &Display, frame: &FrameState) -> Self {
+        Self {
+            display_from_volume: frame.display_from_volume,
+            pixel_size_m: display.pixel_size_m,
+            angular_accuracy: display.angular_accuracy,
+            lod_scale: frame.quality.lod_scale,
+        }
+    }
+
     /// Levels that `node` is too coarse by: log2(voxel edge / (lod_scale · s(z))) with s(z) = s0 + 2 |z| tan(Φ/2) at
     /// the |z| of the node's region nearest to the screen, and the longest voxel edge. At or below 0 it is fine
     /// enough. +∞ where the finest level is asked for.

@@ -13,11 +13,6 @@ impl SlotPool {
         Self { free: (0..capacity).rev().collect(), capacity }
     }
 
-    /// Slots there are.
-    pub fn capacity(&self) -> u32 {
-        self.capacity
-    }
-
     /// Slots that are free.
     pub fn free(&self) -> usize {
         self.free.len()
