@@ -11,7 +11,7 @@ use backend::protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
 use backend::store::{self, BrickSource, BuildOptions, CodeBits, Codec, ImportOptions, Store};
 use backend::transport::{EventKind, Launch, Limits, Link, Session, launch, open_renderer, threads};
 use backend::volume::procedural::ProceduralVolume;
-use backend::volume::{ByteOrder, Element, RawLayout};
+use backend::volume::{ByteOrder, Element, RawLayout, Selection};
 use display_config::{Display, EyeModel};
 use glam::{DVec2, DVec3, UVec3};
 use serde::Serialize;
@@ -163,11 +163,12 @@ pub struct ImportSummary {
 /// Makes a store from a volume file or a procedural volume.
 pub fn import(args: &ImportArgs, progress: Progress) -> Result<ImportSummary, FrontendError> {
     let (input, options) = import_options(args)?;
+    let selection = Selection { raw: raw_layout(args)?, ..Selection::default() };
     let progress = RefCell::new(progress);
     let show = |done: u64, total: u64| {
         progress.borrow_mut().set(done as f64 / total.max(1) as f64, "slabs");
     };
-    let report = store::import(&input, raw_layout(args)?, &args.output, &options, &show)
+    let report = store::import(&input, &selection, &args.output, &options, &show)
         .map_err(|e| FrontendError::Volume(e.to_string()))?;
     Ok(ImportSummary {
         dims: report.dims,

@@ -6,7 +6,7 @@
 use backend::protocol::{FrameState, ProjectorImage};
 use backend::render::{RenderEvent, Renderer};
 use backend::store::{BrickSource, BuildOptions, CodeBits, ImportOptions, Store, import};
-use backend::volume::{ByteOrder, Element, RawLayout};
+use backend::volume::{ByteOrder, Element, RawLayout, Selection};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::{compare, draw, scenes};
@@ -55,7 +55,8 @@ fn store(folder: &Path) -> Store {
         ..Default::default()
     };
     let out = folder.join("head.lloom");
-    import(&raw.to_string_lossy(), Some(layout), &out, &options, &|_, _| {}).expect("a whole file imports");
+    let selection = Selection { raw: Some(layout), ..Default::default() };
+    import(&raw.to_string_lossy(), &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
     Store::open(&out).expect("a store just built opens")
 }
 

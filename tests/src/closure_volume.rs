@@ -25,8 +25,8 @@ impl<V: Fn(DVec3) -> f64 + Send + Sync> BrickSource for ClosureVolume<V> {
         self.shape
     }
 
-    fn voxel_size_m(&self) -> DVec3 {
-        DVec3::splat(1e-3)
+    fn frame(&self) -> backend::volume::VolumeFrame {
+        backend::volume::VolumeFrame::of_voxels(DVec3::splat(1e-3))
     }
 
     fn value_range(&self) -> (f64, f64) {

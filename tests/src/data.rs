@@ -1,7 +1,7 @@
 //! Real volumes, from the packages that carry them.
 
 use backend::store::{BuildOptions, CodeBits, ImportOptions, Store, import};
-use backend::volume::{ByteOrder, Element, RawLayout};
+use backend::volume::{ByteOrder, Element, RawLayout, Selection};
 use glam::{DVec3, UVec3};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -54,7 +54,8 @@ fn folder() -> &'static Path {
 fn open_store(input: &Path, raw: Option<RawLayout>, bits: CodeBits, name: &str) -> Store {
     let out = folder().join(name);
     let options = ImportOptions { build: BuildOptions { bits, ..Default::default() }, ..Default::default() };
-    import(&input.to_string_lossy(), raw, &out, &options, &|_, _| {}).expect("a whole file imports");
+    let selection = Selection { raw, ..Default::default() };
+    import(&input.to_string_lossy(), &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
     Store::open(&out).expect("a store just built opens")
 }
 

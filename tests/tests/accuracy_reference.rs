@@ -5,7 +5,6 @@
 use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
 use backend::store::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
 use display_config::Display;
-use glam::DVec3;
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene, scaled};
@@ -35,8 +34,8 @@ impl BrickSource for EightBits {
     fn shape(&self) -> OctreeShape {
         self.0.shape()
     }
-    fn voxel_size_m(&self) -> DVec3 {
-        self.0.voxel_size_m()
+    fn frame(&self) -> backend::volume::VolumeFrame {
+        self.0.frame()
     }
     fn value_range(&self) -> (f64, f64) {
         self.0.value_range()

@@ -55,8 +55,8 @@ impl BrickSource for FormulaSource {
         self.shape
     }
 
-    fn voxel_size_m(&self) -> DVec3 {
-        DVec3::splat(VOXEL_M)
+    fn frame(&self) -> crate::volume::VolumeFrame {
+        crate::volume::VolumeFrame::of_voxels(DVec3::splat(VOXEL_M))
     }
 
     fn value_range(&self) -> (f64, f64) {

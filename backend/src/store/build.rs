@@ -8,17 +8,19 @@ use super::survey::{Cleaner, ErrorTally, SourceTally};
 use super::{
     BRICK_EDGE, Brick, CodeBits, Codec, NodeKey, OVERLAP, OWN_EDGE, OctreeShape, StoreError, quantise,
 };
-use crate::volume::{VolumeInfo, VolumeReader};
+use crate::volume::{Samples, VolumeInfo, VolumeReader};
 use glam::UVec3;
 use rayon::prelude::*;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// Bricks that are quantised and packed before they are written: some per core, not a whole layer of a huge volume.
 const BRICKS_AT_ONCE: usize = 128;
 
 /// How to build.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct BuildOptions {
     /// Bits per code.
     pub bits: CodeBits,
@@ -26,11 +28,13 @@ pub struct BuildOptions {
     pub codec: Codec,
     /// Memory for the slabs of all levels; where they need more, they are kept in a working file beside the store.
     pub memory_bytes: u64,
+    /// The build ends with an error soon after this becomes true.
+    pub stop: Option<Arc<AtomicBool>>,
 }
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { bits: CodeBits::Eight, codec: Codec::Lz4, memory_bytes: 2 << 30 }
+        Self { bits: CodeBits::Eight, codec: Codec::Lz4, memory_bytes: 2 << 30, stop: None }
     }
 }
 
@@ -74,13 +78,16 @@ pub fn build(
     let started = Instant::now();
     let mut building = Building::start(reader.info(), out, options)?;
     let slabs = u64::from(reader.info().dims.z);
-    let (cleaner, before) = match reader.info().all_finite {
+    let info = reader.info().clone();
+    let (cleaner, before) = match info.is_all_finite() {
         true => (None, 0),
         false => (Some(Cleaner::survey(reader, &|done| progress(done, 2 * slabs))?), slabs),
     };
-    let mut slab = vec![0.0; reader.info().slab_voxels()];
-    for z in 0..reader.info().dims.z {
-        reader.read_slab(z, &mut slab)?;
+    let mut stored = Samples::new(info.element, info.slab_voxels());
+    let mut slab = vec![0.0; info.slab_voxels()];
+    for z in 0..info.dims.z {
+        reader.read_slab(z, &mut stored)?;
+        slab.iter_mut().enumerate().for_each(|(i, value)| *value = info.value(stored.get(i)));
         building.source.non_finite += cleaner.map_or(0, |cleaner| cleaner.clean(&mut slab));
         building.take_slab(z, &slab)?;
         progress(before + u64::from(z) + 1, before + slabs);
@@ -110,7 +117,7 @@ impl Building {
             bits: options.bits,
             codec: options.codec,
             dims: info.dims,
-            voxel_size_m: info.voxel_size_m,
+            voxel_size_m: info.frame.voxel_size_m(),
             value_range: (0.0, 0.0),
             nodes: table.nodes(),
             source_name: shortened(&info.name),
@@ -118,7 +125,7 @@ impl Building {
         let sink = Sink::create(out, shape, table, &header)?;
         let levels = LevelSlabs::all(shape, options.memory_bytes, folder_of(out))?;
         let (source, quantisation) = (SourceTally::new(), ErrorTally::default());
-        Ok(Self { options: *options, header, levels, sink, source, quantisation })
+        Ok(Self { options: options.clone(), header, levels, sink, source, quantisation })
     }
 
     fn take_slab(&mut self, z: u32, values: &[f64]) -> Result<(), StoreError> {

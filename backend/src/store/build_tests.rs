@@ -1,7 +1,7 @@
 //! Laws of the build: what is built reads back, coarser levels are means, bounds bound.
 
 use super::*;
-use crate::volume::{Element, VolumeError, VolumeInfo, VolumeReader};
+use crate::volume::{Element, Samples, Selection, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
 use glam::{DVec3, UVec3};
 use std::path::Path;
 
@@ -15,9 +15,8 @@ impl Grid {
     pub fn new(dims: UVec3, element: Element, value: impl Fn(UVec3) -> f64) -> Self {
         let place = |i| UVec3::new(i % dims.x, i / dims.x % dims.y, i / dims.x / dims.y);
         let values = (0..dims.element_product()).map(place).map(value).collect();
-        let voxel_size_m = DVec3::new(1e-3, 1e-3, 2e-3);
-        let info =
-            VolumeInfo { name: "grid".into(), dims, voxel_size_m, element, all_finite: !element.is_float() };
+        let frame = VolumeFrame::of_voxels(DVec3::new(1e-3, 1e-3, 2e-3));
+        let info = VolumeInfo { name: "grid".into(), dims, frame, element, slope: 1.0, intercept: 0.0 };
         Self { info, values }
     }
 
@@ -42,9 +41,11 @@ impl VolumeReader for Grid {
         &self.info
     }
 
-    fn read_slab(&mut self, z: u32, slab: &mut [f64]) -> Result<(), VolumeError> {
+    fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError> {
         let start = z as usize * slab.len();
-        slab.copy_from_slice(&self.values[start..start + slab.len()]);
+        for (i, value) in self.values[start..start + slab.len()].iter().enumerate() {
+            slab.set(i, *value);
+        }
         Ok(())
     }
 }
@@ -124,7 +125,7 @@ fn every_sample_of_every_level_is_right() {
         for (bits, codec) in [(CodeBits::Eight, Codec::Lz4), (CodeBits::Sixteen, Codec::None)] {
             let (store, report) = build_in(folder.path(), &mut grid, &options(bits, codec));
             check_all(&store, &grid);
-            assert_eq!((store.shape().dims(), store.voxel_size_m()), (dims, grid.info.voxel_size_m));
+            assert_eq!((store.shape().dims(), store.voxel_size_m()), (dims, grid.info.frame.voxel_size_m()));
             assert_eq!(store.value_range(), report.value_range);
             assert_eq!((report.non_finite, store.source_name()), (0, "grid"));
         }
@@ -214,21 +215,34 @@ fn a_procedural_volume_is_imported() {
     let out = folder.path().join("shells.lloom");
     let options = ImportOptions { procedural_dims: UVec3::new(40, 30, 20), ..Default::default() };
     let told = std::cell::Cell::new((0, 0));
-    let report =
-        import("procedural:shells", None, &out, &options, &|done, total| told.set((done, total))).unwrap();
+    let report = import("procedural:shells", &Selection::default(), &out, &options, &|done, total| {
+        told.set((done, total))
+    })
+    .unwrap();
     assert_eq!(told.get(), (20, 20));
     assert_eq!(Store::open(&out).unwrap().shape().dims(), report.dims);
-    let error = import("procedural:shell", None, &out, &options, &|_, _| {}).unwrap_err();
+    let error = import("procedural:shell", &Selection::default(), &out, &options, &|_, _| {}).unwrap_err();
     assert!(error.to_string().contains("sparse-vessels"));
     let itself = out.to_string_lossy().into_owned();
-    assert!(import(&itself, None, &out, &options, &|_, _| {}).unwrap_err().to_string().contains("replace"));
+    assert!(
+        import(&itself, &Selection::default(), &out, &options, &|_, _| {})
+            .unwrap_err()
+            .to_string()
+            .contains("replace")
+    );
 }
 
 #[test]
 fn a_real_file_with_nan_is_imported() {
     let folder = tempfile::tempdir().unwrap();
     let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/non_finite.nrrd");
-    let report =
-        import(input, None, &folder.path().join("a.lloom"), &ImportOptions::default(), &|_, _| {}).unwrap();
+    let report = import(
+        input,
+        &Selection::default(),
+        &folder.path().join("a.lloom"),
+        &ImportOptions::default(),
+        &|_, _| {},
+    )
+    .unwrap();
     assert_eq!((report.non_finite, report.value_range), (3, (1.0, 353.0)));
 }

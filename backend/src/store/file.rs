@@ -4,8 +4,7 @@ use super::format::{ENTRY_BYTES, Entry, Header, HeaderError};
 use super::node_table::NodeTable;
 use super::{BRICK_VOXELS, Brick, BrickError, BrickSource, CodeBits, Codec, Codes};
 use super::{NodeKey, NodeSummary, OctreeShape, StoreError};
-use crate::volume::MAX_EDGE_VOXELS;
-use glam::DVec3;
+use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame};
 use memmap2::Mmap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -113,8 +112,8 @@ impl BrickSource for Store {
         self.shape
     }
 
-    fn voxel_size_m(&self) -> DVec3 {
-        self.header.voxel_size_m
+    fn frame(&self) -> VolumeFrame {
+        VolumeFrame::of_voxels(self.header.voxel_size_m)
     }
 
     fn value_range(&self) -> (f64, f64) {

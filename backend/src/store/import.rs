@@ -3,7 +3,7 @@
 use super::build::{BuildOptions, BuildReport, build};
 use super::{StoreError, sink::folder_of};
 use crate::volume::procedural::ProceduralVolume;
-use crate::volume::{RawLayout, VolumeReader, open};
+use crate::volume::{Selection, VolumeReader, open};
 use glam::UVec3;
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use std::path::Path;
 pub const PROCEDURAL_PREFIX: &str = "procedural:";
 
 /// How to import.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ImportOptions {
     /// How to build the store.
     pub build: BuildOptions,
@@ -27,13 +27,13 @@ impl Default for ImportOptions {
     }
 }
 
-/// Builds the store `out` from `input`: a volume file (with `raw` for a file without a header), or `procedural:NAME`.
+/// Builds the store `out` from `input`: a volume file (of which `selection` says more), or `procedural:NAME`.
 ///
 /// # Errors
 /// Those of [`open`] and [`build`]; an output that is the input.
 pub fn import(
     input: &str,
-    raw: Option<RawLayout>,
+    selection: &Selection,
     out: &Path,
     options: &ImportOptions,
     progress: &dyn Fn(u64, u64),
@@ -44,7 +44,7 @@ pub fn import(
         }
         None => {
             check_not_itself(input, out)?;
-            open(Path::new(input), raw)?
+            open(Path::new(input), selection)?
         }
     };
     build(reader.as_mut(), out, &options.build, progress)

@@ -1,6 +1,7 @@
 //! Where bricks come from: a store file, or a procedural volume made on the fly.
 
 use super::{Brick, NodeKey, OctreeShape};
+use crate::volume::VolumeFrame;
 use glam::DVec3;
 
 /// What is known of a node without reading its voxels.
@@ -21,8 +22,12 @@ pub struct BrickError(pub String);
 pub trait BrickSource: Send + Sync {
     /// The octree's geometry.
     fn shape(&self) -> OctreeShape;
-    /// Edge lengths of the finest voxel in metres, as the data's own file gives them (1 mm where it gives none).
-    fn voxel_size_m(&self) -> DVec3;
+    /// Size, orientation and place of the finest voxels, as the data's own file gives them (1 mm where it gives none).
+    fn frame(&self) -> VolumeFrame;
+    /// Edge lengths of the finest voxel in metres.
+    fn voxel_size_m(&self) -> DVec3 {
+        self.frame().voxel_size_m()
+    }
     /// Smallest and largest data value of the whole volume.
     fn value_range(&self) -> (f64, f64);
     /// Bounds of a node's values; `node` must be one that [`OctreeShape::contains`].

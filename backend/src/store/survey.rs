@@ -1,6 +1,6 @@
 //! What a build learns of its source's values: their range, what was not finite, and how far the store is off.
 
-use crate::volume::{VolumeError, VolumeReader};
+use crate::volume::{Samples, VolumeError, VolumeReader};
 
 /// Whether a value can be kept: finite, also as the f32 in which levels are computed.
 fn can_be_kept(value: f64) -> bool {
@@ -18,11 +18,13 @@ pub(super) struct Cleaner {
 impl Cleaner {
     /// Reads a whole volume to find its finite range.
     pub fn survey(reader: &mut dyn VolumeReader, progress: &dyn Fn(u64)) -> Result<Self, VolumeError> {
-        let mut slab = vec![0.0; reader.info().slab_voxels()];
+        let info = reader.info().clone();
+        let mut slab = Samples::new(info.element, info.slab_voxels());
         let mut found = Self { smallest: f64::INFINITY, largest: f64::NEG_INFINITY };
         for z in 0..reader.info().dims.z {
             reader.read_slab(z, &mut slab)?;
-            for &value in slab.iter().filter(|&&value| can_be_kept(value)) {
+            for value in (0..slab.len()).map(|i| info.value(slab.get(i))).filter(|&value| can_be_kept(value))
+            {
                 found.smallest = found.smallest.min(value);
                 found.largest = found.largest.max(value);
             }

@@ -15,6 +15,10 @@ pub enum Element {
     U32,
     /// Signed, 4 bytes.
     I32,
+    /// Unsigned, 8 bytes.
+    U64,
+    /// Signed, 8 bytes.
+    I64,
     /// IEEE single precision.
     F32,
     /// IEEE double precision.
@@ -37,7 +41,7 @@ impl Element {
             Element::U8 | Element::I8 => 1,
             Element::U16 | Element::I16 => 2,
             Element::U32 | Element::I32 | Element::F32 => 4,
-            Element::F64 => 8,
+            Element::U64 | Element::I64 | Element::F64 => 8,
         }
     }
 
@@ -59,25 +63,21 @@ impl Element {
             }
             "u32" | "uint32" | "uint32_t" | "uint" | "unsigned int" => Element::U32,
             "i32" | "int32" | "int32_t" | "int" | "signed int" => Element::I32,
+            "u64" | "uint64" | "uint64_t" | "ulonglong" | "unsigned long long" | "unsigned long long int" => {
+                Element::U64
+            }
+            "i64"
+            | "int64"
+            | "int64_t"
+            | "longlong"
+            | "long long"
+            | "long long int"
+            | "signed long long"
+            | "signed long long int" => Element::I64,
             "f32" | "float" | "float32" => Element::F32,
             "f64" | "double" | "float64" => Element::F64,
             _ => return None,
         })
-    }
-
-    /// Turns stored bytes into numbers; `bytes` holds exactly `values.len()` voxels.
-    pub(super) fn decode(self, order: ByteOrder, bytes: &[u8], values: &mut [f64]) {
-        debug_assert_eq!(bytes.len(), values.len() * self.bytes());
-        match self {
-            Element::U8 => each(bytes, values, order, |b: [u8; 1]| f64::from(b[0])),
-            Element::I8 => each(bytes, values, order, |b| f64::from(i8::from_le_bytes(b))),
-            Element::U16 => each(bytes, values, order, |b| f64::from(u16::from_le_bytes(b))),
-            Element::I16 => each(bytes, values, order, |b| f64::from(i16::from_le_bytes(b))),
-            Element::U32 => each(bytes, values, order, |b| f64::from(u32::from_le_bytes(b))),
-            Element::I32 => each(bytes, values, order, |b| f64::from(i32::from_le_bytes(b))),
-            Element::F32 => each(bytes, values, order, |b| f64::from(f32::from_le_bytes(b))),
-            Element::F64 => each(bytes, values, order, f64::from_le_bytes),
-        }
     }
 }
 
@@ -90,36 +90,17 @@ impl std::fmt::Display for Element {
             Element::I16 => "int16",
             Element::U32 => "uint32",
             Element::I32 => "int32",
+            Element::U64 => "uint64",
+            Element::I64 => "int64",
             Element::F32 => "float32",
             Element::F64 => "float64",
         })
     }
 }
 
-fn each<const N: usize>(bytes: &[u8], values: &mut [f64], order: ByteOrder, number: impl Fn([u8; N]) -> f64) {
-    let (stored, _) = bytes.as_chunks::<N>();
-    match order {
-        ByteOrder::Little => values.iter_mut().zip(stored).for_each(|(value, b)| *value = number(*b)),
-        ByteOrder::Big => values.iter_mut().zip(stored).for_each(|(value, b)| {
-            let mut b = *b;
-            b.reverse();
-            *value = number(b);
-        }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn both_byte_orders_give_the_same_number() {
-        let mut value = [0.0];
-        Element::I16.decode(ByteOrder::Little, &(-1234i16).to_le_bytes(), &mut value);
-        assert_eq!(value, [-1234.0]);
-        Element::F64.decode(ByteOrder::Big, &0.1f64.to_be_bytes(), &mut value);
-        assert_eq!(value, [0.1]);
-    }
 
     #[test]
     fn a_type_answers_to_its_own_name() {

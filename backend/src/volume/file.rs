@@ -1,9 +1,9 @@
 //! A volume in a file, whatever its format: where the voxels lie, how they are packed, what their numbers mean.
 
 use super::reader::{MAX_EDGE_VOXELS, VolumeInfo, VolumeReader};
-use super::{ByteOrder, Element, VolumeError};
+use super::{ByteOrder, Element, Samples, VolumeError, VolumeFrame};
 use flate2::read::{MultiGzDecoder, ZlibDecoder};
-use glam::{DVec3, UVec3};
+use glam::UVec3;
 use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ pub(super) struct FileLayout {
     /// The file with the voxels.
     pub data_path: PathBuf,
     pub dims: UVec3,
-    pub voxel_size_m: DVec3,
+    pub frame: VolumeFrame,
     pub element: Element,
     pub byte_order: ByteOrder,
     pub packing: Packing,
@@ -48,7 +48,6 @@ pub(super) struct FileVolume {
     layout: FileLayout,
     stream: Box<dyn Read + Send>,
     next_slab: u32,
-    bytes: Vec<u8>,
 }
 
 impl FileVolume {
@@ -60,14 +59,14 @@ impl FileVolume {
         let info = VolumeInfo {
             name,
             dims: layout.dims,
-            voxel_size_m: layout.voxel_size_m,
+            frame: layout.frame,
             element: layout.element,
-            all_finite: !layout.element.is_float() && scaled_integers_fit_f32(&layout),
+            slope: layout.slope,
+            intercept: layout.intercept,
         };
         check_length(&layout, &info)?;
-        let bytes = vec![0; info.slab_voxels() * layout.element.bytes()];
         let stream = stream(&layout, 0)?;
-        Ok(Self { info, layout, stream, next_slab: 0, bytes })
+        Ok(Self { info, layout, stream, next_slab: 0 })
     }
 
     /// Brings the stream to the first byte of slab `z`.
@@ -77,19 +76,21 @@ impl FileVolume {
         }
         if self.layout.packing == Packing::Plain || z < self.next_slab {
             let skipped = if self.layout.packing == Packing::Plain { z } else { 0 };
-            self.stream = stream(&self.layout, u64::from(skipped) * self.bytes.len() as u64)?;
+            self.stream = stream(&self.layout, u64::from(skipped) * self.slab_bytes())?;
             self.next_slab = skipped;
         }
-        while self.next_slab < z {
-            self.fill()?;
+        let bytes = u64::from(z - self.next_slab) * self.slab_bytes();
+        let skipped = std::io::copy(&mut self.stream.by_ref().take(bytes), &mut std::io::sink());
+        match skipped {
+            Ok(skipped) if skipped == bytes => self.next_slab = z,
+            Ok(_) => return Err(self.read_error(ErrorKind::UnexpectedEof.into())),
+            Err(cause) => return Err(self.read_error(cause)),
         }
         Ok(())
     }
 
-    fn fill(&mut self) -> Result<(), VolumeError> {
-        self.stream.read_exact(&mut self.bytes).map_err(|cause| self.read_error(cause))?;
-        self.next_slab += 1;
-        Ok(())
+    fn slab_bytes(&self) -> u64 {
+        self.info.slab_voxels() as u64 * self.layout.element.bytes() as u64
     }
 
     fn read_error(&self, cause: std::io::Error) -> VolumeError {
@@ -110,15 +111,12 @@ impl VolumeReader for FileVolume {
         &self.info
     }
 
-    fn read_slab(&mut self, z: u32, slab: &mut [f64]) -> Result<(), VolumeError> {
+    fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError> {
         assert!(z < self.info.dims.z && slab.len() == self.info.slab_voxels(), "slab {z} of {:?}", self.info);
         self.go_to(z)?;
-        self.fill()?;
-        self.layout.element.decode(self.layout.byte_order, &self.bytes, slab);
-        let (slope, intercept) = (self.layout.slope, self.layout.intercept);
-        if (slope, intercept) != (1.0, 0.0) {
-            slab.iter_mut().for_each(|value| *value = *value * slope + intercept);
-        }
+        self.stream.read_exact(slab.bytes_mut()).map_err(|cause| self.read_error(cause))?;
+        self.next_slab += 1;
+        slab.reorder(self.layout.byte_order);
         Ok(())
     }
 }
@@ -142,23 +140,20 @@ fn stream(layout: &FileLayout, start: u64) -> Result<Box<dyn Read + Send>, Volum
 
 fn check_numbers(layout: &FileLayout) -> Result<(), VolumeError> {
     let wrong = |what| Err(VolumeError::header(&layout.header_path, what));
-    let (dims, size) = (layout.dims, layout.voxel_size_m);
+    let (dims, size) = (layout.dims, layout.frame.voxel_size_m());
     if dims.min_element() == 0 || dims.max_element() > MAX_EDGE_VOXELS {
         return wrong(format!("the dimensions are {dims}, and each must be from 1 to {MAX_EDGE_VOXELS}"));
     }
     if !size.is_finite() || size.min_element() <= 0.0 {
         return wrong(format!("the voxel size is {} mm, and each edge must be positive", size * 1e3));
     }
+    if !layout.frame.is_sound() {
+        return wrong("its axes lie in a plane, or its origin is no number".into());
+    }
     if !layout.slope.is_finite() || !layout.intercept.is_finite() || layout.slope == 0.0 {
         return wrong(format!("values are scaled by {} and shifted by {}", layout.slope, layout.intercept));
     }
     Ok(())
-}
-
-/// Whether integers of up to 32 bits stay finite as f32 after scaling.
-fn scaled_integers_fit_f32(layout: &FileLayout) -> bool {
-    let largest = layout.slope.abs() * f64::from(u32::MAX) + layout.intercept.abs();
-    largest < f64::from(f32::MAX)
 }
 
 fn check_length(layout: &FileLayout, info: &VolumeInfo) -> Result<(), VolumeError> {

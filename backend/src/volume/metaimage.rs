@@ -2,7 +2,7 @@
 
 use super::file::{FileLayout, Packing, file_length};
 use super::header_text::{HeaderText, Line};
-use super::{ByteOrder, Element, VolumeError};
+use super::{ByteOrder, Element, VolumeError, VolumeFrame};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub(super) fn layout(path: &Path) -> Result<FileLayout, VolumeError> {
         header_path: path.into(),
         data_path,
         dims,
-        voxel_size_m: spacing_mm(&header)? * 1e-3,
+        frame: VolumeFrame::of_voxels(spacing_mm(&header)? * 1e-3),
         element,
         byte_order: byte_order(&header),
         packing,

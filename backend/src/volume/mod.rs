@@ -3,6 +3,7 @@
 mod element;
 mod error;
 mod file;
+mod frame;
 mod header_text;
 mod metaimage;
 mod nifti;
@@ -13,9 +14,12 @@ mod raw;
 mod reader;
 #[cfg(test)]
 mod reader_tests;
+mod samples;
 
 pub use element::{ByteOrder, Element};
 pub use error::VolumeError;
+pub use frame::{Space, VolumeFrame};
 pub use open::open;
 pub use raw::RawLayout;
-pub use reader::{MAX_EDGE_VOXELS, VolumeInfo, VolumeReader};
+pub use reader::{MAX_EDGE_VOXELS, Selection, VolumeInfo, VolumeReader};
+pub use samples::{Sample, Samples};

@@ -1,7 +1,7 @@
 //! NIfTI-1 headers (.nii, .nii.gz): 348 bytes, byte order told by the first number.
 
 use super::file::{FileLayout, Packing};
-use super::{ByteOrder, Element, VolumeError};
+use super::{ByteOrder, Element, VolumeError, VolumeFrame};
 use flate2::read::MultiGzDecoder;
 use glam::{DVec3, UVec3};
 use std::fs::File;
@@ -41,7 +41,7 @@ pub(super) fn layout(path: &Path) -> Result<FileLayout, VolumeError> {
         header_path: path.into(),
         data_path: path.into(),
         dims: header.dims()?,
-        voxel_size_m: header.voxel_size_m()?,
+        frame: VolumeFrame::of_voxels(header.voxel_size_m()?),
         element: header.element()?,
         byte_order: header.byte_order,
         packing,

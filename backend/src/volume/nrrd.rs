@@ -2,7 +2,7 @@
 
 use super::file::{FileLayout, Packing, file_length};
 use super::header_text::{HeaderText, Line};
-use super::{ByteOrder, Element, VolumeError};
+use super::{ByteOrder, Element, VolumeError, VolumeFrame};
 use glam::DVec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -28,7 +28,7 @@ pub(super) fn layout(path: &Path) -> Result<FileLayout, VolumeError> {
         header_path: path.into(),
         data_path: place.path,
         dims,
-        voxel_size_m: voxel_size_m(&header)?,
+        frame: VolumeFrame::of_voxels(voxel_size_m(&header)?),
         element,
         byte_order: byte_order(&header, element)?,
         packing,

@@ -1,7 +1,7 @@
 //! Opening a volume file: which format is it?
 
 use super::file::{FileLayout, FileVolume};
-use super::{RawLayout, VolumeError, VolumeReader, metaimage, nifti, nrrd, raw};
+use super::{Selection, VolumeError, VolumeFrame, VolumeReader, metaimage, nifti, nrrd, raw};
 use flate2::read::MultiGzDecoder;
 use std::fs::File;
 use std::io::Read;
@@ -18,16 +18,19 @@ enum Format {
     MetaImage,
 }
 
-/// Opens a volume file. With `raw` the file is read as raw voxels of that layout, whatever its name; without, the
+/// Opens a volume. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
 /// extension tells the format, and the first bytes do where the extension is not known.
 ///
 /// # Errors
 /// A missing file, a wrong header, fewer bytes than promised, an unknown format or element type: one sentence.
-pub fn open(path: &Path, raw: Option<RawLayout>) -> Result<Box<dyn VolumeReader>, VolumeError> {
-    let layout = match raw {
-        Some(raw) => raw::layout(path, &raw)?,
+pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>, VolumeError> {
+    let mut layout = match &selection.raw {
+        Some(raw) => raw::layout(path, raw)?,
         None => layout(path)?,
     };
+    if let Some(spacing_mm) = selection.spacing_mm {
+        layout.frame = VolumeFrame::of_voxels(spacing_mm * 1e-3);
+    }
     Ok(Box::new(FileVolume::new(layout)?))
 }
 

@@ -1,7 +1,7 @@
 //! Raw voxels without a header: the user says what they are.
 
 use super::file::{FileLayout, Packing, file_length};
-use super::{ByteOrder, Element, VolumeError};
+use super::{ByteOrder, Element, VolumeError, VolumeFrame};
 use glam::{DVec3, UVec3};
 use std::path::Path;
 
@@ -38,7 +38,7 @@ pub(super) fn layout(path: &Path, raw: &RawLayout) -> Result<FileLayout, VolumeE
         header_path: path.into(),
         data_path: path.into(),
         dims: raw.dims,
-        voxel_size_m: raw.spacing_mm * 1e-3,
+        frame: VolumeFrame::of_voxels(raw.spacing_mm * 1e-3),
         element: raw.element,
         byte_order: raw.byte_order,
         packing: Packing::Plain,

@@ -1,6 +1,6 @@
 //! What reading a volume means: a description, and its slabs of constant z one after the other.
 
-use super::{Element, VolumeError};
+use super::{Element, RawLayout, Samples, VolumeError, VolumeFrame};
 use glam::{DVec3, UVec3};
 
 /// Largest number of voxels along an axis that is believed.
@@ -13,12 +13,14 @@ pub struct VolumeInfo {
     pub name: String,
     /// Voxels along x, y, z; each from 1 to [`MAX_EDGE_VOXELS`].
     pub dims: UVec3,
-    /// Edge lengths of a voxel in metres, each positive.
-    pub voxel_size_m: DVec3,
-    /// How the voxels are stored; a procedural volume says [`Element::F64`].
+    /// Size, orientation and place of the voxels; sound as [`VolumeFrame::is_sound`] says.
+    pub frame: VolumeFrame,
+    /// The type of the stored numbers.
     pub element: Element,
-    /// Whether NaN and infinity cannot occur.
-    pub all_finite: bool,
+    /// Data value = slope × stored number + intercept; finite, the slope not 0.
+    pub slope: f64,
+    /// See `slope`.
+    pub intercept: f64,
 }
 
 impl VolumeInfo {
@@ -32,24 +34,78 @@ impl VolumeInfo {
         self.slab_voxels() as u64 * u64::from(self.dims.z)
     }
 
-    /// Bytes of the voxels as they are stored.
+    /// Bytes of the voxels as they are stored, unpacked.
     pub fn bytes(&self) -> u64 {
         self.voxels() * self.element.bytes() as u64
     }
+
+    /// The data value of a stored number.
+    pub fn value(&self, stored: f64) -> f64 {
+        stored * self.slope + self.intercept
+    }
+
+    /// Whether the stored numbers are the data values.
+    pub fn is_unscaled(&self) -> bool {
+        (self.slope, self.intercept) == (1.0, 0.0)
+    }
+
+    /// Whether NaN, infinity and numbers beyond f32 cannot occur.
+    pub fn is_all_finite(&self) -> bool {
+        let largest = self.slope.abs() * u64::MAX as f64 + self.intercept.abs();
+        !self.element.is_float() && largest < f64::from(f32::MAX)
+    }
 }
 
-/// A volume that can be read slab by slab; at no time is more than one slab of it in memory.
+/// A volume that can be read slab by slab; at no time is the whole of it in memory.
 pub trait VolumeReader: Send {
     /// What is known before reading.
     fn info(&self) -> &VolumeInfo;
 
-    /// Reads the voxels of constant `z` into `slab`, x fastest, [`VolumeInfo::slab_voxels`] of them, in data units.
-    /// Cheap when `z` follows the slab read before; any other `z` may decompress from the start.
-    fn read_slab(&mut self, z: u32, slab: &mut [f64]) -> Result<(), VolumeError>;
+    /// Reads the stored numbers of constant `z` into `slab`: x fastest, [`VolumeInfo::slab_voxels`] of them, of
+    /// [`VolumeInfo::element`]. Cheap when `z` follows the slab read before; any other `z` may decompress from the
+    /// start.
+    ///
+    /// # Errors
+    /// What is wrong with the file, found only now.
+    fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError>;
 }
 
 impl std::fmt::Debug for dyn VolumeReader {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.info().fmt(f)
+    }
+}
+
+/// What a user says beside the path: which volume of those in it, and what the files themselves do not tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// A file without header holds this.
+    pub raw: Option<RawLayout>,
+    /// Of a folder with several DICOM series: its number in the list (from 1), or how its UID starts or ends.
+    pub series: Option<String>,
+    /// Of a pyramid: the level, 0 = finest; None is 0.
+    pub level: Option<u32>,
+    /// Of several channels, samples per pixel, or volumes in one file: which one, from 0. None is right only where
+    /// there is one.
+    pub channel: Option<u32>,
+    /// Of a time series: which point in time, from 0. None is right only where there is one.
+    pub time: Option<u32>,
+    /// Edges of a voxel in millimetres, in place of what the file says.
+    pub spacing_mm: Option<DVec3>,
+    /// Memory that a reader may use for what it has decoded and not yet handed out, bytes.
+    pub memory_bytes: u64,
+}
+
+impl Default for Selection {
+    fn default() -> Self {
+        Self {
+            raw: None,
+            series: None,
+            level: None,
+            channel: None,
+            time: None,
+            spacing_mm: None,
+            memory_bytes: 256 << 20,
+        }
     }
 }

@@ -18,9 +18,12 @@ fn data(name: &str) -> PathBuf {
 
 fn values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeError> {
     let slab_voxels = reader.info().slab_voxels();
-    let mut values = vec![0.0; reader.info().voxels() as usize];
-    for (z, slab) in values.chunks_exact_mut(slab_voxels).enumerate() {
-        reader.read_slab(z as u32, slab)?;
+    let info = reader.info().clone();
+    let mut slab = Samples::new(info.element, slab_voxels);
+    let mut values = Vec::new();
+    for z in 0..info.dims.z {
+        reader.read_slab(z, &mut slab)?;
+        values.extend((0..slab_voxels).map(|i| info.value(slab.get(i))));
     }
     Ok(values)
 }
@@ -35,10 +38,14 @@ fn ramp(x: f64, y: f64, z: f64) -> f64 {
 }
 
 fn check(name: &str, element: Element, value: impl Fn(f64, f64, f64) -> f64) {
-    let mut reader = open(&data(name), None).unwrap();
+    let mut reader = open(&data(name), &Selection::default()).unwrap();
     let info = reader.info().clone();
     assert_eq!((info.dims, info.element), (DIMS, element), "{name}");
-    assert!((info.voxel_size_m - VOXEL_SIZE_M).abs().max_element() < 1e-9, "{name}: {}", info.voxel_size_m);
+    assert!(
+        (info.frame.voxel_size_m() - VOXEL_SIZE_M).abs().max_element() < 1e-9,
+        "{name}: {:?}",
+        info.frame
+    );
     assert_eq!(values(reader.as_mut()).unwrap(), expected(DIMS, value), "{name}");
 }
 
@@ -78,23 +85,27 @@ fn raw_layout() -> RawLayout {
     }
 }
 
+fn of_raw(raw: RawLayout) -> Selection {
+    Selection { raw: Some(raw), ..Default::default() }
+}
+
 #[test]
 fn raw() {
     let path = data("ushort_big.raw");
-    assert_eq!(values(open(&path, Some(raw_layout())).unwrap().as_mut()).unwrap(), expected(DIMS, ramp));
+    assert_eq!(values(open(&path, &of_raw(raw_layout())).unwrap().as_mut()).unwrap(), expected(DIMS, ramp));
     let without_first_slab = RawLayout { header_skip_bytes: 60, dims: UVec3::new(5, 6, 3), ..raw_layout() };
-    let rest = values(open(&path, Some(without_first_slab)).unwrap().as_mut()).unwrap();
+    let rest = values(open(&path, &of_raw(without_first_slab)).unwrap().as_mut()).unwrap();
     assert_eq!(rest, expected(DIMS, ramp)[30..]);
 }
 
 #[test]
 fn slabs_read_in_any_order() {
     for name in ["short.mhd", "ushort_gzip.nrrd", "short_big.nii.gz"] {
-        let mut reader = open(&data(name), None).unwrap();
-        let mut slab = vec![0.0; 30];
+        let mut reader = open(&data(name), &Selection::default()).unwrap();
+        let mut slab = Samples::new(reader.info().element, 30);
         for z in [2, 3, 0, 3, 1] {
             reader.read_slab(z, &mut slab).unwrap();
-            assert_eq!(slab[7], ramp(2.0, 1.0, z.into()), "{name} slab {z}");
+            assert_eq!(slab.get(7), ramp(2.0, 1.0, z.into()), "{name} slab {z}");
         }
     }
 }
@@ -105,7 +116,11 @@ fn an_unknown_extension_is_told_by_its_first_bytes() {
     for name in ["short.nrrd", "double.mha", "ushort.nii", "short_big.nii.gz"] {
         let copy = folder.path().join("volume.dat");
         std::fs::copy(data(name), &copy).unwrap();
-        assert_eq!(values(open(&copy, None).unwrap().as_mut()).unwrap(), expected(DIMS, ramp), "{name}");
+        assert_eq!(
+            values(open(&copy, &Selection::default()).unwrap().as_mut()).unwrap(),
+            expected(DIMS, ramp),
+            "{name}"
+        );
     }
 }
 
@@ -114,7 +129,9 @@ fn complaint(name: &str, bytes: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    let error = open(&path, None).and_then(|mut reader| values(reader.as_mut()).map(|_| ())).unwrap_err();
+    let error = open(&path, &Selection::default())
+        .and_then(|mut reader| values(reader.as_mut()).map(|_| ()))
+        .unwrap_err();
     let said = error.to_string();
     assert!(said.contains(&*folder.path().to_string_lossy()) && !said.contains('\n'), "{said}");
     said
@@ -186,12 +203,12 @@ fn a_small_gzip_file_cannot_promise_a_large_volume() {
 fn what_cannot_be_read_is_said_in_a_sentence() {
     assert!(complaint("picture.gif", b"GIF89a").contains("is not known"));
     assert!(complaint("empty.nii", b"").contains("348 bytes"));
-    let missing = open(Path::new("/nowhere/head.nii"), None).unwrap_err().to_string();
+    let missing = open(Path::new("/nowhere/head.nii"), &Selection::default()).unwrap_err().to_string();
     assert!(missing.contains("/nowhere/head.nii") && missing.contains("check the path"), "{missing}");
     let folder = tempfile::tempdir().unwrap();
-    assert!(open(folder.path(), None).unwrap_err().to_string().contains("folder"));
+    assert!(open(folder.path(), &Selection::default()).unwrap_err().to_string().contains("folder"));
     let wrong = RawLayout { dims: UVec3::splat(u32::MAX), ..raw_layout() };
-    assert!(open(&data("ushort_big.raw"), Some(wrong)).unwrap_err().to_string().contains("after the 0"));
+    assert!(open(&data("ushort_big.raw"), &of_raw(wrong)).unwrap_err().to_string().contains("after the 0"));
     let wrong = RawLayout { element: Element::U8, ..raw_layout() };
-    assert!(open(&data("ushort_big.raw"), Some(wrong)).unwrap_err().to_string().contains("240 bytes"));
+    assert!(open(&data("ushort_big.raw"), &of_raw(wrong)).unwrap_err().to_string().contains("240 bytes"));
 }

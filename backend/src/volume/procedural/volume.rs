@@ -5,7 +5,7 @@ use crate::store::{
     BRICK_EDGE, BRICK_VOXELS, Brick, BrickError, BrickSource, CodeBits, NodeKey, NodeSummary, OVERLAP,
     OWN_EDGE, OctreeShape, quantise,
 };
-use crate::volume::{Element, MAX_EDGE_VOXELS, VolumeError, VolumeInfo, VolumeReader};
+use crate::volume::{Element, MAX_EDGE_VOXELS, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
@@ -34,9 +34,9 @@ impl ProceduralVolume {
         let unit_voxels = f64::from(dims.max_element());
         let field = field_named(name, dims.as_dvec3() / unit_voxels)
             .ok_or_else(|| wrong(format!("the names are {}", FIELD_NAMES.join(", "))))?;
-        let voxel_size_m = DVec3::splat(voxel_size_m);
+        let frame = VolumeFrame::of_voxels(DVec3::splat(voxel_size_m));
         let info =
-            VolumeInfo { name: name.into(), dims, voxel_size_m, element: Element::F64, all_finite: true };
+            VolumeInfo { name: name.into(), dims, frame, element: Element::F32, slope: 1.0, intercept: 0.0 };
         Ok(Self { info, shape: OctreeShape::new(dims), field, unit_voxels })
     }
 
@@ -73,8 +73,8 @@ impl BrickSource for ProceduralVolume {
         self.shape
     }
 
-    fn voxel_size_m(&self) -> DVec3 {
-        self.info.voxel_size_m
+    fn frame(&self) -> VolumeFrame {
+        self.info.frame
     }
 
     fn value_range(&self) -> (f64, f64) {
@@ -110,12 +110,13 @@ impl VolumeReader for ProceduralVolume {
         &self.info
     }
 
-    fn read_slab(&mut self, z: u32, slab: &mut [f64]) -> Result<(), VolumeError> {
+    fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError> {
         let position = |voxel: usize| (voxel as f64 + 0.5) / self.unit_voxels;
         let width = self.info.dims.x as usize;
+        let Samples::F32(slab) = slab else { panic!("the slab is of the volume's own element") };
         slab.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             for (x, value) in row.iter_mut().enumerate() {
-                *value = self.field.value(DVec3::new(position(x), position(y), position(z as usize)));
+                *value = self.field.value(DVec3::new(position(x), position(y), position(z as usize))) as f32;
             }
         });
         Ok(())
