@@ -11,6 +11,7 @@ use super::{
 use crate::volume::{Samples, VolumeInfo, VolumeReader};
 use glam::UVec3;
 use rayon::prelude::*;
+use shaders::optics::Optics;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -18,6 +19,27 @@ use std::time::{Duration, Instant};
 
 /// Bricks that are quantised and packed before they are written: some per core, not a whole layer of a huge volume.
 const BRICKS_AT_ONCE: usize = 128;
+
+/// Which bricks are not worth keeping: they read back as their smallest value everywhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Emptiness {
+    /// Only bricks whose samples are all equal, which lose nothing.
+    #[default]
+    Lossless,
+    /// Bricks whose largest value is below this one.
+    Below(f64),
+    /// Bricks that these transfer functions do not show.
+    Invisible(Optics),
+}
+
+/// How far a level is from the source.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LevelError {
+    /// Root mean square over all voxels of the source, of the difference to the level's voxel around them, data units.
+    pub rms: f64,
+    /// The largest difference.
+    pub max: f64,
+}
 
 /// How to build.
 #[derive(Clone, Debug)]
@@ -28,13 +50,24 @@ pub struct BuildOptions {
     pub codec: Codec,
     /// Memory for the slabs of all levels; where they need more, they are kept in a working file beside the store.
     pub memory_bytes: u64,
+    /// Which bricks are left out.
+    pub emptiness: Emptiness,
+    /// Whether coarse levels keep the standard deviation of what their voxels stand for, beside its mean.
+    pub has_deviation: bool,
     /// The build ends with an error soon after this becomes true.
     pub stop: Option<Arc<AtomicBool>>,
 }
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { bits: CodeBits::Eight, codec: Codec::Lz4, memory_bytes: 2 << 30, stop: None }
+        Self {
+            bits: CodeBits::Eight,
+            codec: Codec::Lz4,
+            memory_bytes: 2 << 30,
+            emptiness: Emptiness::Lossless,
+            has_deviation: false,
+            stop: None,
+        }
     }
 }
 
@@ -56,6 +89,10 @@ pub struct BuildReport {
     pub rms_error: f64,
     /// Largest error of the finest level, in data units, with the same remark.
     pub max_error: f64,
+    /// Errors of all levels, the finest first.
+    pub levels: Vec<LevelError>,
+    /// Bricks left out by [`BuildOptions::emptiness`] that were not of one value.
+    pub emptied_bricks: u64,
     /// Voxels that were NaN, infinite or beyond f32, and were replaced by the smallest or largest finite value.
     pub non_finite: u64,
     /// Smallest and largest finite value.
@@ -173,6 +210,8 @@ impl Building {
             source_bytes: info.bytes(),
             store_bytes,
             rms_error: self.quantisation.rms() + self.source.rounding.rms(),
+            levels: Vec::new(),
+            emptied_bricks: 0,
             max_error: self.quantisation.max() + self.source.rounding.max(),
             non_finite: self.source.non_finite,
             value_range: self.header.value_range,

@@ -9,6 +9,8 @@ pub enum Codec {
     None,
     /// LZ4 blocks, lossless; a brick that would grow is kept as it is.
     Lz4,
+    /// Zstandard frames, lossless: smaller and slower.
+    Zstd,
 }
 
 impl Codec {
@@ -20,6 +22,7 @@ impl Codec {
             Codes::U16(codes) => codes.iter().flat_map(|code| code.to_le_bytes()).collect(),
         };
         match self {
+            Codec::Zstd => todo!(),
             Codec::None => plain,
             Codec::Lz4 => {
                 let packed = lz4_flex::block::compress(&plain);
@@ -37,6 +40,7 @@ impl Codec {
             return Ok(codes(bytes, bits));
         }
         match self {
+            Codec::Zstd => todo!(),
             Codec::None => Err(format!("it has {} bytes instead of {}", bytes.len(), bits.brick_bytes())),
             Codec::Lz4 => {
                 let mut plain = vec![0; bits.brick_bytes()];

@@ -3,7 +3,7 @@
 use super::format::{ENTRY_BYTES, Entry, Header, HeaderError};
 use super::node_table::NodeTable;
 use super::{BRICK_VOXELS, Brick, BrickError, BrickSource, CodeBits, Codec, Codes};
-use super::{NodeKey, NodeSummary, OctreeShape, StoreError};
+use super::{LevelError, NodeKey, NodeSummary, OctreeShape, StoreError};
 use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame};
 use memmap2::Mmap;
 use std::fs::File;
@@ -57,6 +57,31 @@ impl Store {
     /// The name of the volume it was built from.
     pub fn source_name(&self) -> &str {
         &self.header.source_name
+    }
+
+    /// Version of the file's format.
+    pub fn version(&self) -> u32 {
+        super::format::VERSION
+    }
+
+    /// Bytes of the file.
+    pub fn file_bytes(&self) -> u64 {
+        self.map.len() as u64
+    }
+
+    /// Bricks that take bytes.
+    pub fn stored_bricks(&self) -> u64 {
+        todo!()
+    }
+
+    /// Errors of the levels against the source, the finest first; empty where an older program built the store.
+    pub fn level_errors(&self) -> &[LevelError] {
+        &[]
+    }
+
+    /// Whether coarse levels keep standard deviations.
+    pub fn has_deviation(&self) -> bool {
+        false
     }
 
     /// Bits per code.

@@ -93,6 +93,7 @@ impl Header {
             &[match self.codec {
                 Codec::None => 0,
                 Codec::Lz4 => 1,
+                Codec::Zstd => 2,
             }],
         );
         for axis in 0..3 {

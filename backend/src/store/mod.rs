@@ -18,9 +18,10 @@ mod sink;
 mod slabs;
 mod source;
 mod survey;
+mod verify;
 
 pub use brick::{BRICK_EDGE, BRICK_VOXELS, Brick, Codes, OVERLAP, OWN_EDGE};
-pub use build::{BuildOptions, BuildReport, build};
+pub use build::{BuildOptions, BuildReport, Emptiness, LevelError, build};
 pub use codec::Codec;
 pub use error::StoreError;
 pub use file::Store;
@@ -28,3 +29,4 @@ pub use import::{ImportOptions, PROCEDURAL_PREFIX, import};
 pub use octree::{NodeKey, OctreeShape};
 pub use quantise::{CodeBits, quantise};
 pub use source::{BrickError, BrickSource, NodeSummary};
+pub use verify::{MOST_DAMAGES, Verification, verify};
