@@ -3,9 +3,9 @@
 use super::RenderError;
 use crate::device::Device;
 use crate::protocol::{FrameState, Stages};
-use crate::store::{BrickSource, NodeKey, NodeSummary, OctreeShape};
+use crate::store::{BrickSource, CellRanges, NodeKey, NodeSummary, OctreeShape};
 use crate::working_set::{
-    CellRanges, Cut, IndexRules, LoadedBrick, Loader, LodRule, ResidentBrick, SlotPool, Wanted, build_index,
+    Cut, IndexRules, LoadedBrick, Loader, LodRule, ResidentBrick, SlotPool, Wanted, build_index,
 };
 use shaders::layout::CELL_WORDS;
 use shaders::optics::Optics;
