@@ -9,6 +9,7 @@ use backend::store::{BrickSource, BuildOptions, CodeBits, ImportOptions, Store, 
 use backend::volume::{ByteOrder, Element, RawLayout, Selection};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
+use lightloom_tests::head::head;
 use lightloom_tests::{compare, draw, scenes};
 use shaders::optics::{Light, Optics, Quality};
 use std::path::Path;
@@ -22,26 +23,11 @@ const COMPARED: usize = 3;
 /// Every so many pixels of them, along x and y.
 const COMPARED_STRIDE: u32 = 12;
 
-/// A head in Hounsfield units: skin, a skull with sutures, tissue with folds, and a scanner's noise.
-fn head(voxel: UVec3) -> i16 {
-    let p = (voxel.as_dvec3() + 0.5) / DIMS.as_dvec3() * 2.0 - 1.0;
-    let r = (p / DVec3::new(0.78, 0.9, 0.95)).length();
-    let folds = (24.0 * p.x + 3.0 * (9.0 * p.y).sin()).sin() * (20.0 * p.y + 4.0 * (7.0 * p.z).cos()).cos();
-    let suture = (40.0 * (p.y + 0.2 * (12.0 * p.x).sin())).cos().abs();
-    let value = match r {
-        r if r > 1.0 => -1000.0,
-        r if r > 0.93 => 20.0 + 60.0 * folds,
-        r if r > 0.84 => 900.0 + 500.0 * suture,
-        _ => 35.0 + 25.0 * folds,
-    };
-    let hash = (voxel.x ^ voxel.y.rotate_left(11) ^ voxel.z.rotate_left(22)).wrapping_mul(2_654_435_761);
-    (value + 30.0 * (f64::from(hash >> 8) / f64::from(1u32 << 24) - 0.5)) as i16
-}
-
 fn store(folder: &Path) -> Store {
     let raw = folder.join("head.raw");
     let index = |i: u32| UVec3::new(i % DIMS.x, i / DIMS.x % DIMS.y, i / (DIMS.x * DIMS.y));
-    let bytes: Vec<u8> = (0..DIMS.element_product()).flat_map(|i| head(index(i)).to_le_bytes()).collect();
+    let bytes: Vec<u8> =
+        (0..DIMS.element_product()).flat_map(|i| head(index(i), DIMS).to_le_bytes()).collect();
     std::fs::write(&raw, bytes).expect("a temporary folder takes 70 MB");
     let layout = RawLayout {
         dims: DIMS,

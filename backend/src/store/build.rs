@@ -5,7 +5,7 @@ use super::halve::halve;
 use super::intake::{Taken, take};
 use super::level::Level;
 use super::node_table::NodeTable;
-use super::pack::{PackRules, PackedBrick, pack};
+use super::pack::{PackRules, PackedBrick, Scratch, pack};
 use super::sink::{Sink, folder_of};
 use super::stream::{SLABS_UNDER_WAY, stream};
 use super::tally::ErrorTally;
@@ -60,6 +60,8 @@ struct Building {
     packing: Vec<ErrorTally>,
     sink: Sink,
     taken: Taken,
+    /// Of the finest level.
+    brick_range: (f32, f32),
     non_finite: u64,
     emptied_bricks: u64,
 }
@@ -96,6 +98,7 @@ impl Building {
             packing: vec![ErrorTally::default(); count],
             sink,
             taken: Taken::nothing(),
+            brick_range: (f32::INFINITY, f32::NEG_INFINITY),
             non_finite: 0,
             emptied_bricks: 0,
         })
@@ -131,10 +134,16 @@ impl Building {
         let mut bricks = Vec::new();
         for nodes in slabs.layer_nodes(layer).chunks(BRICKS_AT_ONCE) {
             self.check_stop()?;
-            let mut packed: Vec<PackedBrick> =
-                nodes.par_iter().map(|&node| pack(slabs, node, &rules)).collect();
+            let mut packed: Vec<PackedBrick> = nodes
+                .par_iter()
+                .map_init(Scratch::default, |scratch, &node| pack(slabs, node, &rules, scratch))
+                .collect();
             for brick in &mut packed {
                 self.packing[level].merge(brick.errors);
+                if level == 0 {
+                    let (low, high) = brick.range;
+                    self.brick_range = (self.brick_range.0.min(low), self.brick_range.1.max(high));
+                }
                 self.emptied_bricks += u64::from(brick.is_emptied);
                 self.sink.write(brick)?;
             }
@@ -158,7 +167,10 @@ impl Building {
 
     fn finish(mut self, info: &VolumeInfo, started: Instant) -> Result<BuildReport, StoreError> {
         self.header.levels = self.level_errors(info.voxels());
-        self.header.value_range = (self.taken.smallest, self.taken.largest);
+        self.header.value_range = match self.taken.smallest <= self.taken.largest {
+            true => (self.taken.smallest, self.taken.largest),
+            false => (self.brick_range.0.into(), self.brick_range.1.into()),
+        };
         let (levels, value_range, nodes) =
             (self.header.levels.clone(), self.header.value_range, self.header.nodes);
         let stored_bricks = self.sink.stored_bricks();

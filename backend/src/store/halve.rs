@@ -4,8 +4,8 @@
 //! parts count by the voxels of the source that each holds. Squares add up by the law of total variance: what a
 //! coarse voxel's parts vary within themselves, and what their means vary about its own.
 
-use super::level::{Level, Spread, SpreadSlab, TILE};
-use super::ring::Ring;
+use super::level::{Level, Spread, SpreadSlab};
+use super::ring::{Ring, TILE};
 use rayon::prelude::*;
 
 /// Columns of the finer level under a tile.
@@ -138,9 +138,10 @@ impl TileRow<'_> {
         let is_cut = start + count == columns.count && last[0] != last[1];
         let cut = is_cut.then(|| (count - 1, [last[0] / (last[0] + last[1]), last[1] / (last[0] + last[1])]));
         let mut squares = 0.0;
+        let rows = under.len();
         for (row, under) in under.iter().enumerate() {
             let coarse = coarse_row(fine, tile, under, cut.map(|(at, parts)| (at, parts.map(|w| w as f32))));
-            let at = row * self.width + start;
+            let at = start * rows + row * count;
             self.means[at..at + count].copy_from_slice(&coarse.means[..count]);
             self.low[at..at + count].copy_from_slice(&coarse.low[..count]);
             self.high[at..at + count].copy_from_slice(&coarse.high[..count]);
@@ -168,14 +169,13 @@ fn rows_of(fine: &Level, ring: &Ring, tile: usize, under: &Under, of_uniform: im
     let mut rows = [[0.0; COLUMNS]; ROWS];
     let across = fine.tiles()[0];
     for (out, &(z, y)) in rows.iter_mut().zip(&under.rows) {
-        let row = ring.row(z, y);
         let mut filled = 0;
         for (half, fine_tile) in (2 * tile..(2 * tile + 2).min(across)).enumerate() {
             let count = fine.tile_width(fine_tile);
             let out = &mut out[half * TILE..half * TILE + count];
             let uniform = fine.uniform(z, fine_tile, y / TILE);
             match uniform.is_nan() {
-                true => out.copy_from_slice(&row[fine_tile * TILE..fine_tile * TILE + count]),
+                true => out.copy_from_slice(ring.row(z, fine_tile, y)),
                 false => out.fill(of_uniform(uniform)),
             }
             filled = half * TILE + count;

@@ -1,7 +1,7 @@
 //! Taking slabs of the source over into the finest level.
 
-use super::level::{Level, TILE};
-use super::quantise::range;
+use super::level::Level;
+use super::ring::TILE;
 use super::tally::ErrorTally;
 use crate::volume::{Sample, Samples, VolumeInfo, with_samples};
 use rayon::prelude::*;
@@ -9,7 +9,9 @@ use rayon::prelude::*;
 /// What passed from the source into the finest level.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Taken {
+    /// Of values that are not exact in f32; infinite where all are.
     pub smallest: f64,
+    /// Likewise.
     pub largest: f64,
     /// Error of keeping the source's values as f32: none for integers up to 24 bits and for f32.
     pub rounding: ErrorTally,
@@ -46,9 +48,8 @@ fn take_stored<S: Sample>(level: &mut Level, z: u32, stored: &[S], info: &Volume
         .reduce(Taken::nothing, Taken::merge)
 }
 
-/// A row of tiles whose numbers are the data values, and exact in f32.
+/// A row of tiles whose numbers are the data values, and exact in f32: their range is that of the bricks to be.
 fn take_exact<S: Sample>(stored: &[S], width: usize, means: &mut [f32], uniform: &mut [f32]) -> Taken {
-    let mut bounds = (f32::INFINITY, f32::NEG_INFINITY);
     for (tile, uniform) in uniform.iter_mut().enumerate() {
         let columns = tile * TILE..((tile + 1) * TILE).min(width);
         let first = stored[columns.start].to_f32();
@@ -56,32 +57,29 @@ fn take_exact<S: Sample>(stored: &[S], width: usize, means: &mut [f32], uniform:
             .chunks_exact(width)
             .all(|row| row[columns.clone()].iter().fold(true, |all, v| all & (v.to_f32() == first)));
         *uniform = if is_uniform { first } else { f32::NAN };
-        let bounds_of_tile = match is_uniform {
-            true => (first, first),
-            false => convert(stored, width, columns, means),
-        };
-        bounds = (bounds.0.min(bounds_of_tile.0), bounds.1.max(bounds_of_tile.1));
     }
-    Taken { smallest: bounds.0.into(), largest: bounds.1.into(), ..Taken::nothing() }
+    for (tile, _) in uniform.iter().enumerate().filter(|(_, uniform)| uniform.is_nan()) {
+        for_rows(stored, width, tile, means, |row, means| {
+            means.iter_mut().zip(row).for_each(|(mean, value)| *mean = value.to_f32());
+        });
+    }
+    Taken::nothing()
 }
 
-/// Converts some columns; returns their smallest and largest value.
-fn convert<S: Sample>(
+/// Does something with every row of a tile: the stored numbers, and their room.
+fn for_rows<S>(
     stored: &[S],
     width: usize,
-    columns: std::ops::Range<usize>,
+    tile: usize,
     means: &mut [f32],
-) -> (f32, f32) {
-    let mut bounds = (f32::INFINITY, f32::NEG_INFINITY);
-    for (row, means) in stored.chunks_exact(width).zip(means.chunks_exact_mut(width)) {
-        let means = &mut means[columns.clone()];
-        for (mean, value) in means.iter_mut().zip(&row[columns.clone()]) {
-            *mean = value.to_f32();
-        }
-        let (low, high) = range(means);
-        bounds = (bounds.0.min(low), bounds.1.max(high));
+    mut act: impl FnMut(&[S], &mut [f32]),
+) {
+    let rows = stored.len() / width;
+    let columns = tile * TILE..((tile + 1) * TILE).min(width);
+    let room = &mut means[columns.start * rows..columns.end * rows];
+    for (row, means) in stored.chunks_exact(width).zip(room.chunks_exact_mut(columns.len())) {
+        act(&row[columns.clone()], means);
     }
-    bounds
 }
 
 /// A row of tiles of any numbers, scaled perhaps.
@@ -93,20 +91,20 @@ fn take_rounded<S: Sample>(
     uniform: &mut [f32],
 ) -> Taken {
     let mut taken = Taken::nothing();
-    for (&stored, mean) in stored.iter().zip(means.iter_mut()) {
-        let value = info.value(stored.to_f64());
-        *mean = value as f32;
-        taken.smallest = taken.smallest.min(value);
-        taken.largest = taken.largest.max(value);
-        let error = value - f64::from(*mean);
-        taken.rounding.merge(ErrorTally { max: error.abs(), squares: error * error });
-    }
     for (tile, uniform) in uniform.iter_mut().enumerate() {
-        let columns = tile * TILE..((tile + 1) * TILE).min(width);
-        let first = means[columns.start];
-        let is_uniform =
-            means.chunks_exact(width).all(|row| row[columns.clone()].iter().all(|&v| v == first));
-        *uniform = if is_uniform { first } else { f32::NAN };
+        let (mut first, mut is_uniform) = (None, true);
+        for_rows(stored, width, tile, means, |row, means| {
+            for (&stored, mean) in row.iter().zip(means) {
+                let value = info.value(stored.to_f64());
+                *mean = value as f32;
+                taken.smallest = taken.smallest.min(value);
+                taken.largest = taken.largest.max(value);
+                let error = value - f64::from(*mean);
+                taken.rounding.merge(ErrorTally { max: error.abs(), squares: error * error });
+                is_uniform &= *first.get_or_insert(*mean) == *mean;
+            }
+        });
+        *uniform = first.filter(|_| is_uniform).unwrap_or(f32::NAN);
     }
     taken
 }

@@ -1,12 +1,9 @@
 //! The last slabs of one level of the octree while a store is built: its voxels, and what they stand for.
 
-use super::ring::{Ring, kept};
+use super::ring::{Ring, TILE, kept};
 use super::{BRICK_EDGE, BRICK_VOXELS, NodeKey, OVERLAP, OWN_EDGE, OctreeShape, StoreError};
 use glam::UVec3;
 use std::path::Path;
-
-/// Edge of a tile of a slab: the own voxels of a brick.
-pub(super) const TILE: usize = OWN_EDGE;
 
 /// What a coarse voxel stands for, beside the mean.
 pub(super) struct Spread {
@@ -36,6 +33,7 @@ pub(super) struct Level {
 struct Segment {
     tile: usize,
     first_sample: usize,
+    /// In the tile.
     first_voxel: usize,
     count: usize,
 }
@@ -169,12 +167,11 @@ impl Level {
         let zs = sample_indices(node.cell.z, self.dims.z);
         for (plane, z) in samples.chunks_exact_mut(BRICK_EDGE * BRICK_EDGE).zip(zs) {
             for (out, y) in plane.chunks_exact_mut(BRICK_EDGE).zip(ys) {
-                let row = ring.row(z as u32, y);
                 for segment in &segments {
                     let out = &mut out[segment.first_sample..][..segment.count];
                     let uniform = self.uniform(z as u32, segment.tile, y / TILE);
                     match uniform.is_nan() {
-                        true => out.copy_from_slice(&row[segment.first_voxel..][..segment.count]),
+                        true => copy(&ring.row(z as u32, segment.tile, y)[segment.first_voxel..], out),
                         false => out.fill(of_uniform(uniform)),
                     }
                 }
@@ -193,6 +190,15 @@ impl Level {
             let end = (start + u64::from(self.edge)).min(u64::from(source));
             end.saturating_sub(start) as f32
         })
+    }
+}
+
+/// Copies the start of a row; the lengths that most runs have are known to the compiler, which needs no call then.
+fn copy(row: &[f32], out: &mut [f32]) {
+    match out.len() {
+        OWN_EDGE => out.copy_from_slice(&row[..OWN_EDGE]),
+        OVERLAP => out.copy_from_slice(&row[..OVERLAP]),
+        count => out.copy_from_slice(&row[..count]),
     }
 }
 
@@ -221,7 +227,7 @@ fn segments(cell: u32, voxels: u32) -> Vec<Segment> {
         let tile = voxel / TILE;
         let count = ((tile + 1) * TILE).min(end) - voxel;
         let first_sample = (voxel as i64 - first) as usize;
-        segments.push(Segment { tile, first_sample, first_voxel: voxel, count });
+        segments.push(Segment { tile, first_sample, first_voxel: voxel % TILE, count });
         voxel += count;
     }
     segments

@@ -10,7 +10,7 @@ use super::{
 };
 use glam::UVec3;
 use std::borrow::Cow;
-use std::ops::{Mul, Sub};
+use std::ops::{Add, Mul, Sub};
 
 /// Within these, squares of errors are far from the ends of f32's range.
 const SHORT_STEPS: std::ops::RangeInclusive<f32> = 1e-12..=1e12;
@@ -31,38 +31,48 @@ pub(super) struct PackedBrick {
     pub bytes: Vec<u8>,
     /// Of the finest level against the source; of a coarse one, squares against its own means.
     pub errors: ErrorTally,
+    /// Smallest and largest of its samples.
+    pub range: (f32, f32),
     /// Whether it was left out though its samples differ.
     pub is_emptied: bool,
 }
 
-/// Quantises and packs the brick of a node of a complete layer.
-pub(super) fn pack(level: &Level, node: NodeKey, rules: &PackRules) -> PackedBrick {
-    if let Some(value) = level.uniform_brick(node) {
-        return constant(node, value, ErrorTally::default(), false);
-    }
-    let mut samples = Vec::new();
-    level.samples(node, &level.means, |value| value, &mut samples);
-    let (low, high) = range(&samples);
-    if low < high && rules.emptiness.applies(low, high) {
-        let codes = vec![0u8; samples.len()];
-        let errors = errors(level, node, rules, &samples, &Brick::new(Codes::U8(codes), low, 0.0));
-        return constant(node, low, errors, true);
-    }
-    let brick = quantise_within(&samples, (low, high), rules.bits);
-    let errors = errors(level, node, rules, &samples, &brick);
-    let deviation = deviation(level, node, &mut samples);
-    encode(node, &brick, high, deviation.as_ref(), errors, rules)
+/// Room for the samples of a brick, used again for the next.
+#[derive(Default)]
+pub(super) struct Scratch {
+    samples: Vec<f32>,
+    bound: Vec<f32>,
 }
 
-fn constant(node: NodeKey, value: f32, errors: ErrorTally, is_emptied: bool) -> PackedBrick {
+/// Quantises and packs the brick of a node of a complete layer.
+pub(super) fn pack(level: &Level, node: NodeKey, rules: &PackRules, scratch: &mut Scratch) -> PackedBrick {
+    if let Some(value) = level.uniform_brick(node) {
+        return constant(node, value, (value, value), ErrorTally::default());
+    }
+    let Scratch { samples, bound } = scratch;
+    level.samples(node, &level.means, |value| value, samples);
+    let (low, high) = range(samples);
+    if low < high && rules.emptiness.applies(low, high) {
+        let codes = vec![0u8; samples.len()];
+        let errors = errors(level, node, rules, samples, bound, &Brick::new(Codes::U8(codes), low, 0.0));
+        return constant(node, low, (low, high), errors);
+    }
+    let brick = quantise_within(samples, (low, high), rules.bits);
+    let errors = errors(level, node, rules, samples, bound, &brick);
+    let deviation = deviation(level, node, samples);
+    encode(node, &brick, (low, high), deviation.as_ref(), errors, rules)
+}
+
+/// A brick that takes no bytes, of samples in a range: left out where they differ.
+fn constant(node: NodeKey, value: f32, range: (f32, f32), errors: ErrorTally) -> PackedBrick {
     let entry = Entry { min: value, max: value, low: value, ..Entry::default() };
-    PackedBrick { node, entry, bytes: Vec::new(), errors, is_emptied }
+    PackedBrick { node, entry, bytes: Vec::new(), errors, range, is_emptied: range.0 < range.1 }
 }
 
 fn encode(
     node: NodeKey,
     brick: &Brick,
-    high: f32,
+    range: (f32, f32),
     deviation: Option<&Deviation>,
     errors: ErrorTally,
     rules: &PackRules,
@@ -80,8 +90,8 @@ fn encode(
     extent.checksums = Some(Checksums { cells: checksum(cells), voxels: checksum(voxels) });
     let deviation_step = deviation.map_or(0.0, |deviation| deviation.step);
     let Brick { low, step, .. } = *brick;
-    let entry = Entry { min: low, max: high, low, step, deviation_step, extent, ..Entry::default() };
-    PackedBrick { node, entry, bytes, errors, is_emptied: false }
+    let entry = Entry { min: low, max: range.1, low, step, deviation_step, extent, ..Entry::default() };
+    PackedBrick { node, entry, bytes, errors, range, is_emptied: false }
 }
 
 /// The bytes of codes, little-endian.
@@ -108,15 +118,21 @@ fn deviation(level: &Level, node: NodeKey, samples: &mut Vec<f32>) -> Option<Dev
 
 /// Errors of a node's own voxels: of the finest level against the source; of a coarse one, squares against its own
 /// means (those of the means against the source are known from making them) and the largest against the source.
-fn errors(level: &Level, node: NodeKey, rules: &PackRules, samples: &[f32], brick: &Brick) -> ErrorTally {
+fn errors(
+    level: &Level,
+    node: NodeKey,
+    rules: &PackRules,
+    samples: &[f32],
+    bound: &mut Vec<f32>,
+    brick: &Brick,
+) -> ErrorTally {
     let own = Own::of(level, node, rules.source);
     let mut tally = own.tally(brick, samples);
     if let Some(Spread { low, high, .. }) = &level.spread {
-        let mut bound = Vec::with_capacity(samples.len());
         tally.max = 0.0;
         for ring in [low, high] {
-            level.samples(node, ring, |value| value, &mut bound);
-            tally.max = tally.max.max(own.tally(brick, &bound).max);
+            level.samples(node, ring, |value| value, bound);
+            tally.max = tally.max.max(own.tally(brick, bound).max);
         }
     }
     tally
@@ -151,27 +167,31 @@ impl Own {
     fn rows<C, T>(&self, codes: &[C], brick: &Brick, samples: &[f32]) -> ErrorTally
     where
         C: Copy,
-        T: Copy + From<C> + From<f32> + Into<f64> + Sub<Output = T> + Mul<Output = T> + PartialOrd,
-        T: std::iter::Sum<T>,
+        T: Copy + From<C> + From<f32> + Into<f64> + PartialOrd,
+        T: Add<Output = T> + Sub<Output = T> + Mul<Output = T>,
     {
         let (low, step) = (T::from(brick.low), T::from(brick.step));
         let [xs, ys, zs] = &self.source_voxels;
-        let (mut squares, mut largest) = (0.0, 0.0f64);
+        let zero = T::from(0.0f32);
+        let (mut squares, mut largest) = (0.0, [zero; OWN_EDGE]);
         for (k, &z) in zs.iter().enumerate().take(self.edges[2]) {
+            // Column by column, which the compiler turns into vectors as it may not do with sums along a row.
+            let mut sums = [zero; OWN_EDGE];
             for (j, &y) in ys.iter().enumerate().take(self.edges[1]) {
                 let start = ((k + OVERLAP) * BRICK_EDGE + j + OVERLAP) * BRICK_EDGE + OVERLAP;
-                let mut errors = [T::from(0.0f32); OWN_EDGE];
-                let row = codes[start..].iter().zip(&samples[start..start + self.edges[0]]);
-                for (error, (&code, &sample)) in errors.iter_mut().zip(row) {
-                    let difference = T::from(code) * step - (T::from(sample) - low);
-                    *error = difference * difference;
+                let (codes, samples) = (&codes[start..start + OWN_EDGE], &samples[start..start + OWN_EDGE]);
+                let weight = T::from(y);
+                for i in 0..OWN_EDGE {
+                    let difference = T::from(codes[i]) * step - (T::from(samples[i]) - low);
+                    let square = difference * difference;
+                    sums[i] = sums[i] + square * weight;
+                    largest[i] = if square > largest[i] { square } else { largest[i] };
                 }
-                let weighted: T = errors.iter().zip(xs).map(|(&error, &x)| error * T::from(x)).sum();
-                let most = errors.iter().fold(T::from(0.0f32), |a, &b| if b > a { b } else { a });
-                squares += weighted.into() * f64::from(y) * f64::from(z);
-                largest = largest.max(most.into());
             }
+            let weighted = sums.iter().zip(xs).map(|(&sum, &x)| sum.into() * f64::from(x));
+            squares += weighted.sum::<f64>() * f64::from(z);
         }
+        let largest = largest[..self.edges[0]].iter().fold(0.0f64, |most, &square| most.max(square.into()));
         ErrorTally { max: largest.sqrt(), squares }
     }
 }

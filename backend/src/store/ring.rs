@@ -1,6 +1,6 @@
 //! One number per voxel of the last slabs of a level: enough for a layer of bricks, the rest is forgotten.
 
-use super::{BRICK_EDGE, StoreError};
+use super::{BRICK_EDGE, OWN_EDGE, StoreError};
 use glam::UVec3;
 use memmap2::MmapMut;
 use std::fs::File;
@@ -16,9 +16,16 @@ enum Memory {
     Mapped(MmapMut),
 }
 
+/// Edge of a tile of a slab: the own voxels of a brick.
+pub(super) const TILE: usize = OWN_EDGE;
+
 /// The last [`BRICK_EDGE`] slabs, or as many as the level has. Memory that is never written takes no room.
+///
+/// A slab is kept tile by tile, tiles x fastest, the rows of a tile one after the other: a brick is gathered from nine
+/// tiles of every slab, and rows of a whole slab would each lie in another page.
 pub(super) struct Ring {
     width: usize,
+    height: usize,
     slab_voxels: usize,
     kept: u32,
     memory: Memory,
@@ -47,7 +54,7 @@ impl Ring {
 
     fn of(dims: UVec3, memory: Memory) -> Self {
         let (width, height) = (dims.x as usize, dims.y as usize);
-        Self { width, slab_voxels: width * height, kept: kept(dims), memory }
+        Self { width, height, slab_voxels: width * height, kept: kept(dims), memory }
     }
 
     fn values(&self) -> &[f32] {
@@ -62,12 +69,16 @@ impl Ring {
         (z % self.kept) as usize
     }
 
-    /// Row `y` of a slab among the last ones written.
-    pub fn row(&self, z: u32, y: usize) -> &[f32] {
-        &self.values()[self.place(z) * self.slab_voxels + y * self.width..][..self.width]
+    /// The part in a tile (from the left) of row `y` of a slab among the last ones written.
+    pub fn row(&self, z: u32, tile: usize, y: usize) -> &[f32] {
+        let tile_row = y / TILE * TILE;
+        let rows = TILE.min(self.height - tile_row);
+        let width = TILE.min(self.width - tile * TILE);
+        let start = tile_row * self.width + tile * TILE * rows + (y - tile_row) * width;
+        &self.values()[self.place(z) * self.slab_voxels + start..][..width]
     }
 
-    /// The room of a slab; it takes that of the slab [`BRICK_EDGE`] before.
+    /// The room of a slab, its rows of tiles one after the other, each of [`TILE`] × width voxels; it takes that of the slab [`BRICK_EDGE`] before.
     pub fn slab_mut(&mut self, z: u32) -> &mut [f32] {
         let range = self.place(z) * self.slab_voxels..(self.place(z) + 1) * self.slab_voxels;
         let values = match &mut self.memory {
