@@ -85,26 +85,32 @@ fn count(text: &[u8], is_such: impl Fn(u8) -> bool) -> usize {
 
 /// The bytes of a number, as many as the element has at the start of the eight.
 fn parse(element: Element, word: &str) -> Option<[u8; 8]> {
-    fn number<T: std::str::FromStr, const N: usize>(
-        word: &str,
-        bytes: impl Fn(T) -> [u8; N],
-    ) -> Option<[u8; 8]> {
-        let mut padded = [0; 8];
-        padded[..N].copy_from_slice(&bytes(word.parse().ok()?));
-        Some(padded)
-    }
     match element {
-        Element::U8 => number(word, u8::to_ne_bytes),
-        Element::I8 => number(word, i8::to_ne_bytes),
-        Element::U16 => number(word, u16::to_ne_bytes),
-        Element::I16 => number(word, i16::to_ne_bytes),
-        Element::U32 => number(word, u32::to_ne_bytes),
-        Element::I32 => number(word, i32::to_ne_bytes),
-        Element::U64 => number(word, u64::to_ne_bytes),
-        Element::I64 => number(word, i64::to_ne_bytes),
-        Element::F32 => number(word, f32::to_ne_bytes),
-        Element::F64 => number(word, f64::to_ne_bytes),
+        Element::U8 => integer(word, u8::to_ne_bytes),
+        Element::I8 => integer(word, i8::to_ne_bytes),
+        Element::U16 => integer(word, u16::to_ne_bytes),
+        Element::I16 => integer(word, i16::to_ne_bytes),
+        Element::U32 => integer(word, u32::to_ne_bytes),
+        Element::I32 => integer(word, i32::to_ne_bytes),
+        Element::U64 => integer(word, u64::to_ne_bytes),
+        Element::I64 => integer(word, i64::to_ne_bytes),
+        Element::F32 => word.parse().ok().map(|number: f32| padded(number.to_ne_bytes())),
+        Element::F64 => word.parse().ok().map(|number: f64| padded(number.to_ne_bytes())),
     }
+}
+
+/// A whole number, which some programs write as they write floats (`1e+06`).
+fn integer<T: TryFrom<i128>, const N: usize>(word: &str, bytes: impl Fn(T) -> [u8; N]) -> Option<[u8; 8]> {
+    let whole = |number: &f64| number.fract() == 0.0;
+    let number =
+        word.parse().ok().or_else(|| word.parse().ok().filter(whole).map(|number| number as i128))?;
+    T::try_from(number).ok().map(|number| padded(bytes(number)))
+}
+
+fn padded<const N: usize>(bytes: [u8; N]) -> [u8; 8] {
+    let mut padded = [0; 8];
+    padded[..N].copy_from_slice(&bytes);
+    padded
 }
 
 #[cfg(test)]
@@ -128,6 +134,8 @@ mod tests {
         }
         let floats: Vec<u8> = [0.5f32, f32::INFINITY, -1e-3].iter().flat_map(|n| n.to_ne_bytes()).collect();
         assert_eq!(bytes(Element::F32, "0.5 inf -1e-3", 7).unwrap(), floats);
+        let wholes: Vec<u8> = [1_000_000u32, 7].iter().flat_map(|n| n.to_ne_bytes()).collect();
+        assert_eq!(bytes(Element::U32, "1e+06 7.0", 7).unwrap(), wholes);
         assert_eq!(bytes(Element::U8, "", 7).unwrap(), []);
     }
 
@@ -135,6 +143,9 @@ mod tests {
     fn what_is_no_number_is_named() {
         let said = |element, text: &str| bytes(element, text, 16).unwrap_err().to_string();
         assert!(said(Element::U8, "1 256").contains("\"256\" is no number of uint8"));
+        assert!(said(Element::U8, "1.5").contains("\"1.5\""));
+        assert!(said(Element::I64, "1e99").contains("\"1e99\""));
+        assert!(said(Element::I64, "inf").contains("\"inf\""));
         assert!(said(Element::I16, "1 two").contains("\"two\""));
         assert!(said(Element::F64, &"1".repeat(9999)).contains("too long"));
         assert!(said(Element::F64, "1 \u{fffd}").contains("no number"));

@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// Reads the header. The fourth axis is time, the fifth the channels, as the standard has them.
 pub(super) fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, VolumeError> {
-    let header = Header::read(&place::header_path(path))?;
+    let header = Header::read(&place::header_path(path)?)?;
     let element = element(path, header.datatype)?;
     let shape =
         Shape::new(&axes(path, &header, selection)?).map_err(|what| VolumeError::header(path, what))?;

@@ -12,14 +12,17 @@ use std::path::{Path, PathBuf};
 const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// The header's file of a pair, whichever of the two was named; any other path as it is.
-pub(super) fn header_path(path: &Path) -> PathBuf {
-    let is_voxels = ends(path, ".img") || ends(path, ".img.gz");
-    // Of a pair, either file may be packed and the other not.
-    let beside = [".hdr", ".hdr.gz"].map(|ending| with_ending(path, ending));
-    match is_voxels {
-        true => beside.iter().find(|path| path.exists()).unwrap_or(&beside[0]).clone(),
-        false => path.into(),
+pub(super) fn header_path(path: &Path) -> Result<PathBuf, VolumeError> {
+    if !ends(path, ".img") && !ends(path, ".img.gz") {
+        return Ok(path.into());
     }
+    // Of a pair, either file may be packed and the other not.
+    let beside = [".hdr", ".hdr.gz", ".HDR"].map(|ending| with_ending(path, ending));
+    beside.iter().find(|path| path.exists()).cloned().ok_or_else(|| {
+        let header = beside[0].display();
+        let what = format!("its header {header} is not there: copy it too, or say what the raw voxels are");
+        VolumeError::unsupported(path, what)
+    })
 }
 
 /// The file of the voxels, and how it is packed.

@@ -72,7 +72,7 @@ impl Axes {
 
     /// How many there are of a role, whose axis is at most one.
     fn count(&self, path: &Path, role: Role) -> Result<i64, VolumeError> {
-        let sizes: Vec<i64> = self.sizes.iter().copied().collect();
+        let sizes = &self.sizes;
         let several = |&axis: &usize| self.roles[axis] == role && sizes[axis] != 1;
         let axes: Vec<usize> = (0..sizes.len()).filter(several).collect();
         match axes[..] {

@@ -73,6 +73,16 @@ fn next(state: &mut u64) -> usize {
     (*state >> 16) as usize
 }
 
+/// Changes one to three bytes, where headers are.
+fn damage(bytes: &mut [u8], state: &mut u64) {
+    let places = bytes.len().min(600);
+    for _ in 0..1 + next(state) % 3 {
+        // Digits and blanks keep text headers readable more often than any byte would.
+        let any = [next(state) as u8, b"0123456789 -%\n"[next(state) % 14]];
+        bytes[next(state) % places] = any[next(state) % 2];
+    }
+}
+
 #[test]
 fn damaged_bytes_are_read_or_refused_but_never_a_panic() {
     let folder = tempfile::tempdir().unwrap();
@@ -86,14 +96,9 @@ fn damaged_bytes_are_read_or_refused_but_never_a_panic() {
     let (mut read, mut refused) = (0, 0);
     for name in names.into_iter().chain(others) {
         let bytes = std::fs::read(data(name)).unwrap();
-        for _ in 0..150 {
+        for _ in 0..60 {
             let mut damaged = bytes.clone();
-            for _ in 0..1 + next(&mut state) % 3 {
-                let at = next(&mut state) % damaged.len().min(600);
-                // Digits and blanks keep text headers readable more often than any byte would.
-                damaged[at] =
-                    [next(&mut state) as u8, b"0123456789 -%\n"[next(&mut state) % 14]][next(&mut state) % 2];
-            }
+            damage(&mut damaged, &mut state);
             let path = folder.path().join(name);
             std::fs::write(&path, damaged).unwrap();
             let volume = open(&path, &chosen(Some(0), Some(0)));
@@ -103,5 +108,5 @@ fn damaged_bytes_are_read_or_refused_but_never_a_panic() {
             }
         }
     }
-    assert!(read > 100 && refused > 100, "{read} read and {refused} refused");
+    assert!(read > 50 && refused > 50, "{read} read and {refused} refused");
 }

@@ -135,6 +135,7 @@ fn nifti_headers_that_lie() {
     assert!(with(70, &32i16.to_le_bytes()).contains("complex"));
     assert!(with(108, &f32::NAN.to_le_bytes()).contains("start at byte"));
     assert!(with(108, &1e8f32.to_le_bytes()).contains("too short"));
+    assert!(changed("pair.img", "lone.img", 0, &[]).contains("lone.hdr is not there"));
     assert!(with(123, &[7]).contains("unknown code 7"));
 }
 

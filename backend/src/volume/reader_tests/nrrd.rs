@@ -113,3 +113,41 @@ fn what_precedes_the_voxels_is_skipped() {
         assert_eq!(values(reader.as_mut()).unwrap(), [65.0, 66.0], "{lines}");
     }
 }
+
+/// The values of a volume with these lines and voxels, of bytes.
+fn values_of(lines: &str, voxels: &[u8], channel: u32) -> Vec<f64> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("v.nrrd");
+    let header = format!("NRRD0004\ntype: uint8\nencoding: raw\n{lines}\n\n");
+    std::fs::write(&path, [header.as_bytes(), voxels].concat()).unwrap();
+    values(open(&path, &chosen(Some(channel), None)).unwrap().as_mut()).unwrap()
+}
+
+#[test]
+fn channels_at_any_axis() {
+    let voxels: Vec<u8> = (0..24).collect();
+    let of = |kinds: &str, sizes: &str, channel| {
+        values_of(&format!("dimension: 4\nsizes: {sizes}\nkinds: {kinds}"), &voxels, channel)
+    };
+    let pick = |is_chosen: fn(u32) -> bool| -> Vec<f64> {
+        (0..24).filter(|&n| is_chosen(n)).map(f64::from).collect()
+    };
+    assert_eq!(of("list space space space", "2 3 2 2", 1), pick(|n| n % 2 == 1));
+    assert_eq!(of("space list space space", "3 2 2 2", 1), pick(|n| n / 3 % 2 == 1));
+    assert_eq!(of("space space list space", "3 2 2 2", 0), pick(|n| n / 6 % 2 == 0));
+    assert_eq!(of("space space space list", "3 2 2 2", 1), pick(|n| n / 12 % 2 == 1));
+}
+
+#[test]
+fn rows_longer_than_what_is_read_at_once() {
+    let (columns, channels) = (40_000, 3);
+    let voxels: Vec<u8> = (0..2 * columns * channels).map(|n| (n % 251) as u8).collect();
+    let lines = format!("dimension: 4\nsizes: {channels} {columns} 2 1\nkinds: list space space space");
+    let expected: Vec<f64> = voxels.iter().skip(2).step_by(channels).map(|&n| n.into()).collect();
+    assert_eq!(values_of(&lines, &voxels, 2), expected);
+    // So many channels that each number is read by itself.
+    let voxels: Vec<u8> = (0..4 * 70_000u32).map(|n| (n % 251) as u8).collect();
+    let lines = "dimension: 4\nsizes: 70000 2 2 1\nkinds: list space space space";
+    let expected: Vec<f64> = voxels.iter().skip(69_999).step_by(70_000).map(|&n| n.into()).collect();
+    assert_eq!(values_of(lines, &voxels, 69_999), expected);
+}
