@@ -36,6 +36,7 @@ impl Shape {
         let mut shape = Self { dims: UVec3::ONE, first: 0, strides: [0; 3], numbers: 1 };
         let mut volume_axes = 0;
         for &(size, axis) in axes {
+            let numbers = shape.numbers.checked_mul(size as u64).ok_or_else(|| too_many(axes))?;
             match axis {
                 Axis::At(place) => shape.first += u64::from(place) * shape.numbers,
                 Axis::Volume => {
@@ -45,7 +46,7 @@ impl Shape {
                     volume_axes += 1;
                 }
             }
-            shape.numbers = shape.numbers.checked_mul(size as u64).ok_or_else(|| too_many(axes))?;
+            shape.numbers = numbers;
         }
         match volume_axes {
             3 if shape.numbers <= MOST_NUMBERS => Ok(shape),
@@ -103,6 +104,8 @@ mod tests {
         assert!(Shape::of_volume([edge, edge, edge + 1]).is_err());
         assert!(Shape::of_volume([5, -1, 2]).is_err());
         assert!(Shape::new(&[(edge, Volume), (edge, Volume), (edge, Volume), (2, At(0))]).is_err());
+        let last = At(MAX_EDGE_VOXELS - 1);
+        assert!(Shape::new(&[(edge, Volume), (edge, Volume), (edge, Volume), (edge, last)]).is_err());
         assert!(Shape::new(&[(5, Volume), (5, Volume)]).is_err());
         assert!(Shape::new(&[(5, Volume); 4]).is_err());
     }
