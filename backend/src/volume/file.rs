@@ -1,17 +1,17 @@
 //! A volume in a file, whatever its format: where the voxels lie, how they are packed, what their numbers mean.
 
-use super::reader::{MAX_EDGE_VOXELS, VolumeInfo, VolumeReader};
+use super::data_files::DataFiles;
+use super::data_stream::{DataStream, Source, Start, StreamError};
+use super::reader::{VolumeInfo, VolumeReader};
+use super::shape::Shape;
 use super::{ByteOrder, Element, Samples, VolumeError, VolumeFrame};
-use flate2::read::{MultiGzDecoder, ZlibDecoder};
-use glam::UVec3;
-use std::fs::File;
-use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Deflate cannot pack more than 1032 bytes into one (its longest match is 258 bytes in two bits).
 const DEFLATE_LARGEST_RATIO: u64 = 1032;
-/// Bytes read from the file at once.
-const READ_BUFFER_BYTES: usize = 1 << 18;
+/// Bytes read at once where only some of them are the volume's.
+const PICK_BUFFER_BYTES: usize = 1 << 16;
 
 /// How the voxels are packed in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub(super) enum Packing {
     Plain,
     Gzip,
     Zlib,
+    /// Written as decimal numbers.
+    Text,
 }
 
 /// What a format's header says; [`FileVolume::new`] checks it against the file.
@@ -26,17 +28,15 @@ pub(super) enum Packing {
 pub(super) struct FileLayout {
     /// The file the user named.
     pub header_path: PathBuf,
-    /// The file with the voxels.
-    pub data_path: PathBuf,
-    pub dims: UVec3,
+    /// The files with the voxels, all as long.
+    pub files: DataFiles,
+    /// What precedes the voxels in each of them.
+    pub start: Start,
+    pub shape: Shape,
     pub frame: VolumeFrame,
     pub element: Element,
     pub byte_order: ByteOrder,
     pub packing: Packing,
-    /// Bytes of the file before the (packed) data.
-    pub file_offset: u64,
-    /// Bytes of the unpacked data before the first voxel.
-    pub data_offset: u64,
     /// Value = slope × stored + intercept.
     pub slope: f64,
     pub intercept: f64,
@@ -45,61 +45,85 @@ pub(super) struct FileLayout {
 /// An open volume file.
 pub(super) struct FileVolume {
     info: VolumeInfo,
-    layout: FileLayout,
-    stream: Box<dyn Read + Send>,
-    next_slab: u32,
+    shape: Shape,
+    /// None where the numbers come in the order of this machine.
+    byte_order: Option<ByteOrder>,
+    stream: DataStream,
+    /// Bytes of voxels in each file.
+    file_bytes: u64,
+    /// Numbers of which only some are the volume's.
+    picked: Vec<u8>,
 }
 
 impl FileVolume {
-    /// Checks the layout against the file's length before anything is allocated.
+    /// Checks the layout against the files' lengths before anything is allocated.
     pub fn new(layout: FileLayout) -> Result<Self, VolumeError> {
         check_numbers(&layout)?;
+        let source = source(&layout)?;
+        check_lengths(&source)?;
         let name =
             layout.header_path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
         let info = VolumeInfo {
             name,
-            dims: layout.dims,
+            dims: layout.shape.dims,
             frame: layout.frame,
             element: layout.element,
             slope: layout.slope,
             intercept: layout.intercept,
         };
-        check_length(&layout, &info)?;
-        let stream = stream(&layout, 0)?;
-        Ok(Self { info, layout, stream, next_slab: 0 })
+        Ok(Self {
+            info,
+            shape: layout.shape,
+            byte_order: (layout.packing != Packing::Text).then_some(layout.byte_order),
+            file_bytes: source.file_bytes,
+            stream: DataStream::new(source),
+            picked: Vec::new(),
+        })
     }
 
-    /// Brings the stream to the first byte of slab `z`.
-    fn go_to(&mut self, z: u32) -> Result<(), VolumeError> {
-        if z == self.next_slab {
-            return Ok(());
+    /// Fills `slab` with the bytes of slab `z` as they are in the file.
+    fn read_bytes(&mut self, z: u32, slab: &mut [u8]) -> Result<(), StreamError> {
+        let bytes = self.info.element.bytes();
+        let [x_stride, y_stride, z_stride] = self.shape.strides;
+        let start = (self.shape.first + u64::from(z) * z_stride) * bytes as u64;
+        if self.shape.has_dense_slabs() {
+            return self.stream.read_at(start, slab);
         }
-        if self.layout.packing == Packing::Plain || z < self.next_slab {
-            let skipped = if self.layout.packing == Packing::Plain { z } else { 0 };
-            self.stream = stream(&self.layout, u64::from(skipped) * self.slab_bytes())?;
-            self.next_slab = skipped;
-        }
-        let bytes = u64::from(z - self.next_slab) * self.slab_bytes();
-        let skipped = std::io::copy(&mut self.stream.by_ref().take(bytes), &mut std::io::sink());
-        match skipped {
-            Ok(skipped) if skipped == bytes => self.next_slab = z,
-            Ok(_) => return Err(self.read_error(ErrorKind::UnexpectedEof.into())),
-            Err(cause) => return Err(self.read_error(cause)),
+        let rows = slab.chunks_exact_mut(self.info.dims.x as usize * bytes);
+        for (y, row) in rows.enumerate() {
+            let start = start + y as u64 * y_stride * bytes as u64;
+            match x_stride {
+                1 => self.stream.read_at(start, row)?,
+                _ => self.read_row(start, row)?,
+            }
         }
         Ok(())
     }
 
-    fn slab_bytes(&self) -> u64 {
-        self.info.slab_voxels() as u64 * self.layout.element.bytes() as u64
+    /// Fills `row` with numbers that do not follow each other: reads many and picks, or reads each where they lie far
+    /// apart.
+    fn read_row(&mut self, start: u64, row: &mut [u8]) -> Result<(), StreamError> {
+        let bytes = self.info.element.bytes();
+        let stride = self.shape.strides[0] as usize * bytes;
+        let most = (PICK_BUFFER_BYTES / stride).max(1);
+        for (number, voxels) in row.chunks_mut(most * bytes).enumerate() {
+            let count = voxels.len() / bytes;
+            self.picked.resize((count - 1) * stride + bytes, 0);
+            self.stream.read_at(start + (number * most * stride) as u64, &mut self.picked)?;
+            for (voxel, found) in voxels.chunks_exact_mut(bytes).zip(self.picked.chunks(stride)) {
+                voxel.copy_from_slice(&found[..bytes]);
+            }
+        }
+        Ok(())
     }
 
-    fn read_error(&self, cause: std::io::Error) -> VolumeError {
-        let path = self.layout.data_path.clone();
+    fn read_error(&self, z: u32, error: StreamError) -> VolumeError {
+        let StreamError { path, cause } = error;
         match cause.kind() {
             ErrorKind::UnexpectedEof => VolumeError::Truncated {
                 path,
-                promised: self.info.bytes(),
-                found: format!("the data end in slab {} of {}", self.next_slab + 1, self.info.dims.z),
+                promised: self.file_bytes,
+                found: format!("the data end in slab {} of {}", z + 1, self.info.dims.z),
             },
             _ => VolumeError::Read { path, cause },
         }
@@ -113,37 +137,33 @@ impl VolumeReader for FileVolume {
 
     fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError> {
         assert!(z < self.info.dims.z && slab.len() == self.info.slab_voxels(), "slab {z} of {:?}", self.info);
-        self.go_to(z)?;
-        self.stream.read_exact(slab.bytes_mut()).map_err(|cause| self.read_error(cause))?;
-        self.next_slab += 1;
-        slab.reorder(self.layout.byte_order);
+        self.read_bytes(z, slab.bytes_mut()).map_err(|error| self.read_error(z, error))?;
+        if let Some(order) = self.byte_order {
+            slab.reorder(order);
+        }
         Ok(())
     }
 }
 
-/// The voxels' bytes from `start` (plain files only; packed ones start at 0).
-fn stream(layout: &FileLayout, start: u64) -> Result<Box<dyn Read + Send>, VolumeError> {
-    let path = &layout.data_path;
-    let mut file = File::open(path).map_err(VolumeError::open(path))?;
-    let plain_start = if layout.packing == Packing::Plain { layout.data_offset + start } else { 0 };
-    file.seek(SeekFrom::Start(layout.file_offset + plain_start)).map_err(VolumeError::read(path))?;
-    let file = BufReader::with_capacity(READ_BUFFER_BYTES, file);
-    let mut unpacked: Box<dyn Read + Send> = match layout.packing {
-        Packing::Plain => return Ok(Box::new(file)),
-        Packing::Gzip => Box::new(MultiGzDecoder::new(file)),
-        Packing::Zlib => Box::new(ZlibDecoder::new(file)),
-    };
-    let skip = &mut unpacked.by_ref().take(layout.data_offset);
-    std::io::copy(skip, &mut std::io::sink()).map_err(VolumeError::read(path))?;
-    Ok(unpacked)
+fn source(layout: &FileLayout) -> Result<Source, VolumeError> {
+    let bytes = layout.shape.numbers * layout.element.bytes() as u64;
+    let files = layout.files.len() as u64;
+    if files == 0 || !layout.shape.numbers.is_multiple_of(files) {
+        let what = format!("its {} voxels cannot lie in {files} files", layout.shape.numbers);
+        return Err(VolumeError::header(&layout.header_path, what));
+    }
+    Ok(Source {
+        files: layout.files.clone(),
+        start: layout.start,
+        packing: layout.packing,
+        element: layout.element,
+        file_bytes: bytes / files,
+    })
 }
 
 fn check_numbers(layout: &FileLayout) -> Result<(), VolumeError> {
     let wrong = |what| Err(VolumeError::header(&layout.header_path, what));
-    let (dims, size) = (layout.dims, layout.frame.voxel_size_m());
-    if dims.min_element() == 0 || dims.max_element() > MAX_EDGE_VOXELS {
-        return wrong(format!("the dimensions are {dims}, and each must be from 1 to {MAX_EDGE_VOXELS}"));
-    }
+    let size = layout.frame.voxel_size_m();
     if !size.is_finite() || size.min_element() <= 0.0 {
         return wrong(format!("the voxel size is {} mm, and each edge must be positive", size * 1e3));
     }
@@ -156,27 +176,40 @@ fn check_numbers(layout: &FileLayout) -> Result<(), VolumeError> {
     Ok(())
 }
 
-fn check_length(layout: &FileLayout, info: &VolumeInfo) -> Result<(), VolumeError> {
-    let length = file_length(&layout.data_path)?;
-    let found = length.saturating_sub(layout.file_offset);
-    let promised = info.bytes();
-    let (enough, found) = match layout.packing {
+/// Every file must be there, and long enough for its voxels.
+fn check_lengths(source: &Source) -> Result<(), VolumeError> {
+    for path in (0..source.files.len()).map(|index| source.files.path(index)) {
+        let length = file_length(&path)?;
+        let offset = source.offset(&path).map_err(VolumeError::read(&path))?;
+        check_length(source, &path, length.saturating_sub(offset))?;
+    }
+    Ok(())
+}
+
+/// Whether the `found` bytes of a file can be its voxels.
+fn check_length(source: &Source, path: &Path, found: u64) -> Result<(), VolumeError> {
+    let promised = source.file_bytes;
+    let (most, found) = match source.packing {
         Packing::Plain => {
-            let found = found.saturating_sub(layout.data_offset);
+            let found = found.saturating_sub(source.start.unpacked_bytes);
             if found > promised {
-                tracing::warn!(path = %layout.data_path.display(), found, promised, "more bytes than the header says");
+                tracing::warn!(path = %path.display(), found, promised, "more bytes than the header says");
             }
-            (found >= promised, format!("{found} are there"))
+            (found, format!("{found} are there"))
         }
-        Packing::Gzip | Packing::Zlib => (
-            found.saturating_mul(DEFLATE_LARGEST_RATIO) >= promised,
-            format!("{found} packed bytes cannot hold them"),
+        Packing::Gzip | Packing::Zlib => {
+            (found.saturating_mul(DEFLATE_LARGEST_RATIO), format!("{found} packed bytes cannot hold them"))
+        }
+        // A number has a digit at least, and a blank before the next.
+        Packing::Text => (
+            found.div_ceil(2).saturating_mul(source.element.bytes() as u64),
+            format!("{found} characters cannot hold them"),
         ),
     };
-    if enough {
+    if most >= promised {
         return Ok(());
     }
-    Err(VolumeError::Truncated { path: layout.data_path.clone(), promised, found })
+    Err(VolumeError::Truncated { path: path.into(), promised, found })
 }
 
 /// Length of a file in bytes.

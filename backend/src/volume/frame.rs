@@ -2,6 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
+/// Volume that three unit vectors span at least where they are taken to span a space.
+const FLATTEST: f64 = 1e-6;
+
 /// What the axes of a file's space are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
@@ -41,6 +44,15 @@ impl VolumeFrame {
         DMat3::from_cols(axes.x_axis.normalize(), axes.y_axis.normalize(), axes.z_axis.normalize())
     }
 
+    /// The same place and directions with voxels of other edges, metres; where the directions cannot be, the axes'.
+    pub fn with_voxel_size(&self, voxel_size_m: DVec3) -> Self {
+        let directions = self.directions();
+        if !directions.is_finite() || directions.determinant().abs() <= FLATTEST {
+            return Self::of_voxels(voxel_size_m);
+        }
+        Self { axes_m: directions * DMat3::from_diagonal(voxel_size_m), ..*self }
+    }
+
     /// Whether a volume can lie so: finite numbers, and axes that span a space.
     pub fn is_sound(&self) -> bool {
         let size = self.voxel_size_m();
@@ -48,7 +60,7 @@ impl VolumeFrame {
             && self.origin_m.is_finite()
             && size.is_finite()
             && size.min_element() > 0.0
-            && self.directions().determinant().abs() > 1e-6
+            && self.directions().determinant().abs() > FLATTEST
     }
 }
 
@@ -65,6 +77,20 @@ mod tests {
         assert_eq!(frame.voxel_size_m(), DVec3::new(2e-3, 1e-3, 3e-3));
         assert!((frame.directions().determinant() - 1.0).abs() < 1e-12);
         assert!(frame.is_sound());
+    }
+
+    #[test]
+    fn other_voxels_keep_the_directions() {
+        let frame = VolumeFrame {
+            axes_m: DMat3::from_cols(DVec3::Y * 2e-3, DVec3::X * 1e-3, DVec3::Z * -3e-3),
+            origin_m: DVec3::ONE,
+            space: Space::Patient,
+        };
+        let other = frame.with_voxel_size(DVec3::splat(5e-3));
+        assert_eq!(other.axes_m, DMat3::from_cols(DVec3::Y, DVec3::X, -DVec3::Z) * 5e-3);
+        assert_eq!((other.origin_m, other.space), (frame.origin_m, frame.space));
+        let unknown = VolumeFrame::of_voxels(DVec3::new(0.0, 1.0, f64::NAN));
+        assert_eq!(unknown.with_voxel_size(DVec3::ONE), VolumeFrame::of_voxels(DVec3::ONE));
     }
 
     #[test]

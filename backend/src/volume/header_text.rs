@@ -1,7 +1,6 @@
 //! A text header: lines at the start of a file, before binary voxels.
 
 use super::VolumeError;
-use glam::{DVec3, UVec3};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -13,6 +12,8 @@ const LONGEST_HEADER_BYTES: u64 = 1 << 20;
 pub(super) struct HeaderText {
     path: PathBuf,
     fields: Vec<(String, String)>,
+    /// What stands on the lines after [`Line::List`], one name a line.
+    pub listed: Vec<String>,
     /// Bytes of the header, its end mark included.
     pub length: u64,
 }
@@ -22,6 +23,8 @@ pub(super) enum Line {
     Field(String, String),
     /// A field after which the header ends.
     Last(String, String),
+    /// A field after which the rest of the file is a list of names.
+    List(String, String),
     Ignored,
     /// The header's end, not a field itself.
     End,
@@ -34,11 +37,18 @@ impl HeaderText {
         let file = File::open(path).map_err(VolumeError::open(path))?;
         let mut bytes = Vec::new();
         file.take(LONGEST_HEADER_BYTES).read_to_end(&mut bytes).map_err(VolumeError::read(path))?;
-        let mut header = Self { path: path.into(), fields: Vec::new(), length: 0 };
+        let mut header = Self { path: path.into(), fields: Vec::new(), listed: Vec::new(), length: 0 };
+        let mut is_list = false;
         for (number, raw) in bytes.split_inclusive(|&byte| byte == b'\n').enumerate() {
             header.length += raw.len() as u64;
             let text = String::from_utf8_lossy(raw);
-            if header.take(number, line(number, text.trim_end_matches(['\r', '\n'])), &text)? {
+            if is_list {
+                header.listed.extend(Some(text.trim().to_owned()).filter(|name| !name.is_empty()));
+                continue;
+            }
+            let line = line(number, text.trim_end_matches(['\r', '\n']));
+            is_list = matches!(line, Line::List(..));
+            if header.take(number, line, &text)? {
                 return Ok(header);
             }
         }
@@ -51,7 +61,9 @@ impl HeaderText {
     /// Keeps what a line says; true where the header ends with it.
     fn take(&mut self, number: usize, line: Line, text: &str) -> Result<bool, VolumeError> {
         match line {
-            Line::Field(key, value) => self.fields.push((key.to_ascii_lowercase(), value)),
+            Line::Field(key, value) | Line::List(key, value) => {
+                self.fields.push((key.to_ascii_lowercase(), value))
+            }
             Line::Last(key, value) => {
                 self.fields.push((key.to_ascii_lowercase(), value));
                 return Ok(true);
@@ -90,26 +102,32 @@ impl HeaderText {
             .map_err(|_| self.wrong(format!("`{key}` is {value:?}, which is not the number expected")))
     }
 
-    /// A value as three counts.
-    pub fn dims(&self, key: &str, value: &str) -> Result<UVec3, VolumeError> {
-        self.three(key, value).map(UVec3::from_array)
+    /// A value as numbers between blanks.
+    pub fn numbers<T: std::str::FromStr>(&self, key: &str, value: &str) -> Result<Vec<T>, VolumeError> {
+        value.split_whitespace().map(|part| self.number(key, part)).collect()
     }
 
-    /// A value as three lengths.
-    pub fn lengths(&self, key: &str, value: &str) -> Result<DVec3, VolumeError> {
-        self.three(key, value).map(DVec3::from_array)
+    /// A value as `count` numbers between blanks.
+    pub fn exactly<T: std::str::FromStr>(
+        &self,
+        key: &str,
+        value: &str,
+        count: usize,
+    ) -> Result<Vec<T>, VolumeError> {
+        let numbers = self.numbers(key, value)?;
+        match numbers.len() == count {
+            true => Ok(numbers),
+            false => Err(self.wrong(format!("`{key}` is {value:?}, and {count} numbers are expected"))),
+        }
     }
 
-    fn three<T: std::str::FromStr>(&self, key: &str, value: &str) -> Result<[T; 3], VolumeError> {
-        let numbers =
-            value.split_whitespace().map(|part| self.number(key, part)).collect::<Result<Vec<T>, _>>()?;
-        numbers
-            .try_into()
-            .map_err(|_| self.wrong(format!("`{key}` is {value:?}, and three numbers are expected")))
+    /// The folder of the header, which names of other files start from.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
     }
 
     /// A file named in the header, relative to the header's folder.
     pub fn beside(&self, name: &str) -> PathBuf {
-        self.path.parent().unwrap_or(Path::new("")).join(name)
+        self.folder().join(name)
     }
 }

@@ -1,5 +1,8 @@
 //! Volumes as users have them: file readers and procedural fields.
 
+mod choice;
+mod data_files;
+mod data_stream;
 mod element;
 mod error;
 mod file;
@@ -15,6 +18,8 @@ mod reader;
 #[cfg(test)]
 mod reader_tests;
 mod samples;
+mod shape;
+mod text_numbers;
 
 pub use element::{ByteOrder, Element};
 pub use error::VolumeError;

@@ -1,7 +1,7 @@
 //! Opening a volume file: which format is it?
 
 use super::file::{FileLayout, FileVolume};
-use super::{Selection, VolumeError, VolumeFrame, VolumeReader, metaimage, nifti, nrrd, raw};
+use super::{Selection, VolumeError, VolumeReader, metaimage, nifti, nrrd, raw};
 use flate2::read::MultiGzDecoder;
 use std::fs::File;
 use std::io::Read;
@@ -26,21 +26,21 @@ enum Format {
 pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>, VolumeError> {
     let mut layout = match &selection.raw {
         Some(raw) => raw::layout(path, raw)?,
-        None => layout(path)?,
+        None => layout(path, selection)?,
     };
     if let Some(spacing_mm) = selection.spacing_mm {
-        layout.frame = VolumeFrame::of_voxels(spacing_mm * 1e-3);
+        layout.frame = layout.frame.with_voxel_size(spacing_mm * 1e-3);
     }
     Ok(Box::new(FileVolume::new(layout)?))
 }
 
-fn layout(path: &Path) -> Result<FileLayout, VolumeError> {
+fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, VolumeError> {
     let start = first_bytes(path)?;
     let format = by_extension(path).or_else(|| by_magic(&start));
     match format.ok_or_else(|| VolumeError::UnknownFormat { path: path.into() })? {
-        Format::Nrrd => nrrd::layout(path),
-        Format::Nifti => nifti::layout(path),
-        Format::MetaImage => metaimage::layout(path),
+        Format::Nrrd => nrrd::layout(path, selection),
+        Format::Nifti => nifti::layout(path, selection),
+        Format::MetaImage => metaimage::layout(path, selection),
     }
 }
 
@@ -49,7 +49,7 @@ fn by_extension(path: &Path) -> Option<Format> {
     let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
     if ends(&[".nrrd", ".nhdr"]) {
         Some(Format::Nrrd)
-    } else if ends(&[".nii", ".nii.gz"]) {
+    } else if ends(&[".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz"]) {
         Some(Format::Nifti)
     } else if ends(&[".mhd", ".mha"]) {
         Some(Format::MetaImage)

@@ -1,6 +1,9 @@
 //! Raw voxels without a header: the user says what they are.
 
+use super::data_files::DataFiles;
+use super::data_stream::Start;
 use super::file::{FileLayout, Packing, file_length};
+use super::shape::Shape;
 use super::{ByteOrder, Element, VolumeError, VolumeFrame};
 use glam::{DVec3, UVec3};
 use std::path::Path;
@@ -34,16 +37,17 @@ pub(super) fn layout(path: &Path, raw: &RawLayout) -> Result<FileLayout, VolumeE
             promised: u64::try_from(promised).unwrap_or(u64::MAX),
         });
     }
+    let shape = Shape::of_volume(raw.dims.to_array().map(i64::from))
+        .map_err(|what| VolumeError::header(path, what))?;
     Ok(FileLayout {
         header_path: path.into(),
-        data_path: path.into(),
-        dims: raw.dims,
+        files: DataFiles::One(path.into()),
+        start: Start { header_bytes: raw.header_skip_bytes, ..Start::default() },
+        shape,
         frame: VolumeFrame::of_voxels(raw.spacing_mm * 1e-3),
         element: raw.element,
         byte_order: raw.byte_order,
         packing: Packing::Plain,
-        file_offset: raw.header_skip_bytes,
-        data_offset: 0,
         slope: 1.0,
         intercept: 0.0,
     })
