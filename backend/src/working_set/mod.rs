@@ -10,8 +10,8 @@ mod touched;
 
 pub use cells::CellRanges;
 pub use cut::{Cut, CutNode, ResidentBrick};
-pub use index::{IndexRules, build_index};
-pub use loader::{LoadedBrick, Loader};
+pub use index::{IndexRules, build_index, is_shown};
+pub use loader::{Fetched, LoadedBrick, Loader};
 pub use lod::LodRule;
 pub use slots::SlotPool;
 pub use touched::{Touched, Wanted};
