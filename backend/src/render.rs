@@ -4,8 +4,12 @@ mod damage;
 #[cfg(test)]
 mod damage_tests;
 mod frame;
+#[cfg(test)]
+mod mirror_tests;
 mod residency;
 mod rules;
+#[cfg(test)]
+mod test_scene;
 mod views;
 
 use crate::device::{ChosenDevice, Device, DeviceError, open_device};
