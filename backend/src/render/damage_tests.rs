@@ -5,11 +5,12 @@ use super::test_scene::{Pictures, display, draw, frame, renderer};
 use super::views::views;
 use super::*;
 use crate::device::{CastJob, CpuDevice, TileGrid};
+use crate::reference::{Integrator, Reference};
 use crate::store::{Brick, Codes, NodeKey, NodeSummary, OctreeShape};
 use crate::volume::VolumeFrame;
 use crate::volume::procedural::ProceduralVolume;
 use crate::working_set::{CellRanges, Cut, IndexRules, LodRule, ResidentBrick, build_index, is_shown};
-use glam::UVec3;
+use glam::{DVec3, UVec3};
 use shaders::compose::{Compositing, Shading};
 use shaders::tables::Tables;
 use std::sync::Mutex;
@@ -118,6 +119,21 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     views.iter().map(picture).collect()
 }
 
+/// The largest error of a picture of projector 0 against a reference, every fourth pixel along x and y.
+fn largest_error(picture: &[f32], frame: &FrameState, reference: &Reference) -> f64 {
+    let display = display();
+    let law = display.beam_law(0, frame.observer_in_display, frame.eta).unwrap();
+    let pixels = (0..36u32).step_by(4).flat_map(|y| (0..48u32).step_by(4).map(move |x| (x, y)));
+    let error = |(x, y)| {
+        let ray = law.ray(display.pixel_on_screen(0, x, y));
+        let truth = reference.radiance(ray.origin_in_display, ray.direction_in_display).unwrap();
+        let at = 4 * (y * 48 + x) as usize;
+        let found = DVec3::from_array([0, 1, 2].map(|c| f64::from(picture[at + c])));
+        (found - truth.rgb).abs().max_element()
+    };
+    pixels.map(error).fold(0.0, f64::max)
+}
+
 /// Bricks that the cut of a renderer holds: each has a slot, and no slot is held by nothing.
 #[track_caller]
 fn assert_no_slot_is_lost(renderer: &Renderer) {
@@ -176,6 +192,20 @@ fn the_order_of_arrival_and_other_frames_before_change_nothing() {
         assert_eq!(draw(&mut renderer, &frame(0.9)).unwrap().0, limited_pictures(&frame(0.9), &broken));
         assert_no_slot_is_lost(&renderer);
     }
+}
+
+/// The limit is what a cloud of default quality keeps, linear colour; the whole volume is another picture.
+#[test]
+fn the_reference_goes_around_damage_too() {
+    let (frame, source) = (frame(0.05), Spoiled::shared(&[key(2, 1, 2, 1), key(1, 1, 0, 1)], 0));
+    let lod = LodRule::new(&display(), &frame);
+    let (pictures, _) = draw(&mut renderer(source.clone()), &frame).unwrap();
+    let around = Reference::around_damage(source, &frame, &lod, Integrator::default()).unwrap();
+    let error = largest_error(&pictures[0], &frame, &around);
+    assert!(error < 2.0 / 255.0, "{error}");
+    let whole = Reference::new(Spoiled::shared(&[], 0), &frame, &lod, Integrator::default()).unwrap();
+    let canary = largest_error(&pictures[0], &frame, &whole);
+    assert!(canary > 8.0 / 255.0, "{canary}");
 }
 
 #[test]
