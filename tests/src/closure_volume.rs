@@ -52,6 +52,6 @@ impl<V: Fn(DVec3) -> f64 + Send + Sync> BrickSource for ClosureVolume<V> {
                 ((value.clamp(low, high) - low) / (high - low) * 65535.0).round() as u16
             })
             .collect();
-        Ok(Brick { codes: Codes::U16(codes), low: low as f32, step: ((high - low) / 65535.0) as f32 })
+        Ok(Brick::new(Codes::U16(codes), low as f32, ((high - low) / 65535.0) as f32))
     }
 }

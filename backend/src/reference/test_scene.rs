@@ -74,7 +74,7 @@ impl BrickSource for FormulaSource {
         let step = (high - low) / 65535.0;
         let code =
             |v: f64| if step > 0.0 { ((v - f64::from(low)) / f64::from(step)).round() as u16 } else { 0 };
-        Ok(Brick { codes: Codes::U16(samples.into_iter().map(code).collect()), low, step })
+        Ok(Brick::new(Codes::U16(samples.into_iter().map(code).collect()), low, step))
     }
 }
 

@@ -6,10 +6,10 @@ use super::views::views;
 use super::*;
 use crate::device::{CastJob, CpuDevice, TileGrid};
 use crate::reference::{Integrator, Reference};
-use crate::store::{Brick, Codes, NodeKey, NodeSummary, OctreeShape};
+use crate::store::{Brick, CellRanges, Codes, NodeKey, NodeSummary, OctreeShape};
 use crate::volume::VolumeFrame;
 use crate::volume::procedural::ProceduralVolume;
-use crate::working_set::{CellRanges, Cut, IndexRules, LodRule, ResidentBrick, build_index, is_shown};
+use crate::working_set::{Cut, IndexRules, LodRule, ResidentBrick, build_index, is_shown};
 use glam::{DVec3, UVec3};
 use shaders::compose::{Compositing, Shading};
 use shaders::tables::Tables;
@@ -102,7 +102,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         device.write_brick(slot, &samples);
         let brick = ResidentBrick { slot, low: f64::from(brick.low), span: f64::from(brick.step) * 65535.0 };
         cut.set_brick(place, brick);
-        cells.extend(frame_rules.visible_cells(&CellRanges::of(&samples), brick));
+        cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick));
     }
     device.write_tables(tables.clone());
     device.write_index(&build_index(&cut, &rules), &cells);

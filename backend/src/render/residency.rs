@@ -5,9 +5,9 @@ use super::damage::Damage;
 use super::rules::FrameRules;
 use crate::device::Device;
 use crate::protocol::{FrameState, Stages};
-use crate::store::{BrickError, BrickSource, NodeKey, OctreeShape};
+use crate::store::{BrickError, BrickSource, CellRanges, NodeKey, OctreeShape};
 use crate::working_set::{
-    CellRanges, Cut, IndexRules, LoadedBrick, Loader, ResidentBrick, SlotPool, Wanted, build_index, is_shown,
+    Cut, IndexRules, LoadedBrick, Loader, ResidentBrick, SlotPool, Wanted, build_index, is_shown,
 };
 use shaders::layout::CELL_WORDS;
 use std::collections::{HashMap, HashSet};

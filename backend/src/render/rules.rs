@@ -1,6 +1,7 @@
 //! What one frame asks of the cut and its bricks.
 
-use crate::working_set::{CellRanges, LodRule, ResidentBrick};
+use crate::store::CellRanges;
+use crate::working_set::{LodRule, ResidentBrick};
 use shaders::layout::CELL_WORDS;
 use shaders::optics::Optics;
 use shaders::tables::Tables;

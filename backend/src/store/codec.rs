@@ -1,6 +1,7 @@
-//! How a brick's codes become bytes in the store.
+//! How blocks of codes become bytes in the store.
 
-use super::{BRICK_VOXELS, CodeBits, Codes};
+/// Zstandard's own default: a good compromise.
+const ZSTD_LEVEL: i32 = 3;
 
 /// Compression of the bricks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,52 +15,54 @@ pub enum Codec {
 }
 
 impl Codec {
-    /// Bytes of the codes, little-endian, perhaps compressed. Never longer than [`CodeBits::brick_bytes`]; a
-    /// brick of exactly that length is not compressed.
-    pub(super) fn pack(self, codes: &Codes) -> Vec<u8> {
-        let plain = match codes {
-            Codes::U8(codes) => codes.clone(),
-            Codes::U16(codes) => codes.iter().flat_map(|code| code.to_le_bytes()).collect(),
-        };
+    /// Its number in files.
+    pub(super) fn number(self) -> u8 {
         match self {
-            Codec::Zstd => todo!(),
-            Codec::None => plain,
-            Codec::Lz4 => {
-                let packed = lz4_flex::block::compress(&plain);
-                if packed.len() < plain.len() { packed } else { plain }
-            }
+            Codec::None => 0,
+            Codec::Lz4 => 1,
+            Codec::Zstd => 2,
         }
     }
 
-    /// The inverse of [`Codec::pack`].
+    /// The codec of a number in files.
+    pub(super) fn of_number(number: u8) -> Option<Self> {
+        [Codec::None, Codec::Lz4, Codec::Zstd].into_iter().find(|codec| codec.number() == number)
+    }
+
+    /// Appends a block, perhaps compressed, and returns how long it became: never longer than `plain`; exactly as long
+    /// where it is not compressed.
+    pub(super) fn pack_into(self, plain: &[u8], out: &mut Vec<u8>) -> usize {
+        let packed = match self {
+            Codec::None => None,
+            Codec::Lz4 => Some(lz4_flex::block::compress(plain)),
+            // It fails only where memory does; the block is then kept as it is.
+            Codec::Zstd => zstd::bulk::compress(plain, ZSTD_LEVEL).ok(),
+        };
+        let block = packed.as_deref().filter(|packed| packed.len() < plain.len()).unwrap_or(plain);
+        out.extend_from_slice(block);
+        block.len()
+    }
+
+    /// The inverse of [`Codec::pack_into`] for a block that was `plain` bytes long.
     ///
     /// # Errors
     /// What is wrong with the bytes.
-    pub(super) fn unpack(self, bytes: &[u8], bits: CodeBits) -> Result<Codes, String> {
-        if bytes.len() == bits.brick_bytes() {
-            return Ok(codes(bytes, bits));
+    pub(super) fn unpack(self, bytes: &[u8], plain: usize) -> Result<Vec<u8>, String> {
+        if bytes.len() == plain {
+            return Ok(bytes.to_vec());
         }
-        match self {
-            Codec::Zstd => todo!(),
-            Codec::None => Err(format!("it has {} bytes instead of {}", bytes.len(), bits.brick_bytes())),
-            Codec::Lz4 => {
-                let mut plain = vec![0; bits.brick_bytes()];
-                let length =
-                    lz4_flex::block::decompress_into(bytes, &mut plain).map_err(|cause| cause.to_string())?;
-                if length != plain.len() {
-                    return Err(format!("it unpacks to {length} bytes instead of {}", plain.len()));
-                }
-                Ok(codes(&plain, bits))
-            }
-        }
-    }
-}
-
-fn codes(plain: &[u8], bits: CodeBits) -> Codes {
-    match bits {
-        CodeBits::Eight => Codes::U8(plain[..BRICK_VOXELS].to_vec()),
-        CodeBits::Sixteen => {
-            Codes::U16(plain.as_chunks().0.iter().map(|&code| u16::from_le_bytes(code)).collect())
+        let mut unpacked = vec![0; plain];
+        let length =
+            match self {
+                Codec::None => return Err(format!("a block has {} bytes instead of {plain}", bytes.len())),
+                Codec::Lz4 => lz4_flex::block::decompress_into(bytes, &mut unpacked)
+                    .map_err(|cause| cause.to_string())?,
+                Codec::Zstd => zstd::bulk::decompress_to_buffer(bytes, &mut unpacked)
+                    .map_err(|cause| cause.to_string())?,
+            };
+        match length == plain {
+            true => Ok(unpacked),
+            false => Err(format!("a block unpacks to {length} bytes instead of {plain}")),
         }
     }
 }
@@ -68,25 +71,39 @@ fn codes(plain: &[u8], bits: CodeBits) -> Codes {
 mod tests {
     use super::*;
 
+    fn noise() -> Vec<u8> {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 56) as u8
+        };
+        (0..32768).map(|_| next()).collect()
+    }
+
     #[test]
     fn what_is_packed_unpacks_again() {
-        let smooth = Codes::U16((0..BRICK_VOXELS).map(|i| (i / 64) as u16).collect());
-        let noise = Codes::U8(
-            (0..BRICK_VOXELS as u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect(),
-        );
-        for codec in [Codec::None, Codec::Lz4] {
-            assert_eq!(codec.unpack(&codec.pack(&smooth), CodeBits::Sixteen), Ok(smooth.clone()));
-            assert_eq!(codec.unpack(&codec.pack(&noise), CodeBits::Eight), Ok(noise.clone()));
+        let smooth: Vec<u8> = (0..65536).map(|i| (i / 640) as u8).collect();
+        for codec in [Codec::None, Codec::Lz4, Codec::Zstd] {
+            for plain in [&smooth, &noise()] {
+                let mut packed = vec![1, 2];
+                let length = codec.pack_into(plain, &mut packed);
+                assert_eq!((packed.len(), length <= plain.len()), (length + 2, true));
+                assert_eq!(codec.unpack(&packed[2..], plain.len()).as_ref(), Ok(plain), "{codec:?}");
+            }
+            assert_eq!(Codec::of_number(codec.number()), Some(codec));
         }
-        assert!(Codec::Lz4.pack(&smooth).len() < CodeBits::Sixteen.brick_bytes());
+        assert_eq!(Codec::Lz4.pack_into(&noise(), &mut Vec::new()), 32768, "noise does not grow");
     }
 
     #[test]
     fn damaged_bytes_are_an_error() {
-        let bytes = Codec::Lz4.pack(&Codes::U8((0..BRICK_VOXELS).map(|i| (i / 99) as u8).collect()));
-        assert!(Codec::Lz4.unpack(&bytes[..bytes.len() / 2], CodeBits::Eight).is_err());
-        assert!(Codec::Lz4.unpack(&bytes, CodeBits::Sixteen).is_err());
-        assert!(Codec::Lz4.unpack(&[], CodeBits::Eight).is_err());
-        assert!(Codec::None.unpack(&[1, 2, 3], CodeBits::Eight).is_err());
+        for codec in [Codec::Lz4, Codec::Zstd] {
+            let mut packed = Vec::new();
+            codec.pack_into(&[7; 32768], &mut packed);
+            assert!(codec.unpack(&packed[..packed.len() / 2], 32768).is_err());
+            assert!(codec.unpack(&packed, 65536).is_err());
+            assert!(codec.unpack(&[], 32768).is_err());
+        }
+        assert!(Codec::None.unpack(&[0; 5], 32768).is_err());
     }
 }

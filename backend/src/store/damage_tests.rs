@@ -1,6 +1,7 @@
 //! Damaged and hostile stores: each is an error in words, none a panic.
 
 use super::build_tests::{Grid, build_in, options};
+use super::table::Table;
 use super::*;
 use crate::volume::Element;
 use glam::UVec3;
@@ -36,7 +37,7 @@ fn a_store_of_another_version_says_so() {
     bytes[8] = 7;
     let said = complaint(folder.path(), &bytes).unwrap();
     assert!(
-        said.contains("version 7") && said.contains("reads version 1") && said.contains("import"),
+        said.contains("version 7") && said.contains("reads versions 1 to 2") && said.contains("import"),
         "{said}"
     );
     assert!(complaint(folder.path(), b"").unwrap().contains("not a lightloom store"));
@@ -52,24 +53,58 @@ fn a_store_cut_short_is_an_error() {
     }
 }
 
+/// Reads all that there is to read of a store with these bytes, and tells how much of it is damaged.
+fn read_all(bytes: Vec<u8>) -> u64 {
+    let Ok(store) = Store::from_bytes(Path::new("damaged.lloom"), bytes) else { return 1 };
+    let shape = store.shape();
+    for node in (0..=shape.finest_depth()).flat_map(|depth| shape.nodes(depth)) {
+        let NodeSummary { min, max } = store.summary(node);
+        assert!(min <= max && min.is_finite() && max.is_finite());
+        let _ = (store.brick(node), store.cells(node));
+    }
+    store.verify(&|_, _| {}).damage_count
+}
+
 #[test]
-fn hostile_bytes_never_panic() {
+fn every_changed_byte_is_found() {
     let folder = tempfile::tempdir().unwrap();
-    for codec in [Codec::None, Codec::Lz4] {
+    for codec in [Codec::None, Codec::Lz4, Codec::Zstd] {
         let bytes = store_bytes(folder.path(), codec);
-        // Header, name and table, each byte in turn, and then some of the bricks.
-        for at in (0..160 + 32 * 5).chain((320..bytes.len()).step_by(bytes.len() / 50)) {
-            for value in [0x00, 0x7f, 0x80, 0xff] {
-                let mut hostile = bytes.clone();
-                hostile[at] = value;
-                complaint(folder.path(), &hostile);
+        assert_eq!(read_all(bytes.clone()), 0);
+        // Header and table, each byte in turn, and then some of the bricks.
+        let table = bytes.len() - 64 * 5;
+        for at in (0..320).chain((320..table).step_by(bytes.len() / 150)).chain(table..bytes.len()) {
+            for flip in [0x01, 0x80, 0xff] {
+                let mut changed = bytes.clone();
+                changed[at] ^= flip;
+                assert!(read_all(changed) > 0, "byte {at} of {} with {codec:?}", bytes.len());
             }
         }
-        let entry_offset = 160 + 16;
-        let mut hostile = bytes.clone();
-        hostile[entry_offset..entry_offset + 8].copy_from_slice(&(u64::MAX - 3).to_le_bytes());
-        assert!(complaint(folder.path(), &hostile).unwrap().contains("outside the file"));
     }
+}
+
+#[test]
+fn damage_of_a_brick_is_that_bricks_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bytes = store_bytes(folder.path(), Codec::Lz4);
+    let store = Store::from_bytes(Path::new("whole.lloom"), bytes.clone()).unwrap();
+    let Table::Tree { start, .. } = store.table else { panic!("a new store has a tree") };
+    let node = NodeKey { depth: 1, cell: UVec3::new(1, 0, 0) };
+    // The first brick in the file, in its voxels.
+    bytes[store.rules.bricks.0 as usize + 200] ^= 0x10;
+    let damaged = Store::from_bytes(Path::new("damaged.lloom"), bytes.clone()).unwrap();
+    let shape = store.shape();
+    let all = || (0..=1).flat_map(|depth| shape.nodes(depth));
+    let broken: Vec<_> = all().filter(|&node| damaged.brick(node).is_err()).collect();
+    assert_eq!(broken.len(), 1);
+    let said = damaged.brick(broken[0]).unwrap_err().to_string();
+    assert!(said.contains(&format!("brick {} of damaged.lloom is damaged", broken[0])), "{said}");
+    assert!(all().all(|node| damaged.summary(node) == store.summary(node)));
+    // An entry of the table: its bounds become those of the root.
+    bytes[start as usize + 2 * 64 + 5] ^= 1;
+    let damaged = Store::from_bytes(Path::new("damaged.lloom"), bytes).unwrap();
+    assert!(damaged.brick(node).unwrap_err().to_string().contains("entry 2 of the table"));
+    assert_eq!(damaged.summary(node), store.summary(NodeKey::ROOT));
 }
 
 /// A file written once by the first program that wrote version 1: whoever changes the format changes the version.

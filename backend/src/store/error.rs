@@ -32,8 +32,14 @@ pub enum StoreError {
         /// The file.
         path: PathBuf,
     },
+    /// The build was told to stop.
+    #[error("stopped: nothing was written to {}; the same command starts again from the beginning", path.display())]
+    Interrupted {
+        /// The store that was to be.
+        path: PathBuf,
+    },
     /// A store of another version of the format.
-    #[error("{} is a store of format version {found}, and this program reads version {VERSION}: import the volume again", path.display())]
+    #[error("{} is a store of format version {found}, and this program reads versions 1 to {VERSION}: import the volume again", path.display())]
     Version {
         /// The store.
         path: PathBuf,

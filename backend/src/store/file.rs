@@ -1,22 +1,26 @@
-//! A store in a file, mapped into memory: any brick reads alone.
+//! A store in a file: any brick reads alone, and many processes read at once.
 
-use super::format::{ENTRY_BYTES, Entry, Header, HeaderError};
-use super::node_table::NodeTable;
-use super::{BRICK_VOXELS, Brick, BrickError, BrickSource, CodeBits, Codec, Codes};
-use super::{LevelError, NodeKey, NodeSummary, OctreeShape, StoreError};
+use super::bytes::checksum;
+use super::format::{Checksums, Entry, Extent, Header, HeaderError, LONGEST_HEADER, version};
+use super::read_at::ReadAt;
+use super::table::{EntryRules, Found, Table};
+use super::{BRICK_VOXELS, Brick, BrickError, BrickSource, CellRanges, CodeBits, Codec, Codes, Deviation};
+use super::{LevelError, NodeKey, NodeSummary, OctreeShape, StoreError, format, format_v1};
 use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame};
-use memmap2::Mmap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// An open store. What its header and table say is checked against the file's length when it is opened; the file must
-/// not be cut short while it is open, as with any mapped file.
+/// An open store. Opening reads the header alone, whatever the size; tables and bricks are checked as they are read,
+/// and damage of one is an error of that one.
 pub struct Store {
     path: PathBuf,
-    header: Header,
+    version: u32,
+    file_bytes: u64,
     shape: OctreeShape,
-    table: NodeTable,
-    map: Mmap,
+    pub(super) header: Header,
+    pub(super) table: Table,
+    pub(super) rules: EntryRules,
+    pub(super) file: Box<dyn ReadAt>,
 }
 
 impl std::fmt::Debug for Store {
@@ -29,29 +33,55 @@ impl std::fmt::Debug for Store {
 }
 
 impl Store {
-    /// Opens a store and checks all of it but the bricks' contents.
+    /// Opens a store.
     ///
     /// # Errors
-    /// A missing file, a file that is no store or of another version, numbers that do not fit the file.
+    /// A missing file, a file that is no store or of another version, a damaged header.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let file = File::open(path).map_err(StoreError::open(path))?;
         let length = file.metadata().map_err(StoreError::open(path))?.len();
-        if length == 0 {
-            return Err(StoreError::NotAStore { path: path.into() });
-        }
-        // SAFETY: stores are written under another name and renamed, never changed in place.
-        let map = unsafe { Mmap::map(&file) }.map_err(StoreError::open(path))?;
-        let header = Header::from_bytes(&map).map_err(|error| match error {
+        Self::of(path, Box::new(file), length)
+    }
+
+    /// The store that these bytes are; `path` is what errors call it.
+    ///
+    /// # Errors
+    /// Those of [`Store::open`].
+    pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, StoreError> {
+        let length = bytes.len() as u64;
+        Self::of(path, Box::new(bytes), length)
+    }
+
+    fn of(path: &Path, file: Box<dyn ReadAt>, file_bytes: u64) -> Result<Self, StoreError> {
+        let mut start = vec![0; file_bytes.min(LONGEST_HEADER as u64) as usize];
+        file.read_at(0, &mut start).map_err(StoreError::open(path))?;
+        let damaged = |what: String| StoreError::damaged(path, what);
+        let (version, header) = read_header(&start).map_err(|error| match error {
             HeaderError::NotAStore => StoreError::NotAStore { path: path.into() },
             HeaderError::Version(found) => StoreError::Version { path: path.into(), found },
-            HeaderError::Damaged(what) => StoreError::damaged(path, what),
+            HeaderError::Damaged(what) => damaged(what),
         })?;
-        check_header(&header).map_err(|what| StoreError::damaged(path, what))?;
+        check_header(&header).map_err(damaged)?;
         let shape = OctreeShape::new(header.dims);
-        let table = check_table(&header, shape, length).map_err(|what| StoreError::damaged(path, what))?;
-        let store = Self { path: path.into(), header, shape, table, map };
-        store.check_entries()?;
-        Ok(store)
+        let table = match version {
+            format_v1::VERSION => Table::dense(&header, shape, file_bytes),
+            _ => Table::tree(&header, file_bytes),
+        };
+        let table = table.map_err(damaged)?;
+        let bricks = match table {
+            Table::Dense { .. } => {
+                (header.table_offset + table.count() * format_v1::ENTRY_BYTES as u64, file_bytes)
+            }
+            Table::Tree { .. } => (header.length(), header.table_offset),
+        };
+        let rules = EntryRules {
+            bricks,
+            codes: header.bits.brick_bytes() as u64,
+            cells: CellRanges::byte_count(header.bits) as u64,
+            deviation: if header.has_deviation { BRICK_VOXELS as u64 } else { 0 },
+            codec: header.codec,
+        };
+        Ok(Self { path: path.into(), version, file_bytes, shape, header, table, rules, file })
     }
 
     /// The name of the volume it was built from.
@@ -61,27 +91,33 @@ impl Store {
 
     /// Version of the file's format.
     pub fn version(&self) -> u32 {
-        super::format::VERSION
+        self.version
     }
 
     /// Bytes of the file.
     pub fn file_bytes(&self) -> u64 {
-        self.map.len() as u64
+        self.file_bytes
     }
 
-    /// Bricks that take bytes.
+    /// Nodes that the table lists; it leaves out what is one value throughout.
+    pub fn listed_nodes(&self) -> u64 {
+        self.table.count()
+    }
+
+    /// Bricks that take bytes. Reads the whole table; damaged entries do not count.
     pub fn stored_bricks(&self) -> u64 {
-        todo!()
+        let entries = (0..self.table.count()).filter_map(|place| self.entry(place));
+        entries.filter(|entry| entry.extent.bytes() > 0).count() as u64
     }
 
     /// Errors of the levels against the source, the finest first; empty where an older program built the store.
     pub fn level_errors(&self) -> &[LevelError] {
-        &[]
+        &self.header.levels
     }
 
     /// Whether coarse levels keep standard deviations.
     pub fn has_deviation(&self) -> bool {
-        false
+        self.header.has_deviation
     }
 
     /// Bits per code.
@@ -95,40 +131,104 @@ impl Store {
     }
 
     /// Bytes that a node's brick takes in the file: what reading it costs; 0 where all samples are equal.
-    pub fn stored_bytes(&self, node: NodeKey) -> u32 {
-        self.entry(self.table.place(node)).length
-    }
-
-    fn entry(&self, place: u64) -> Entry {
-        let at = self.header.table_offset() as usize + place as usize * ENTRY_BYTES;
-        let bytes = self.map[at..].first_chunk().expect("the table's length was checked against the file's");
-        Entry::from_bytes(bytes)
-    }
-
-    /// Checks every entry, so that no later read can leave the file.
-    fn check_entries(&self) -> Result<(), StoreError> {
-        let bricks = self.header.table_offset() + self.table.nodes() * ENTRY_BYTES as u64;
-        let file = self.map.len() as u64;
-        for place in 0..self.table.nodes() {
-            let entry = self.entry(place);
-            let wrong = |what: &str| Err(StoreError::damaged(&self.path, format!("{what} of brick {place}")));
-            let numbers = [entry.min, entry.max, entry.low, entry.step];
-            if numbers.iter().any(|number| !number.is_finite()) || entry.min > entry.max || entry.step < 0.0 {
-                return wrong("bounds, low or step are no numbers that make sense,");
-            }
-            let length = u64::from(entry.length);
-            if length == 0 {
-                continue;
-            }
-            if entry.offset < bricks || entry.offset.checked_add(length).is_none_or(|end| end > file) {
-                return wrong("the offset and length lie outside the file,");
-            }
-            let full = self.header.bits.brick_bytes() as u64;
-            if length > full || (self.header.codec == Codec::None && length != full) {
-                return wrong("the length does not fit the codec,");
-            }
+    pub fn stored_bytes(&self, node: NodeKey) -> u64 {
+        match self.find(node) {
+            Found::Entry(entry) => entry.extent.bytes(),
+            Found::Within(_) | Found::Damaged { .. } => 0,
         }
-        Ok(())
+    }
+
+    /// The range of a node's codes around each cell, without its voxels; None in stores of older programs.
+    ///
+    /// # Errors
+    /// A damaged entry or block.
+    pub fn cells(&self, node: NodeKey) -> Result<Option<CellRanges>, BrickError> {
+        let entry = self.entry_of(node)?;
+        if entry.extent.codes == 0 {
+            return Ok(Some(CellRanges::uniform(0)));
+        }
+        let bytes = self.read(entry.extent.offset, u64::from(entry.extent.cells), node)?;
+        self.cells_from(&entry.extent, &bytes).map_err(|what| self.damaged(node, &what))
+    }
+
+    pub(super) fn entry(&self, place: u64) -> Option<Entry> {
+        self.table.entry(place, &self.rules, &*self.file)
+    }
+
+    fn find(&self, node: NodeKey) -> Found {
+        self.table.find(node, &self.rules, &*self.file)
+    }
+
+    /// The entry that tells of a node; one above it loses its extent, as all of the node's samples are equal.
+    fn entry_of(&self, node: NodeKey) -> Result<Entry, BrickError> {
+        if !self.shape.contains(node) {
+            let path = self.path.display();
+            return Err(BrickError(format!("{path} has no brick {node}: it lies outside the volume")));
+        }
+        match self.find(node) {
+            Found::Entry(entry) => Ok(entry),
+            Found::Within(entry) => {
+                // The checksum of nothing is zero.
+                let checksums = entry.extent.checksums.map(|_| Checksums::default());
+                let extent = Extent { checksums, ..Extent::default() };
+                Ok(Entry { extent, step: 0.0, deviation_step: 0.0, ..entry })
+            }
+            Found::Damaged { place, .. } => Err(self.damaged(node, &format!("entry {place} of the table"))),
+        }
+    }
+
+    fn damaged(&self, node: NodeKey, what: &str) -> BrickError {
+        let path = self.path.display();
+        BrickError(format!(
+            "brick {node} of {path} is damaged ({what}); copy the store again or import the volume again"
+        ))
+    }
+
+    fn read(&self, offset: u64, length: u64, node: NodeKey) -> Result<Vec<u8>, BrickError> {
+        let mut bytes = vec![0; length as usize];
+        self.file.read_at(offset, &mut bytes).map_err(|cause| {
+            let path = self.path.display();
+            BrickError(format!("cannot read brick {node} of {path}: {cause}; check the disk or the network"))
+        })?;
+        Ok(bytes)
+    }
+
+    /// Reads and decodes what an entry tells of.
+    pub(super) fn brick_of(&self, node: NodeKey, entry: &Entry) -> Result<Brick, BrickError> {
+        let extent = &entry.extent;
+        let bytes = self.read(extent.offset, extent.bytes(), node)?;
+        self.decode(entry, &bytes).map_err(|what| self.damaged(node, &what))
+    }
+
+    fn decode(&self, entry: &Entry, bytes: &[u8]) -> Result<Brick, String> {
+        let (extent, Header { bits, codec, .. }) = (&entry.extent, &self.header);
+        let (cells, voxels) = bytes.split_at(extent.cells as usize);
+        let (codes, deviation) = voxels.split_at(extent.codes as usize);
+        if extent.checksums.is_some_and(|sums| sums.voxels != checksum(voxels)) {
+            return Err("the checksum of its voxels differs".into());
+        }
+        let mut brick = Brick::new(zeros(*bits), entry.low, entry.step);
+        if extent.codes > 0 {
+            brick.codes = decoded(&codec.unpack(codes, bits.brick_bytes())?, *bits);
+            brick.cells = self.cells_from(extent, cells)?;
+        } else if extent.checksums.is_some() {
+            brick.cells = Some(CellRanges::uniform(0));
+        }
+        if extent.deviation > 0 {
+            let codes = codec.unpack(deviation, BRICK_VOXELS)?;
+            brick.deviation = Some(Deviation { codes, step: entry.deviation_step });
+        }
+        Ok(brick)
+    }
+
+    fn cells_from(&self, extent: &Extent, bytes: &[u8]) -> Result<Option<CellRanges>, String> {
+        let Some(Checksums { cells, .. }) = extent.checksums else { return Ok(None) };
+        if cells != checksum(bytes) {
+            return Err("the checksum of its cells differs".into());
+        }
+        let bits = self.header.bits;
+        let plain = self.header.codec.unpack(bytes, CellRanges::byte_count(bits))?;
+        Ok(Some(CellRanges::from_bytes(&plain, bits)))
     }
 }
 
@@ -138,36 +238,36 @@ impl BrickSource for Store {
     }
 
     fn frame(&self) -> VolumeFrame {
-        VolumeFrame::of_voxels(self.header.voxel_size_m)
+        self.header.frame
     }
 
     fn value_range(&self) -> (f64, f64) {
         self.header.value_range
     }
 
+    /// Where the table is damaged, the bounds are those of a node above: wider, never wrong.
     fn summary(&self, node: NodeKey) -> NodeSummary {
-        let entry = self.entry(self.table.place(node));
-        NodeSummary { min: entry.min, max: entry.max }
+        match self.find(node) {
+            Found::Entry(Entry { min, max, .. })
+            | Found::Damaged { above: Some(Entry { min, max, .. }), .. } => NodeSummary { min, max },
+            Found::Within(entry) => NodeSummary { min: entry.low, max: entry.low },
+            Found::Damaged { above: None, .. } => {
+                let (low, high) = self.header.value_range;
+                NodeSummary { min: (low as f32).next_down(), max: (high as f32).next_up() }
+            }
+        }
     }
 
     fn brick(&self, node: NodeKey) -> Result<Brick, BrickError> {
-        let path = self.path.display();
-        if !self.shape.contains(node) {
-            return Err(BrickError(format!("{path} has no brick {node:?}: it lies outside the volume")));
-        }
-        let place = self.table.place(node);
-        let entry = self.entry(place);
-        if entry.length == 0 {
-            return Ok(Brick { codes: zeros(self.header.bits), low: entry.low, step: 0.0 });
-        }
-        let start = entry.offset as usize;
-        let bytes = &self.map[start..start + entry.length as usize];
-        let codes = self.header.codec.unpack(bytes, self.header.bits).map_err(|what| {
-            BrickError(format!(
-                "brick {place} of {path} is damaged: {what}; copy the store again or import the volume again"
-            ))
-        })?;
-        Ok(Brick { codes, low: entry.low, step: entry.step })
+        self.brick_of(node, &self.entry_of(node)?)
+    }
+}
+
+fn read_header(start: &[u8]) -> Result<(u32, Header), HeaderError> {
+    match version(start)? {
+        version @ format_v1::VERSION => Ok((version, format_v1::header(start)?)),
+        version @ format::VERSION => Ok((version, Header::from_bytes(start)?)),
+        other => Err(HeaderError::Version(other)),
     }
 }
 
@@ -178,32 +278,28 @@ fn zeros(bits: CodeBits) -> Codes {
     }
 }
 
+fn decoded(plain: &[u8], bits: CodeBits) -> Codes {
+    match bits {
+        CodeBits::Eight => Codes::U8(plain.to_vec()),
+        CodeBits::Sixteen => {
+            Codes::U16(plain.as_chunks().0.iter().map(|&code| u16::from_le_bytes(code)).collect())
+        }
+    }
+}
+
 fn check_header(header: &Header) -> Result<(), String> {
-    let (dims, size, range) = (header.dims, header.voxel_size_m, header.value_range);
+    let (dims, range) = (header.dims, header.value_range);
     if dims.min_element() == 0 || dims.max_element() > MAX_EDGE_VOXELS {
         return Err(format!("the dimensions are {dims}, and each must be from 1 to {MAX_EDGE_VOXELS}"));
     }
-    if !size.is_finite() || size.min_element() <= 0.0 {
-        return Err(format!("the voxel size is {size} m, and each edge must be positive"));
+    if !header.frame.is_sound() {
+        return Err(format!(
+            "the voxel size is {} m, and each edge must be positive",
+            header.frame.voxel_size_m()
+        ));
     }
     if !range.0.is_finite() || !range.1.is_finite() || range.0 > range.1 {
         return Err(format!("the values are said to range from {} to {}", range.0, range.1));
     }
     Ok(())
-}
-
-fn check_table(header: &Header, shape: OctreeShape, file_length: u64) -> Result<NodeTable, String> {
-    let table = NodeTable::new(shape).filter(|table| table.nodes() == header.nodes);
-    let table =
-        table.ok_or_else(|| format!("{} nodes do not belong to {} voxels", header.nodes, header.dims))?;
-    let end = table
-        .nodes()
-        .checked_mul(ENTRY_BYTES as u64)
-        .and_then(|bytes| bytes.checked_add(header.table_offset()));
-    match end {
-        Some(end) if end <= file_length => Ok(table),
-        _ => {
-            Err(format!("it has {file_length} bytes, and the table of {} nodes does not fit", table.nodes()))
-        }
-    }
 }

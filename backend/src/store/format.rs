@@ -1,69 +1,104 @@
-//! The bytes of a store file (`.lloom`), version 1; all numbers are little-endian.
+//! The bytes of a store file (`.lloom`), version 2; all numbers are little-endian, all checksums CRC-32 (IEEE).
+//!
+//! # Header
 //!
 //! | bytes | what |
 //! | --- | --- |
 //! | 0..8 | magic `LLOOM\x1a\r\n` (a text-mode copy breaks it) |
-//! | 8..12 | version, u32: 1 |
-//! | 12 | bits per code, u8: 8 or 16 |
-//! | 13 | codec, u8: 0 none, 1 LZ4 block |
-//! | 14..16 | zero |
-//! | 16..28 | voxels along x, y, z, u32 each |
-//! | 28..32 | length N of the source's name in bytes, u32, at most 4096 |
-//! | 32..56 | edges of a voxel in metres, f64 each |
-//! | 56..72 | smallest and largest data value of the finest level, f64 each |
-//! | 72..80 | number of nodes, u64 (it follows from the dimensions) |
-//! | 80..128 | zero, reserved |
-//! | 128..128+N | the source's name, UTF-8, then zeros up to a multiple of 32 |
-//! | then | one entry of 32 bytes per node: depth 0 first, in a depth z slowest and x fastest |
-//! | then | the bricks, in any order |
+//! | 8..12 | version, u32: 2 |
+//! | 12..16 | checksum of the whole header, these four bytes taken as zero |
+//! | 16 | bits per code, u8: 8 or 16 |
+//! | 17 | codec, u8: 0 none, 1 LZ4 block, 2 Zstandard frame |
+//! | 18 | u8: 1 where coarse levels keep standard deviations, else 0 |
+//! | 19 | space of the axes, u8: 0 unknown, 1 a patient's (left, back, head) |
+//! | 20..32 | voxels along x, y, z, u32 each |
+//! | 32..104 | from a voxel to the next along x, y, z: three vectors in metres, f64 each |
+//! | 104..128 | centre of the first voxel in metres, f64 each |
+//! | 128..144 | smallest and largest data value of the finest level, f64 each |
+//! | 144..152 | nodes in the table T, u64 |
+//! | 152..160 | offset of the table in the file, u64 |
+//! | 160..164 | length N of the source's name in bytes, u32, at most 4096 |
+//! | 164..168 | levels L of the octree, u32 |
+//! | 168..192 | zero |
+//! | 192..192+16L | of each level, the finest first: RMS and largest error against the source, f64 each |
+//! | then N bytes | the source's name, UTF-8, then zeros up to a multiple of 64: the header's end |
 //!
-//! An entry is min, max, low, step (f32 each), offset of the brick in the file (u64), its length in bytes (u32) and
-//! four zero bytes, reserved for a checksum. min and max bound the stored samples of the node and all below it. A
-//! brick is 32³ codes, x fastest, one or two bytes each; data value = low + code × step. With codec 1 a brick shorter
-//! than that is an LZ4 block. A brick whose samples all equal `low` is not stored: length 0.
+//! # Bricks
+//!
+//! From the header's end to the table, one extent after the other without gaps, in any order. An extent holds a
+//! brick's cells, its codes and its deviations, each a block: 32³ codes, x fastest, one or two bytes each, data value
+//! = low + code × step; 8³ cells, x fastest, the smallest and the largest code around each, of the codes' size; 32³
+//! deviations of one byte each, standard deviation = byte × deviation step. With a codec, a block shorter than that is
+//! compressed by it.
+//!
+//! # Table
+//!
+//! T entries of 64 bytes to the end of the file: the octree in breadth-first order, children of a node one after the
+//! other, x fastest. The root is the first; what an entry without children stands for holds for all nodes below it.
+//!
+//! | bytes | what |
+//! | --- | --- |
+//! | 0..8 | bounds of the stored samples of the node and all below it, f32 each |
+//! | 8..16 | low, step, f32 each |
+//! | 16..20 | deviation step, f32 |
+//! | 20..32 | lengths of cells, codes and deviations in bytes, u32 each; 0 for what is all zero |
+//! | 32..40 | offset of the extent in the file, u64; 0 where it is empty |
+//! | 40..48 | checksum of the cells; checksum of codes and deviations, u32 each |
+//! | 48..56 | place of the first child in the table, u64; 0 where there is none |
+//! | 56 | children that are in the table, bit 0 = x, y, z low |
+//! | 57..60 | zero |
+//! | 60..64 | checksum of the entry's first 60 bytes |
 
-use super::{CodeBits, Codec};
-use glam::{DVec3, UVec3};
+use super::bytes::{checksum, f32_at, f64_at, u32_at, u64_at};
+use super::{CodeBits, Codec, LevelError};
+use crate::volume::{Space, VolumeFrame};
+use glam::{DMat3, DVec3, UVec3};
 
 pub(super) const MAGIC: [u8; 8] = *b"LLOOM\x1a\r\n";
-/// The version of the format that this program writes and reads.
-pub(super) const VERSION: u32 = 1;
+/// The version of the format that this program writes.
+pub(super) const VERSION: u32 = 2;
 
-const VERSION_AT: usize = MAGIC.len();
-const BITS_AT: usize = VERSION_AT + size_of::<u32>();
+pub(super) const VERSION_AT: usize = MAGIC.len();
+const CHECKSUM_AT: usize = VERSION_AT + size_of::<u32>();
+const BITS_AT: usize = CHECKSUM_AT + size_of::<u32>();
 const CODEC_AT: usize = BITS_AT + 1;
-const DIMS_AT: usize = CODEC_AT + 1 + 2;
-const NAME_LENGTH_AT: usize = DIMS_AT + 3 * size_of::<u32>();
-const VOXEL_SIZE_AT: usize = NAME_LENGTH_AT + size_of::<u32>();
-const RANGE_AT: usize = VOXEL_SIZE_AT + 3 * size_of::<f64>();
+const DEVIATION_AT: usize = CODEC_AT + 1;
+const SPACE_AT: usize = DEVIATION_AT + 1;
+const DIMS_AT: usize = SPACE_AT + 1;
+const AXES_AT: usize = DIMS_AT + 3 * size_of::<u32>();
+const ORIGIN_AT: usize = AXES_AT + 9 * size_of::<f64>();
+const RANGE_AT: usize = ORIGIN_AT + 3 * size_of::<f64>();
 const NODES_AT: usize = RANGE_AT + 2 * size_of::<f64>();
-const RESERVED_AT: usize = NODES_AT + size_of::<u64>();
-/// Bytes before the name.
-pub(super) const HEADER_BYTES: usize = RESERVED_AT + 48;
+const TABLE_AT: usize = NODES_AT + size_of::<u64>();
+const NAME_LENGTH_AT: usize = TABLE_AT + size_of::<u64>();
+const LEVELS_AT: usize = NAME_LENGTH_AT + size_of::<u32>();
+/// Bytes of the header before what has no fixed length.
+pub(super) const FIXED_BYTES: usize = LEVELS_AT + size_of::<u32>() + 24;
+/// Bytes of a level's errors.
+const LEVEL_BYTES: usize = 2 * size_of::<f64>();
 /// Longest name of a source in bytes.
 pub(super) const LONGEST_NAME: usize = 4096;
-/// Alignment of the table.
-const TABLE_ALIGNMENT: usize = 32;
+/// More levels than 2^20 voxels along an axis make.
+const MOST_LEVELS: usize = 32;
+const HEADER_ALIGNMENT: usize = 64;
+/// No header is longer.
+pub(super) const LONGEST_HEADER: usize =
+    (FIXED_BYTES + MOST_LEVELS * LEVEL_BYTES + LONGEST_NAME).next_multiple_of(HEADER_ALIGNMENT);
 
-const MIN_AT: usize = 0;
-const MAX_AT: usize = MIN_AT + size_of::<f32>();
-const LOW_AT: usize = MAX_AT + size_of::<f32>();
-const STEP_AT: usize = LOW_AT + size_of::<f32>();
-const OFFSET_AT: usize = STEP_AT + size_of::<f32>();
-const LENGTH_AT: usize = OFFSET_AT + size_of::<u64>();
-const CHECKSUM_AT: usize = LENGTH_AT + size_of::<u32>();
-/// Bytes of a node's entry.
-pub(super) const ENTRY_BYTES: usize = CHECKSUM_AT + 4;
-
-/// The header, without what follows from it.
+/// The header.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Header {
     pub bits: CodeBits,
     pub codec: Codec,
+    pub has_deviation: bool,
     pub dims: UVec3,
-    pub voxel_size_m: DVec3,
+    pub frame: VolumeFrame,
     pub value_range: (f64, f64),
+    /// Entries of the table.
     pub nodes: u64,
+    pub table_offset: u64,
+    /// The finest first.
+    pub levels: Vec<LevelError>,
     pub source_name: String,
 }
 
@@ -75,90 +110,135 @@ pub(super) enum HeaderError {
     Damaged(String),
 }
 
+pub(super) fn damaged(what: impl Into<String>) -> HeaderError {
+    HeaderError::Damaged(what.into())
+}
+
 impl Header {
-    /// Where the table starts.
-    pub fn table_offset(&self) -> u64 {
-        (HEADER_BYTES + self.source_name.len()).next_multiple_of(TABLE_ALIGNMENT) as u64
+    /// Bytes of the whole header: where the bricks start.
+    pub fn length(&self) -> u64 {
+        header_length(self.levels.len(), self.source_name.len()) as u64
     }
 
-    /// Header, name and padding.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = vec![0; self.table_offset() as usize];
+        let mut bytes = vec![0; self.length() as usize];
         let mut put = |at: usize, value: &[u8]| bytes[at..at + value.len()].copy_from_slice(value);
         put(0, &MAGIC);
         put(VERSION_AT, &VERSION.to_le_bytes());
-        put(BITS_AT, &[self.bits.bits()]);
-        put(
-            CODEC_AT,
-            &[match self.codec {
-                Codec::None => 0,
-                Codec::Lz4 => 1,
-                Codec::Zstd => 2,
-            }],
-        );
+        put(BITS_AT, &[self.bits.bits(), self.codec.number(), u8::from(self.has_deviation)]);
+        put(SPACE_AT, &[space_number(self.frame.space)]);
         for axis in 0..3 {
             put(DIMS_AT + axis * size_of::<u32>(), &self.dims[axis].to_le_bytes());
-            put(VOXEL_SIZE_AT + axis * size_of::<f64>(), &self.voxel_size_m[axis].to_le_bytes());
         }
-        put(NAME_LENGTH_AT, &(self.source_name.len() as u32).to_le_bytes());
-        put(RANGE_AT, &self.value_range.0.to_le_bytes());
-        put(RANGE_AT + size_of::<f64>(), &self.value_range.1.to_le_bytes());
+        let [low, high] = [self.value_range.0, self.value_range.1];
+        let frame = self.frame.axes_m.to_cols_array().into_iter().chain(self.frame.origin_m.to_array());
+        for (i, number) in frame.chain([low, high]).enumerate() {
+            put(AXES_AT + i * size_of::<f64>(), &number.to_le_bytes());
+        }
         put(NODES_AT, &self.nodes.to_le_bytes());
-        put(HEADER_BYTES, self.source_name.as_bytes());
+        put(TABLE_AT, &self.table_offset.to_le_bytes());
+        put(NAME_LENGTH_AT, &(self.source_name.len() as u32).to_le_bytes());
+        put(LEVELS_AT, &(self.levels.len() as u32).to_le_bytes());
+        for (i, level) in self.levels.iter().enumerate() {
+            put(FIXED_BYTES + i * LEVEL_BYTES, &level.rms.to_le_bytes());
+            put(FIXED_BYTES + i * LEVEL_BYTES + size_of::<f64>(), &level.max.to_le_bytes());
+        }
+        put(FIXED_BYTES + self.levels.len() * LEVEL_BYTES, self.source_name.as_bytes());
+        let sum = checksum(&bytes);
+        bytes[CHECKSUM_AT..CHECKSUM_AT + 4].copy_from_slice(&sum.to_le_bytes());
         bytes
     }
 
     /// Reads a header from the start of a file; what the numbers promise is for the caller to check.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, HeaderError> {
-        check_version(bytes)?;
-        let (bits, codec) = match (bytes[BITS_AT], bytes[CODEC_AT]) {
-            (8, 0) => (CodeBits::Eight, Codec::None),
-            (8, 1) => (CodeBits::Eight, Codec::Lz4),
-            (16, 0) => (CodeBits::Sixteen, Codec::None),
-            (16, 1) => (CodeBits::Sixteen, Codec::Lz4),
-            (bits, codec) => {
-                return Err(HeaderError::Damaged(format!(
-                    "{bits} bits per code with codec {codec} do not exist"
-                )));
-            }
+        let cut = || damaged("it ends within its header");
+        let fixed = bytes.get(..FIXED_BYTES).ok_or_else(cut)?;
+        let (levels, name) = (u32_at(fixed, LEVELS_AT) as usize, u32_at(fixed, NAME_LENGTH_AT) as usize);
+        if levels > MOST_LEVELS || name > LONGEST_NAME {
+            return Err(damaged(format!("{levels} levels and a name of {name} bytes are too many")));
+        }
+        let mut whole = bytes.get(..header_length(levels, name)).ok_or_else(cut)?.to_vec();
+        let sum = u32_at(&whole, CHECKSUM_AT);
+        whole[CHECKSUM_AT..CHECKSUM_AT + 4].fill(0);
+        if checksum(&whole) != sum {
+            return Err(damaged("the checksum of its header differs"));
+        }
+        Self::parse(&whole, levels, name)
+    }
+
+    fn parse(bytes: &[u8], levels: usize, name: usize) -> Result<Self, HeaderError> {
+        let numbers: [f64; 14] = std::array::from_fn(|i| f64_at(bytes, AXES_AT + i * size_of::<f64>()));
+        let level = |i: usize| LevelError {
+            rms: f64_at(bytes, FIXED_BYTES + i * LEVEL_BYTES),
+            max: f64_at(bytes, FIXED_BYTES + i * LEVEL_BYTES + size_of::<f64>()),
         };
-        let f64_of = |at: usize, axis: usize| f64_at(bytes, at + axis * size_of::<f64>());
+        let name = &bytes[FIXED_BYTES + levels * LEVEL_BYTES..][..name];
+        let unknown = |what: &str, number: u8| damaged(format!("it has the unknown {what} {number}"));
         Ok(Self {
-            bits,
-            codec,
+            bits: bits_of(bytes[BITS_AT]).ok_or_else(|| unknown("number of bits", bytes[BITS_AT]))?,
+            codec: Codec::of_number(bytes[CODEC_AT]).ok_or_else(|| unknown("codec", bytes[CODEC_AT]))?,
+            has_deviation: bytes[DEVIATION_AT] != 0,
             dims: UVec3::from_array([0, 1, 2].map(|axis| u32_at(bytes, DIMS_AT + axis * size_of::<u32>()))),
-            voxel_size_m: DVec3::from_array([0, 1, 2].map(|axis| f64_of(VOXEL_SIZE_AT, axis))),
-            value_range: (f64_of(RANGE_AT, 0), f64_of(RANGE_AT, 1)),
+            frame: VolumeFrame {
+                axes_m: DMat3::from_cols_slice(&numbers[..9]),
+                origin_m: DVec3::from_slice(&numbers[9..12]),
+                space: space_of(bytes[SPACE_AT]).ok_or_else(|| unknown("space", bytes[SPACE_AT]))?,
+            },
+            value_range: (numbers[12], numbers[13]),
             nodes: u64_at(bytes, NODES_AT),
-            source_name: name(bytes)?,
+            table_offset: u64_at(bytes, TABLE_AT),
+            levels: (0..levels).map(level).collect(),
+            source_name: str::from_utf8(name).map_err(|_| damaged("the source's name is no text"))?.into(),
         })
     }
 }
 
-/// Passes bytes that start with a whole header of this version.
-fn check_version(bytes: &[u8]) -> Result<(), HeaderError> {
-    let cut = || HeaderError::Damaged("it ends within its header".into());
+/// The version of a file that starts with these bytes.
+pub(super) fn version(bytes: &[u8]) -> Result<u32, HeaderError> {
     if !bytes.starts_with(&MAGIC) {
         return Err(HeaderError::NotAStore);
     }
-    if bytes.len() < BITS_AT {
-        return Err(cut());
-    }
-    match u32_at(bytes, VERSION_AT) {
-        VERSION if bytes.len() < HEADER_BYTES => Err(cut()),
-        VERSION => Ok(()),
-        other => Err(HeaderError::Version(other)),
+    match bytes.len() >= VERSION_AT + size_of::<u32>() {
+        true => Ok(u32_at(bytes, VERSION_AT)),
+        false => Err(damaged("it ends within its header")),
     }
 }
 
-fn name(bytes: &[u8]) -> Result<String, HeaderError> {
-    let length = u32_at(bytes, NAME_LENGTH_AT) as usize;
-    let name = bytes[HEADER_BYTES..].get(..length).filter(|name| name.len() <= LONGEST_NAME);
-    match name.map(str::from_utf8) {
-        Some(Ok(name)) => Ok(name.into()),
-        _ => Err(HeaderError::Damaged(format!("the source's name of {length} bytes cannot be read"))),
+fn header_length(levels: usize, name: usize) -> usize {
+    (FIXED_BYTES + levels * LEVEL_BYTES + name).next_multiple_of(HEADER_ALIGNMENT)
+}
+
+pub(super) fn bits_of(number: u8) -> Option<CodeBits> {
+    [CodeBits::Eight, CodeBits::Sixteen].into_iter().find(|bits| bits.bits() == number)
+}
+
+fn space_number(space: Space) -> u8 {
+    match space {
+        Space::Unknown => 0,
+        Space::Patient => 1,
     }
 }
+
+fn space_of(number: u8) -> Option<Space> {
+    [Space::Unknown, Space::Patient].into_iter().find(|&space| space_number(space) == number)
+}
+
+const MIN_AT: usize = 0;
+const MAX_AT: usize = MIN_AT + size_of::<f32>();
+const LOW_AT: usize = MAX_AT + size_of::<f32>();
+const STEP_AT: usize = LOW_AT + size_of::<f32>();
+const DEVIATION_STEP_AT: usize = STEP_AT + size_of::<f32>();
+const CELLS_LENGTH_AT: usize = DEVIATION_STEP_AT + size_of::<f32>();
+const CODES_LENGTH_AT: usize = CELLS_LENGTH_AT + size_of::<u32>();
+const DEVIATION_LENGTH_AT: usize = CODES_LENGTH_AT + size_of::<u32>();
+const OFFSET_AT: usize = DEVIATION_LENGTH_AT + size_of::<u32>();
+const CELLS_CHECKSUM_AT: usize = OFFSET_AT + size_of::<u64>();
+const VOXELS_CHECKSUM_AT: usize = CELLS_CHECKSUM_AT + size_of::<u32>();
+const FIRST_CHILD_AT: usize = VOXELS_CHECKSUM_AT + size_of::<u32>();
+const CHILDREN_AT: usize = FIRST_CHILD_AT + size_of::<u64>();
+const ENTRY_CHECKSUM_AT: usize = CHILDREN_AT + 4;
+/// Bytes of a node's entry.
+pub(super) const ENTRY_BYTES: usize = ENTRY_CHECKSUM_AT + size_of::<u32>();
 
 /// What the table says of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -167,47 +247,84 @@ pub(super) struct Entry {
     pub max: f32,
     pub low: f32,
     pub step: f32,
+    pub deviation_step: f32,
+    pub extent: Extent,
+    pub first_child: u64,
+    /// Bit per octant.
+    pub children: u8,
+}
+
+/// Where a brick's blocks are, and their checksums.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Extent {
     pub offset: u64,
-    /// Bytes of the brick; 0 where all samples equal `low`.
-    pub length: u32,
+    pub cells: u32,
+    pub codes: u32,
+    pub deviation: u32,
+    /// None in files of version 1.
+    pub checksums: Option<Checksums>,
+}
+
+/// Checksums of an extent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Checksums {
+    pub cells: u32,
+    pub voxels: u32,
+}
+
+impl Extent {
+    pub fn bytes(&self) -> u64 {
+        u64::from(self.cells) + u64::from(self.codes) + u64::from(self.deviation)
+    }
 }
 
 impl Entry {
     pub fn to_bytes(self) -> [u8; ENTRY_BYTES] {
         let mut bytes = [0; ENTRY_BYTES];
         let mut put = |at: usize, value: &[u8]| bytes[at..at + value.len()].copy_from_slice(value);
-        put(MIN_AT, &self.min.to_le_bytes());
-        put(MAX_AT, &self.max.to_le_bytes());
-        put(LOW_AT, &self.low.to_le_bytes());
-        put(STEP_AT, &self.step.to_le_bytes());
-        put(OFFSET_AT, &self.offset.to_le_bytes());
-        put(LENGTH_AT, &self.length.to_le_bytes());
+        let numbers = [self.min, self.max, self.low, self.step, self.deviation_step];
+        for (i, number) in numbers.into_iter().enumerate() {
+            put(MIN_AT + i * size_of::<f32>(), &number.to_le_bytes());
+        }
+        let Extent { offset, cells, codes, deviation, checksums } = self.extent;
+        let checksums = checksums.unwrap_or_default();
+        put(CELLS_LENGTH_AT, &cells.to_le_bytes());
+        put(CODES_LENGTH_AT, &codes.to_le_bytes());
+        put(DEVIATION_LENGTH_AT, &deviation.to_le_bytes());
+        put(OFFSET_AT, &offset.to_le_bytes());
+        put(CELLS_CHECKSUM_AT, &checksums.cells.to_le_bytes());
+        put(VOXELS_CHECKSUM_AT, &checksums.voxels.to_le_bytes());
+        put(FIRST_CHILD_AT, &self.first_child.to_le_bytes());
+        put(CHILDREN_AT, &[self.children]);
+        let sum = checksum(&bytes[..ENTRY_CHECKSUM_AT]);
+        bytes[ENTRY_CHECKSUM_AT..].copy_from_slice(&sum.to_le_bytes());
         bytes
     }
 
-    pub fn from_bytes(bytes: &[u8; ENTRY_BYTES]) -> Self {
-        let f32_at = |at| f32::from_bits(u32_at(bytes, at));
-        Self {
-            min: f32_at(MIN_AT),
-            max: f32_at(MAX_AT),
-            low: f32_at(LOW_AT),
-            step: f32_at(STEP_AT),
-            offset: u64_at(bytes, OFFSET_AT),
-            length: u32_at(bytes, LENGTH_AT),
+    /// None where the checksum differs.
+    pub fn from_bytes(bytes: &[u8; ENTRY_BYTES]) -> Option<Self> {
+        if checksum(&bytes[..ENTRY_CHECKSUM_AT]) != u32_at(bytes, ENTRY_CHECKSUM_AT) {
+            return None;
         }
+        let checksums =
+            Checksums { cells: u32_at(bytes, CELLS_CHECKSUM_AT), voxels: u32_at(bytes, VOXELS_CHECKSUM_AT) };
+        Some(Self {
+            min: f32_at(bytes, MIN_AT),
+            max: f32_at(bytes, MAX_AT),
+            low: f32_at(bytes, LOW_AT),
+            step: f32_at(bytes, STEP_AT),
+            deviation_step: f32_at(bytes, DEVIATION_STEP_AT),
+            extent: Extent {
+                offset: u64_at(bytes, OFFSET_AT),
+                cells: u32_at(bytes, CELLS_LENGTH_AT),
+                codes: u32_at(bytes, CODES_LENGTH_AT),
+                deviation: u32_at(bytes, DEVIATION_LENGTH_AT),
+                checksums: Some(checksums),
+            },
+            first_child: u64_at(bytes, FIRST_CHILD_AT),
+            children: bytes[CHILDREN_AT],
+        })
     }
-}
-
-fn u32_at(bytes: &[u8], at: usize) -> u32 {
-    u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
-}
-
-fn u64_at(bytes: &[u8], at: usize) -> u64 {
-    u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
-}
-
-fn f64_at(bytes: &[u8], at: usize) -> f64 {
-    f64::from_bits(u64_at(bytes, at))
 }
 
 #[cfg(test)]
@@ -216,33 +333,69 @@ mod tests {
 
     #[test]
     fn offsets_are_those_of_the_description() {
-        assert_eq!((BITS_AT, DIMS_AT, NAME_LENGTH_AT, VOXEL_SIZE_AT), (12, 16, 28, 32));
-        assert_eq!((RANGE_AT, NODES_AT, RESERVED_AT, HEADER_BYTES, ENTRY_BYTES), (56, 72, 80, 128, 32));
+        assert_eq!((CHECKSUM_AT, BITS_AT, SPACE_AT, DIMS_AT, AXES_AT), (12, 16, 19, 20, 32));
+        assert_eq!((ORIGIN_AT, RANGE_AT, NODES_AT, TABLE_AT), (104, 128, 144, 152));
+        assert_eq!((NAME_LENGTH_AT, LEVELS_AT, FIXED_BYTES), (160, 164, 192));
+        assert_eq!((CELLS_LENGTH_AT, OFFSET_AT, CELLS_CHECKSUM_AT), (20, 32, 40));
+        assert_eq!((FIRST_CHILD_AT, CHILDREN_AT, ENTRY_CHECKSUM_AT, ENTRY_BYTES), (48, 56, 60, 64));
     }
 
-    #[test]
-    fn a_header_reads_back() {
-        let header = Header {
+    fn header() -> Header {
+        let axes_m = DMat3::from_cols(DVec3::Y * 1e-3, DVec3::X * -2e-3, DVec3::Z * 3e-3);
+        Header {
             bits: CodeBits::Sixteen,
-            codec: Codec::Lz4,
+            codec: Codec::Zstd,
+            has_deviation: true,
             dims: UVec3::new(1, 2, 3),
-            voxel_size_m: DVec3::new(1e-3, 2e-3, 3e-3),
+            frame: VolumeFrame { axes_m, origin_m: DVec3::new(1.0, 2.0, -3.0), space: Space::Patient },
             value_range: (-1.5, 7.0),
             nodes: 1,
+            table_offset: 4711,
+            levels: vec![LevelError { rms: 0.5, max: 2.0 }, LevelError { rms: 1.5, max: 3.0 }],
             source_name: "größe.nrrd".into(),
-        };
-        let bytes = header.to_bytes();
-        assert_eq!(bytes.len() % TABLE_ALIGNMENT, 0);
-        assert_eq!(Header::from_bytes(&bytes), Ok(header));
-        assert_eq!(Header::from_bytes(b"GIF89a"), Err(HeaderError::NotAStore));
-        for length in MAGIC.len()..bytes.len() - TABLE_ALIGNMENT {
-            assert!(matches!(Header::from_bytes(&bytes[..length]), Err(HeaderError::Damaged(_))));
         }
     }
 
     #[test]
-    fn an_entry_reads_back() {
-        let entry = Entry { min: -1.0, max: 2.0, low: -0.5, step: 0.25, offset: 1 << 40, length: 77 };
-        assert_eq!(Entry::from_bytes(&entry.to_bytes()), entry);
+    fn a_header_reads_back() {
+        let bytes = header().to_bytes();
+        assert_eq!(bytes.len(), 256);
+        assert_eq!(Header::from_bytes(&bytes), Ok(header()));
+        assert_eq!(version(&bytes), Ok(VERSION));
+        assert_eq!(version(b"GIF89a"), Err(HeaderError::NotAStore));
+        for length in 0..bytes.len() {
+            assert!(Header::from_bytes(&bytes[..length]).is_err());
+        }
+    }
+
+    #[test]
+    fn every_changed_bit_of_a_header_is_found() {
+        let bytes = header().to_bytes();
+        for bit in 8 * VERSION_AT + 32..8 * bytes.len() {
+            let mut changed = bytes.clone();
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert!(Header::from_bytes(&changed).is_err(), "bit {bit}");
+        }
+    }
+
+    #[test]
+    fn an_entry_reads_back_whole_or_not_at_all() {
+        let extent = Extent {
+            offset: 1 << 40,
+            cells: 7,
+            codes: 77,
+            deviation: 9,
+            checksums: Some(Checksums { cells: 1, voxels: u32::MAX }),
+        };
+        let (min, max, low, step) = (-1.0, 2.0, -0.5, 0.25);
+        let entry =
+            Entry { min, max, low, step, deviation_step: 0.1, extent, first_child: 1 << 33, children: 0x81 };
+        let bytes = entry.to_bytes();
+        assert_eq!(Entry::from_bytes(&bytes), Some(entry));
+        for bit in 0..8 * ENTRY_BYTES {
+            let mut changed = bytes;
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert_eq!(Entry::from_bytes(&changed), None, "bit {bit}");
+        }
     }
 }

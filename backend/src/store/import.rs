@@ -1,7 +1,7 @@
 //! From what a user names, a file or a procedural volume, to a store.
 
-use super::build::{BuildOptions, BuildReport, build};
-use super::{StoreError, sink::folder_of};
+use super::sink::folder_of;
+use super::{BuildOptions, BuildReport, StoreError, build};
 use crate::volume::procedural::ProceduralVolume;
 use crate::volume::{Selection, VolumeReader, open};
 use glam::UVec3;

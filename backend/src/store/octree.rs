@@ -29,6 +29,13 @@ impl NodeKey {
     }
 }
 
+impl std::fmt::Display for NodeKey {
+    /// `depth/x,y,z`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}/{},{},{}", self.depth, self.cell.x, self.cell.y, self.cell.z)
+    }
+}
+
 impl Ord for NodeKey {
     /// By depth, then z, y, x: the order of the node table in a store.
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {

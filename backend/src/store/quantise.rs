@@ -4,6 +4,12 @@ use super::{BRICK_VOXELS, Brick, Codes};
 
 /// Integers up to this magnitude, and their neighbours, are exact in f32.
 const EXACT_INTEGER: f32 = 16_777_216.0;
+/// Added to a number from 0 to 65535, it leaves the nearest integer in the low bits of an f32.
+const ROUNDER: f32 = 8_388_608.0;
+/// Below this step its inverse is no f32.
+const SMALLEST_INVERTIBLE: f32 = 1e-30;
+/// Numbers compared side by side.
+const LANES: usize = 16;
 
 /// Bits per stored sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,22 +44,52 @@ impl CodeBits {
 }
 
 /// Quantises [`BRICK_VOXELS`] finite samples. Code 0 is the smallest sample exactly; no code that occurs stands for
-/// more than the largest. The error is at most half a step, plus the rounding of the step (at the largest code
-/// of 16 bits: 1/128 step; more only where the range is under 1e-33 and steps are subnormal). Whole numbers whose range fits the codes are kept exactly, and so are equal samples (step 0).
+/// more than the largest. The error is at most half a step, plus the rounding of the step (at the largest code of 16
+/// bits: 1/128 step; more only where the range is under 1e-33 and steps are subnormal) and, with 8 bits, of f32
+/// (1/10000 step). Whole numbers whose range fits the codes are kept exactly, and so are equal samples (step 0).
 pub fn quantise(samples: &[f32], bits: CodeBits) -> Brick {
     assert_eq!(samples.len(), BRICK_VOXELS, "a brick has 32³ samples");
-    let (low, high) = range(samples);
-    let step = step(samples, low, high, bits);
-    let codes = match bits {
-        CodeBits::Eight => Codes::U8(codes(samples, low, step, |code| code.min(255.0) as u8)),
-        CodeBits::Sixteen => Codes::U16(codes(samples, low, step, |code| code.min(65535.0) as u16)),
-    };
-    Brick { codes, low, step }
+    quantise_within(samples, range(samples), bits)
 }
 
-/// Smallest and largest sample.
-fn range(samples: &[f32]) -> (f32, f32) {
-    samples.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+/// [`quantise`] for samples whose smallest and largest are known.
+pub(super) fn quantise_within(samples: &[f32], (low, high): (f32, f32), bits: CodeBits) -> Brick {
+    let step = step(samples, low, high, bits);
+    let is_short = match bits {
+        CodeBits::Eight => step >= SMALLEST_INVERTIBLE && (high - low).is_finite(),
+        CodeBits::Sixteen => step == 1.0,
+    };
+    let per_step = if step > 0.0 { 1.0 / f64::from(step) } else { 0.0 };
+    // Adding a half and cutting off is rounding, for numbers that are not negative.
+    let long = |v: f32| (f64::from(v) - f64::from(low)) * per_step + 0.5;
+    let largest = f64::from(bits.largest());
+    let per_short_step = per_step as f32;
+    let short = |v: f32| ((v - low) * per_short_step + ROUNDER).to_bits();
+    let codes = match (bits, is_short) {
+        (CodeBits::Eight, true) => Codes::U8(samples.iter().map(|&v| short(v) as u8).collect()),
+        (CodeBits::Sixteen, true) => Codes::U16(samples.iter().map(|&v| short(v) as u16).collect()),
+        (CodeBits::Eight, false) => Codes::U8(samples.iter().map(|&v| long(v).min(largest) as u8).collect()),
+        (CodeBits::Sixteen, false) => {
+            Codes::U16(samples.iter().map(|&v| long(v).min(largest) as u16).collect())
+        }
+    };
+    Brick::new(codes, low, step)
+}
+
+/// Smallest and largest of some finite samples; infinite where there is none.
+pub(super) fn range(samples: &[f32]) -> (f32, f32) {
+    let smaller = |a: f32, b: f32| if a < b { a } else { b };
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let (lanes, rest) = samples.as_chunks::<LANES>();
+    let (mut low, mut high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+    for lane in lanes {
+        for i in 0..LANES {
+            low[i] = smaller(lane[i], low[i]);
+            high[i] = larger(lane[i], high[i]);
+        }
+    }
+    let lows = low.iter().chain(rest).copied().fold(f32::INFINITY, smaller);
+    (lows, high.iter().chain(rest).copied().fold(f32::NEG_INFINITY, larger))
 }
 
 /// Step for a range: 1 where that is exact, else the range over the codes, rounded down so that no code exceeds `high`.
@@ -63,8 +99,7 @@ fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     }
     let range = f64::from(high) - f64::from(low);
     let largest = f64::from(bits.largest());
-    let exact = |v: &f32| v.abs() <= EXACT_INTEGER && v.trunc() == *v;
-    if range <= largest && samples.iter().all(exact) {
+    if range <= largest && low.abs().max(high.abs()) <= EXACT_INTEGER && are_whole(samples, low) {
         return 1.0;
     }
     let ideal = range / largest;
@@ -73,12 +108,17 @@ fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     down.max(f32::from_bits(1))
 }
 
-fn codes<T>(samples: &[f32], low: f32, step: f32, narrow: impl Fn(f64) -> T) -> Vec<T> {
-    let (low, per_step) = (f64::from(low), if step > 0.0 { 1.0 / f64::from(step) } else { 0.0 });
-    // Adding a half and cutting off is rounding, for numbers that are not negative.
-    samples.iter().map(|&v| narrow((f64::from(v) - low) * per_step + 0.5)).collect()
+/// Whether all samples, at most 65535 above `low`, are whole numbers.
+fn are_whole(samples: &[f32], low: f32) -> bool {
+    let is_whole = |v: f32| {
+        let above = v - low;
+        (above + ROUNDER) - ROUNDER == above
+    };
+    let (lanes, rest) = samples.as_chunks::<LANES>();
+    low.trunc() == low
+        && lanes.iter().all(|lane| lane.iter().fold(true, |all, &v| all & is_whole(v)))
+        && rest.iter().all(|&v| is_whole(v))
 }
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,9 +131,9 @@ mod tests {
     fn check_error(samples: &[f32], bits: CodeBits) {
         let brick = quantise(samples, bits);
         let (low, high) = range(samples);
-        // Half a step, and the step's own rounding (down, by 2⁻²³ of it or the least f32) times the largest code.
+        // Half a step and f32, and the step's own rounding (down, by 2⁻²³ of it or the least f32) times the largest code.
         let rounding = (f64::from(brick.step) / f64::from(1 << 23)).max(f64::from(f32::from_bits(1)));
-        let allowed = f64::from(brick.step) * 0.500_001 + f64::from(bits.largest()) * rounding;
+        let allowed = f64::from(brick.step) * 0.5001 + f64::from(bits.largest()) * rounding;
         for (index, &sample) in samples.iter().enumerate() {
             let value = brick.value(index);
             assert!(

@@ -22,4 +22,5 @@ pub use frame::{Space, VolumeFrame};
 pub use open::open;
 pub use raw::RawLayout;
 pub use reader::{MAX_EDGE_VOXELS, Selection, VolumeInfo, VolumeReader};
+pub(crate) use samples::with_samples;
 pub use samples::{Sample, Samples};

@@ -45,6 +45,8 @@ macro_rules! with_samples {
     };
 }
 
+pub(crate) use with_samples;
+
 impl Samples {
     /// `count` zeros of a type.
     pub fn new(element: Element, count: usize) -> Self {

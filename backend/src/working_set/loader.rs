@@ -1,7 +1,6 @@
 //! Loader threads: they fetch and unpack bricks while others wait or work.
 
-use super::CellRanges;
-use crate::store::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey};
+use crate::store::{BRICK_VOXELS, BrickError, BrickSource, CellRanges, Codes, NodeKey};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -87,10 +86,12 @@ fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickErro
     let brick = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| source.brick(key)))
         .unwrap_or_else(|_| Err(BrickError(format!("reading brick {key:?} failed inside the program"))))?;
     let largest = f64::from(brick.codes.largest());
+    let factor = u16::MAX / brick.codes.largest();
+    let cells = brick.cells.unwrap_or_else(|| CellRanges::of(&brick.codes)).scaled(factor);
     let (samples, bytes) = match brick.codes {
         Codes::U8(codes) => {
             let bytes = codes.len() as u64;
-            (codes.into_iter().map(|code| u16::from(code) * 257).collect(), bytes)
+            (codes.into_iter().map(|code| u16::from(code) * factor).collect(), bytes)
         }
         Codes::U16(codes) => {
             let bytes = 2 * codes.len() as u64;
@@ -104,7 +105,6 @@ fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickErro
             samples.len()
         )));
     }
-    let cells = CellRanges::of(&samples);
     Ok(LoadedBrick {
         samples,
         cells,

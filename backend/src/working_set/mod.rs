@@ -1,6 +1,5 @@
 //! Which bricks are resident: the cut through the octree, the index rays traverse, the loader.
 
-mod cells;
 mod cut;
 mod index;
 mod loader;
@@ -8,7 +7,6 @@ mod lod;
 mod slots;
 mod touched;
 
-pub use cells::CellRanges;
 pub use cut::{Cut, CutNode, ResidentBrick};
 pub use index::{IndexRules, build_index, is_shown};
 pub use loader::{Fetched, LoadedBrick, Loader};

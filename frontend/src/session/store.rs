@@ -87,7 +87,7 @@ pub fn store_summary(path: &Path) -> Result<StoreSummary, FrontendError> {
 /// Reads and checks all of a store.
 pub fn verify(path: &Path, progress: Progress) -> Result<VerifySummary, FrontendError> {
     let progress = RefCell::new(progress);
-    let show = |done: u64, total: u64| progress.borrow_mut().set(done as f64 / total.max(1) as f64, "bytes");
+    let show = |done: u64, total: u64| progress.borrow_mut().set(done as f64 / total.max(1) as f64, "bricks");
     let found = store::verify(path, &show).map_err(sentence)?;
     Ok(VerifySummary {
         is_whole: found.damage_count == 0 && found.damages.is_empty(),

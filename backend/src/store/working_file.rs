@@ -1,0 +1,102 @@
+//! A file that is being written: beside the one that it will be, locked, and gone when the work is given up.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// How often a file is opened anew that another process renamed between opening and locking.
+const ATTEMPTS: usize = 10;
+
+/// `.NAME.part` in the folder of NAME. One process writes it at a time; what a killed process left there is taken over.
+pub(super) struct WorkingFile {
+    path: PathBuf,
+    is_renamed: bool,
+}
+
+impl WorkingFile {
+    /// Starts the file for `target`, empty.
+    pub fn create(target: &Path) -> io::Result<(Self, File)> {
+        let name = target.file_name().ok_or(io::ErrorKind::IsADirectory)?;
+        if target.is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        let path = target.with_file_name(format!(".{}.part", name.to_string_lossy()));
+        for _ in 0..ATTEMPTS {
+            let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    let what = "another program is writing it: wait for that, or choose another name";
+                    return Err(io::Error::new(io::ErrorKind::ResourceBusy, what));
+                }
+                Err(TryLockError::Error(error)) => return Err(error),
+            }
+            if is_at(&file, &path) {
+                file.set_len(0)?;
+                return Ok((Self { path, is_renamed: false }, file));
+            }
+        }
+        Err(io::ErrorKind::ResourceBusy.into())
+    }
+
+    /// Gives the complete file its name; what had it before is replaced.
+    pub fn rename(mut self, target: &Path) -> io::Result<()> {
+        std::fs::rename(&self.path, target)?;
+        self.is_renamed = true;
+        Ok(())
+    }
+}
+
+impl Drop for WorkingFile {
+    fn drop(&mut self) {
+        if !self.is_renamed {
+            // What is left is taken over by the next program that writes there.
+            let _ = std::fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Whether a path still leads to an open file: another process may have given it its name meanwhile.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let place =
+        |metadata: io::Result<std::fs::Metadata>| metadata.ok().map(|found| (found.dev(), found.ino()));
+    place(file.metadata()).is_some_and(|open| Some(open) == place(std::fs::metadata(path)))
+}
+
+/// An open file cannot be renamed here, so it is where it was.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    #[test]
+    fn two_writers_do_not_mix() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.lloom");
+        let (working, mut file) = WorkingFile::create(&target).unwrap();
+        file.write_all(b"one").unwrap();
+        let busy = WorkingFile::create(&target).map(|_| ()).unwrap_err();
+        assert!(busy.to_string().contains("another program"), "{busy}");
+        drop((working, file));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "given up, nothing stays");
+    }
+
+    #[test]
+    fn what_a_killed_writer_left_is_taken_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.lloom");
+        std::fs::write(folder.path().join(".a.lloom.part"), "left over").unwrap();
+        let (working, mut file) = WorkingFile::create(&target).unwrap();
+        file.write_all(b"two").unwrap();
+        working.rename(&target).unwrap();
+        assert_eq!(std::fs::read(&target).unwrap(), b"two");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}
