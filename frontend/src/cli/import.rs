@@ -22,7 +22,7 @@ pub struct ImportArgs {
     #[arg(long, value_enum, default_value = "lz4")]
     pub codec: CodecArg,
     /// Memory that the import may use; a quarter of it is for what the reader has decoded.
-    #[arg(long = "memory", value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u64).range(64..=1 << 30))]
+    #[arg(long = "memory", value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
     pub memory_mib: u64,
     /// Leave out bricks in which every value is below this one: they read back as their smallest value.
     #[arg(long, value_name = "VALUE", value_parser = finite, allow_hyphen_values = true, conflicts_with = "empty_for")]
