@@ -1,7 +1,15 @@
 //! The renderer of one back-end: draws the frames of its projectors until nothing is missing.
 
+mod damage;
+#[cfg(test)]
+mod damage_tests;
 mod frame;
+#[cfg(test)]
+mod mirror_tests;
 mod residency;
+mod rules;
+#[cfg(test)]
+mod test_scene;
 mod views;
 
 use crate::device::{ChosenDevice, Device, DeviceError, open_device};
@@ -15,7 +23,7 @@ use std::sync::Arc;
 /// Why a frame could not be drawn.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum RenderError {
-    /// A brick could not be had.
+    /// The root's brick could not be had: any other is drawn from its parent.
     #[error(transparent)]
     Brick(#[from] BrickError),
     /// The device failed.
@@ -83,7 +91,7 @@ impl Renderer {
     /// Draws one frame, picture by picture.
     ///
     /// # Errors
-    /// A brick or the device fails, or the frame does not fit the display.
+    /// The root's brick or the device fails, or the frame does not fit the display.
     pub fn draw(
         &mut self,
         frame: &FrameState,

@@ -2,6 +2,7 @@
 
 use crate::scene::SceneError;
 use backend::output::OutputError;
+use std::path::PathBuf;
 
 /// Each is one sentence for the person who started the program.
 #[derive(Debug, thiserror::Error)]
@@ -18,6 +19,24 @@ pub enum FrontendError {
     /// The volume cannot be opened or imported; the sentence is the store's.
     #[error("{0}")]
     Volume(String),
+    /// A signal ended the work; the sentence is that of whoever stopped.
+    #[error("{0}")]
+    Stopped(String),
+    /// A store is not whole.
+    #[error(
+        "{} is damaged in {}; copy it again or import the volume again",
+        path.display(),
+        if *damages == 1 { "1 place".to_owned() } else { format!("{damages} places") }
+    )]
+    DamagedStore {
+        /// The store.
+        path: PathBuf,
+        /// How many damages there are.
+        damages: u64,
+    },
+    /// The system does not tell of signals.
+    #[error("cannot listen for the signals that end a program: {0}")]
+    Signals(std::io::Error),
     /// A back-end cannot go on; the sentence is its own.
     #[error("{0}")]
     Backend(String),

@@ -3,6 +3,8 @@
 pub mod cli;
 pub mod command;
 mod error;
+pub mod interrupt;
+pub mod orientation;
 pub mod progress;
 pub mod report;
 pub mod scene;

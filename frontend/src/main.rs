@@ -1,7 +1,9 @@
 //! `lightloom`: parses the command line, runs the command, and says in one sentence why it could not.
 
 use clap::Parser;
+use frontend::FrontendError;
 use frontend::cli::Cli;
+use frontend::interrupt::EXIT_CODE as INTERRUPTED;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
@@ -18,6 +20,11 @@ fn main() -> ExitCode {
         .init();
     match frontend::command::run(&cli.command) {
         Ok(()) => ExitCode::SUCCESS,
+        // Nothing but this process works then, so nothing else has to be ended.
+        Err(error @ FrontendError::Stopped(_)) => {
+            complain(&error.to_string());
+            std::process::exit(INTERRUPTED)
+        }
         Err(error) => backend::transport::fail("lightloom", &error.to_string()),
     }
 }

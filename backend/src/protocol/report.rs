@@ -46,6 +46,10 @@ pub struct FrameReport {
     pub complete: bool,
     /// Why it is not complete; empty when it is.
     pub shortfall: String,
+    /// Bricks that rays asked for and that cannot be read: their parents are shown in their place.
+    pub damaged_bricks: u64,
+    /// What is wrong with the first of these: a sentence each, which names file and brick.
+    pub damaged: Vec<String>,
     /// Time per stage.
     pub stages: Stages,
     /// Wall-clock milliseconds of the whole frame.

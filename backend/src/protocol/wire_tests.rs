@@ -88,7 +88,7 @@ prop_compose! {
         FromBackend::Done(Box::new(FrameReport {
             frame: 3, backend: 1, projectors, rays: n[0], samples: n[1], bricks_wanted: n[2], bricks_resident: n[3],
             bricks_loaded: n[4], bytes_loaded: n[5], working_set_union: n[6], working_set_sum: 0,
-            complete: shortfall.is_empty(), shortfall,
+            complete: shortfall.is_empty(), damaged_bricks: n[0], damaged: vec![shortfall.clone(); 2], shortfall,
             stages: Stages { cast_ms: ms, ..Stages::default() }, total_ms: ms,
         }))
     }
@@ -192,7 +192,10 @@ fn a_huge_length_in_a_short_message_is_an_error() {
     let hostile_text = [5_u32.to_le_bytes().as_slice(), &(1_u64 << 40).to_le_bytes()].concat();
     let bytes = [header(PROTOCOL_VERSION, hostile_text.len() as u32), hostile_text].concat();
     assert!(matches!(decode::<FromBackend>(&bytes), Err(WireError::Damaged(_))));
-    assert!(matches!(decode::<FromBackend>(&header(1, u32::MAX)), Err(WireError::TooLong { .. })));
+    assert!(matches!(
+        decode::<FromBackend>(&header(PROTOCOL_VERSION, u32::MAX)),
+        Err(WireError::TooLong { .. })
+    ));
 }
 
 #[test]

@@ -2,8 +2,9 @@
 
 use super::Line;
 use crate::store::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey, OVERLAP, OWN_EDGE, OctreeShape};
-use crate::working_set::LodRule;
+use crate::working_set::{LodRule, is_shown};
 use glam::{DVec3, IVec3};
+use shaders::optics::Optics;
 use std::sync::{Arc, OnceLock};
 
 /// The voxels of a leaf: codes, with the data value `low + code × step`.
@@ -46,9 +47,27 @@ pub struct Cut {
 impl Cut {
     /// The cut that `rule` asks for: from the root down to the first node that is fine enough.
     pub fn new(source: Arc<dyn BrickSource>, rule: &LodRule) -> Self {
+        Self::where_splits(source, |shape, _, key| !rule.is_fine_enough(shape, key))
+    }
+
+    /// The same, but a node stays a leaf where the brick of a child that `optics` show cannot be read. All bricks down
+    /// to the leaves are read to find that out, and read again when a ray meets them.
+    pub fn around_damage(source: Arc<dyn BrickSource>, rule: &LodRule, optics: &Optics) -> Self {
+        Self::where_splits(source, |shape, source, key| {
+            let is_readable =
+                |child: NodeKey| !is_shown(optics, source.summary(child)) || source.brick(child).is_ok();
+            let mut children = (0..8).map(|octant| key.child(octant)).filter(|&child| shape.contains(child));
+            !rule.is_fine_enough(shape, key) && children.all(is_readable)
+        })
+    }
+
+    fn where_splits(
+        source: Arc<dyn BrickSource>,
+        splits: impl Fn(&OctreeShape, &dyn BrickSource, NodeKey) -> bool,
+    ) -> Self {
         let shape = source.shape();
-        let mut cut = Self { source, shape, nodes: Vec::new() };
-        cut.grow(rule, NodeKey::ROOT);
+        let mut cut = Self { source: Arc::clone(&source), shape, nodes: Vec::new() };
+        cut.grow(&|key| splits(&shape, source.as_ref(), key), NodeKey::ROOT);
         cut
     }
 
@@ -93,17 +112,17 @@ impl Cut {
     }
 
     /// Adds a node with all below it; returns its index.
-    fn grow(&mut self, rule: &LodRule, key: NodeKey) -> u32 {
+    fn grow(&mut self, splits: &dyn Fn(NodeKey) -> bool, key: NodeKey) -> u32 {
         let index = self.nodes.len();
         self.nodes.push(Node::Inner(DVec3::ZERO, [None; 8]));
-        self.nodes[index] = if rule.is_fine_enough(&self.shape, key) {
+        self.nodes[index] = if !splits(key) {
             Node::Leaf(Box::new(self.leaf(key)))
         } else {
             let split = self.shape.region(key).0 + self.voxel_edge(key) * (OWN_EDGE / 2) as f64;
             let mut children = [None; 8];
             for octant in 0..8u32 {
                 let child = key.child(octant);
-                children[octant as usize] = self.shape.contains(child).then(|| self.grow(rule, child));
+                children[octant as usize] = self.shape.contains(child).then(|| self.grow(splits, child));
             }
             Node::Inner(split, children)
         };

@@ -6,6 +6,7 @@ use super::{Cubic, Field, Line, Piece, Visitor};
 use crate::store::{BrickError, BrickSource};
 use crate::working_set::LodRule;
 use glam::{DVec3, IVec3};
+use shaders::optics::Optics;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -21,6 +22,12 @@ impl StoredField {
     /// The field of `source` on the cut that `rule` asks for.
     pub fn new(source: Arc<dyn BrickSource>, rule: &LodRule) -> Self {
         Self { cut: Cut::new(source, rule) }
+    }
+
+    /// The same around bricks that cannot be read: as the renderer does, it takes the parent in place of a family of
+    /// which a brick that `optics` show is damaged.
+    pub fn around_damage(source: Arc<dyn BrickSource>, rule: &LodRule, optics: &Optics) -> Self {
+        Self { cut: Cut::around_damage(source, rule, optics) }
     }
 
     /// Value and gradient at a point, which is moved into the box where it lies outside.

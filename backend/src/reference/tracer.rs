@@ -140,6 +140,17 @@ impl Reference {
         Ok(Self { tracer: Tracer::new(frame, integrator)?, field: StoredField::new(source, rule) })
     }
 
+    /// The same over a source of which some bricks cannot be read: see [`StoredField::around_damage`].
+    pub fn around_damage(
+        source: Arc<dyn BrickSource>,
+        frame: &FrameState,
+        rule: &LodRule,
+        integrator: Integrator,
+    ) -> Result<Self, ReferenceError> {
+        let field = StoredField::around_damage(source, rule, &frame.optics);
+        Ok(Self { tracer: Tracer::new(frame, integrator)?, field })
+    }
+
     /// What the ray from `origin_in_display` along `direction_in_display` sees.
     pub fn radiance(
         &self,

@@ -1,6 +1,7 @@
 //! One frame: a coarse look by few rays to fetch what they need, then every pixel, again where something was missing.
 
-use super::residency::{FrameRules, milliseconds};
+use super::residency::{Residency, milliseconds};
+use super::rules::FrameRules;
 use super::views::{ProjectorView, views};
 use super::{RenderError, RenderEvent, Renderer};
 use crate::device::{CastJob, CastOutcome, TileGrid};
@@ -17,6 +18,9 @@ const COARSE_STRIDE: u32 = 16;
 
 /// Cells are kept with a margin of one voxel for half a pair of steps.
 const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;
+
+/// Damaged bricks that a report tells of one by one.
+const MOST_DAMAGES: usize = 16;
 
 /// A frame being drawn.
 struct Drawing<'a> {
@@ -136,7 +140,8 @@ impl<'a> Drawing<'a> {
                 let outcome = self.cast(view, grid, &tiles)?;
                 let Renderer { residency, device, .. } = &mut *self.renderer;
                 let wanted = Touched::default().take_in(&mut residency.cut, &outcome.feedback, self.cast);
-                changed |= residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)?;
+                let refined = residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)?;
+                changed |= refined.has_changed;
                 alive();
             }
             if !changed {
@@ -159,8 +164,9 @@ impl<'a> Drawing<'a> {
             if wanted.is_empty() {
                 break;
             }
-            if !residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)? {
-                self.short.extend(wanted.iter().map(|want| residency.cut.node(want.place).key));
+            let refined = residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)?;
+            if !refined.has_changed {
+                self.short.extend(refined.without_room);
                 break;
             }
             tiles = outcome.missing_tiles;
@@ -179,12 +185,7 @@ impl<'a> Drawing<'a> {
     fn report(self, frame: &FrameState, working_sets: &WorkingSets, total_ms: f64) -> FrameReport {
         let residency = &mut self.renderer.residency;
         residency.wanted.extend(&working_sets.union);
-        let shortfall = match self.short.len() {
-            0 => String::new(),
-            nodes => format!(
-                "the brick cache is full: {nodes} nodes are shown coarser than the display resolves; make the cache larger"
-            ),
-        };
+        let shortfall = shortfall(self.short.len(), residency);
         FrameReport {
             frame: frame.index,
             backend: self.renderer.backend,
@@ -197,10 +198,29 @@ impl<'a> Drawing<'a> {
             bytes_loaded: residency.bytes_loaded,
             working_set_union: working_sets.union.len() as u64,
             working_set_sum: working_sets.sum,
-            complete: self.short.is_empty(),
+            complete: shortfall.is_empty(),
             shortfall,
+            damaged_bricks: residency.damage.missed(),
+            damaged: residency.damage.sentences(MOST_DAMAGES),
             stages: self.stages,
             total_ms,
         }
     }
+}
+
+/// Why a frame is not complete; empty where it is.
+fn shortfall(without_room: usize, residency: &Residency) -> String {
+    let full = (without_room > 0).then(|| {
+        format!(
+            "the brick cache is full: {without_room} nodes are shown coarser than the display resolves; make the cache larger"
+        )
+    });
+    let first = residency.damage.sentences(1).pop();
+    let damaged = first.map(|first| match residency.damage.missed() {
+        1 => format!("a brick cannot be read, and what is coarser is shown in its place: {first}"),
+        bricks => format!(
+            "{bricks} bricks cannot be read, and what is coarser is shown in their place; the first of them: {first}"
+        ),
+    });
+    full.into_iter().chain(damaged).collect::<Vec<_>>().join("; ")
 }

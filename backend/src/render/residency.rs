@@ -1,15 +1,15 @@
 //! The resident bricks: it carries out on the device what the cut asks for.
 
 use super::RenderError;
+use super::damage::Damage;
+use super::rules::FrameRules;
 use crate::device::Device;
 use crate::protocol::{FrameState, Stages};
-use crate::store::{BrickSource, CellRanges, NodeKey, NodeSummary, OctreeShape};
+use crate::store::{BrickError, BrickSource, CellRanges, NodeKey, OctreeShape};
 use crate::working_set::{
-    Cut, IndexRules, LoadedBrick, Loader, LodRule, ResidentBrick, SlotPool, Wanted, build_index,
+    Cut, IndexRules, LoadedBrick, Loader, ResidentBrick, SlotPool, Wanted, build_index, is_shown,
 };
 use shaders::layout::CELL_WORDS;
-use shaders::optics::Optics;
-use shaders::tables::Tables;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use std::time::Instant;
@@ -20,36 +20,27 @@ pub(super) struct Residency {
     source: Arc<dyn BrickSource>,
     shape: OctreeShape,
     slots: SlotPool,
-    loader: Loader,
+    loader: Arc<Loader>,
     /// Of each slot: the ranges of its cells.
     ranges: Vec<Option<CellRanges>>,
     /// Of each slot: the bits of its visible cells in this frame.
     cells: Vec<u32>,
+    /// Whether the cut is another one than the device's index tells.
+    is_index_stale: bool,
+    pub(super) damage: Damage,
     /// Bricks asked for in the current frame, resident or not.
     pub(super) wanted: HashSet<NodeKey>,
     pub(super) bricks_loaded: u64,
     pub(super) bytes_loaded: u64,
 }
 
-/// What one frame asks of the cut.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FrameRules<'a> {
-    pub(super) lod: LodRule,
-    pub(super) optics: &'a Optics,
-    pub(super) tables: &'a Tables,
-    /// Whether steps are short enough for the margin that cells are kept with.
-    pub(super) can_pass_over: bool,
-}
-
-impl FrameRules<'_> {
-    /// The bits of the cells of a brick that show anything.
-    fn visible_cells(&self, ranges: &CellRanges, brick: ResidentBrick) -> [u32; CELL_WORDS] {
-        let (low, high) = self.optics.domain;
-        let scalar =
-            |sample: u16| (brick.low + brick.span * f64::from(sample) / 65535.0 - low) / (high - low);
-        ranges
-            .visible(|least, most| !self.can_pass_over || !self.tables.is_vacant(scalar(least), scalar(most)))
-    }
+/// What became of what rays found too coarse.
+#[derive(Debug, Default)]
+pub(super) struct Refined {
+    /// Whether anything was tried: another cast may find more, or find what has become free.
+    pub(super) has_changed: bool,
+    /// Nodes for whose children the cache has no room.
+    pub(super) without_room: Vec<NodeKey>,
 }
 
 impl Residency {
@@ -60,9 +51,11 @@ impl Residency {
             source,
             shape,
             slots: SlotPool::new(slots),
-            loader,
+            loader: Arc::new(loader),
             ranges: vec![None; slots as usize],
             cells: vec![0; slots as usize * CELL_WORDS],
+            is_index_stale: true,
+            damage: Damage::default(),
             wanted: HashSet::new(),
             bricks_loaded: 0,
             bytes_loaded: 0,
@@ -84,6 +77,9 @@ impl Residency {
 
     /// Starts a frame: counters at zero, and a brick for every node of the cut that this frame's transfer functions
     /// show and an earlier frame's did not.
+    ///
+    /// # Errors
+    /// The root's brick cannot be read: then there is nothing to draw any node from.
     pub(super) fn start_frame(
         &mut self,
         frame: &FrameState,
@@ -92,32 +88,30 @@ impl Residency {
         stages: &mut Stages,
     ) -> Result<(), RenderError> {
         self.wanted.clear();
+        self.damage.start_frame();
         (self.bricks_loaded, self.bytes_loaded) = (0, 0);
-        let newly_visible = |this: &Self| -> Vec<u32> {
-            this.cut
-                .walk()
-                .filter(|&p| {
-                    this.cut.node(p).brick.is_none() && !this.rules(rules).is_empty(this.cut.node(p))
-                })
-                .collect()
-        };
-        let mut places = newly_visible(self);
+        let known: Vec<u32> =
+            self.newly_visible(rules).into_iter().filter(|&p| self.known_damage(p).is_some()).collect();
+        self.give_up(&known)?;
+        let mut places = self.newly_visible(rules);
         // Where the cache does not hold them, give up the least recently used detail; the root alone always fits.
         while places.len() > self.slots.free() {
             let Some(&oldest) = self.cut.collapsible(u64::MAX).first() else { break };
             self.collapse(oldest);
-            places = newly_visible(self);
+            places = self.newly_visible(rules);
         }
         tracing::debug!(frame = frame.index, bricks = places.len(), "bricks that became visible");
         self.refresh_cells(rules);
-        let keys: Vec<(NodeKey, u32)> = places.iter().map(|&p| (self.cut.node(p).key, p)).collect();
-        self.load(&keys, rules, device, stages)?;
+        self.load(&places, rules, device, stages)?;
         self.write_index(rules, device, stages);
         Ok(())
     }
 
-    /// Splits what rays found too coarse, as far as the cache goes; tells whether anything changed. Families that
-    /// cast `protect` or a later one used stay.
+    /// Splits what rays found too coarse, as far as the cache goes and bricks can be read. Families that cast
+    /// `protect` or a later one used stay.
+    ///
+    /// # Errors
+    /// The loader ended.
     pub(super) fn refine(
         &mut self,
         wanted: &[Wanted],
@@ -125,29 +119,42 @@ impl Residency {
         rules: &FrameRules,
         device: &mut Device,
         stages: &mut Stages,
-    ) -> Result<bool, RenderError> {
+    ) -> Result<Refined, RenderError> {
         let started = Instant::now();
         let mut to_load = Vec::new();
-        let mut any = false;
+        let mut families = Vec::new();
+        let mut refined = Refined::default();
         for want in wanted {
             let key = self.cut.node(want.place).key;
             let visible: Vec<NodeKey> =
                 (0..8).map(|o| key.child(o)).filter(|&k| self.is_visible(k, rules)).collect();
             self.wanted.extend(&visible);
-            if !self.make_room(visible.len() + to_load.len(), protect) {
+            if self.damage.note_missed(&visible) {
                 continue;
             }
-            let (shape, source) = (self.shape, &self.source);
-            let first = self.cut.split(want.place, |k| shape.contains(k).then(|| source.summary(k)));
-            to_load.extend((0..8).map(|o| (key.child(o), first + o)).filter(|(k, _)| visible.contains(k)));
-            any = true;
+            if !self.make_room(visible.len() + to_load.len(), protect) {
+                refined.without_room.push(key);
+                continue;
+            }
+            let first = self.split(want.place);
+            to_load.extend((0..8).filter(|&o| visible.contains(&key.child(o))).map(|o| first + o));
+            families.extend(visible);
+            refined.has_changed = true;
         }
         stages.refine_ms += milliseconds(started);
         self.load(&to_load, rules, device, stages)?;
-        if any {
+        self.damage.note_missed(&families);
+        if self.is_index_stale {
             self.write_index(rules, device, stages);
         }
-        Ok(any)
+        Ok(refined)
+    }
+
+    /// Nodes of the cut that the frame shows and that have no brick.
+    fn newly_visible(&self, rules: &FrameRules) -> Vec<u32> {
+        let rules = self.rules(rules);
+        let lacks_brick = |&p: &u32| self.cut.node(p).brick.is_none() && !rules.is_empty(self.cut.node(p));
+        self.cut.walk().filter(lacks_brick).collect()
     }
 
     /// Tells the visible cells of all resident bricks anew: the transfer functions may have changed.
@@ -161,10 +168,11 @@ impl Residency {
     }
 
     fn is_visible(&self, key: NodeKey, rules: &FrameRules) -> bool {
-        self.shape.contains(key) && {
-            let NodeSummary { min, max } = self.source.summary(key);
-            !rules.optics.is_empty_on(f64::from(min), f64::from(max))
-        }
+        self.shape.contains(key) && is_shown(rules.optics, self.source.summary(key))
+    }
+
+    fn known_damage(&self, place: u32) -> Option<&BrickError> {
+        self.damage.of(self.cut.node(place).key)
     }
 
     /// Frees slots until `needed` are free; tells whether that worked.
@@ -176,46 +184,84 @@ impl Residency {
         true
     }
 
+    fn split(&mut self, place: u32) -> u32 {
+        self.is_index_stale = true;
+        let (shape, source) = (self.shape, &self.source);
+        self.cut.split(place, |k| shape.contains(k).then(|| source.summary(k)))
+    }
+
     fn collapse(&mut self, place: u32) {
-        for slot in self.cut.collapse(place) {
+        self.is_index_stale = true;
+        for slot in self.cut.collapse_all(place) {
             self.slots.give(slot);
         }
     }
 
-    /// Fetches the bricks of some places of the cut and puts them into the cache.
+    /// Makes the parents of unreadable nodes leaves again: siblings, and what is below them, go. A picture then does
+    /// not depend on what earlier frames had loaded, nor on which brick of a family came first.
+    ///
+    /// # Errors
+    /// The root is among them: nothing is coarser.
+    fn give_up(&mut self, unreadable: &[u32]) -> Result<(), BrickError> {
+        let mut lost_root = Ok(());
+        for &place in unreadable {
+            let node = self.cut.node(place);
+            match (node.parent, self.damage.of(node.key)) {
+                // An unreadable sibling or uncle may have taken the family away already.
+                (Some(parent), _) if self.cut.node(parent).first_child.is_none() => {}
+                (Some(parent), _) => self.collapse(parent),
+                (None, error) => lost_root = error.cloned().map_or(Ok(()), Err),
+            }
+        }
+        lost_root
+    }
+
+    /// Fetches the bricks of some places of the cut, coarse ones first, and puts them into the cache; families with a
+    /// brick that cannot be read are given up.
+    ///
+    /// # Errors
+    /// The root's brick cannot be read, or the loader ended.
     fn load(
         &mut self,
-        wanted: &[(NodeKey, u32)],
+        wanted: &[u32],
         rules: &FrameRules,
         device: &mut Device,
         stages: &mut Stages,
-    ) -> Result<(), RenderError> {
+    ) -> Result<(), BrickError> {
         if wanted.is_empty() {
             return Ok(());
         }
         let started = Instant::now();
         let mut upload_ms = 0.0;
-        let places: HashMap<NodeKey, u32> = wanted.iter().copied().collect();
-        let keys: Vec<NodeKey> = wanted.iter().map(|&(key, _)| key).collect();
-        let (cut, slots) = (&mut self.cut, &mut self.slots);
-        let (ranges, all_cells) = (&mut self.ranges, &mut self.cells);
-        let (bricks_loaded, bytes_loaded) = (&mut self.bricks_loaded, &mut self.bytes_loaded);
-        let outcome = self.loader.fetch(&keys, |LoadedBrick { key, samples, cells, low, span, bytes }| {
-            let upload = Instant::now();
-            let slot = slots.take().expect("room was made before loading");
-            device.write_brick(slot, &samples);
-            let brick = ResidentBrick { slot, low, span };
-            cut.set_brick(places[&key], brick);
-            let start = slot as usize * CELL_WORDS;
-            all_cells[start..start + CELL_WORDS].copy_from_slice(&rules.visible_cells(&cells, brick));
-            ranges[slot as usize] = Some(cells);
-            *bricks_loaded += 1;
-            *bytes_loaded += bytes;
-            upload_ms += milliseconds(upload);
-        });
+        let keys: Vec<NodeKey> = wanted.iter().map(|&place| self.cut.node(place).key).collect();
+        let places: HashMap<NodeKey, u32> = keys.iter().copied().zip(wanted.iter().copied()).collect();
+        let loader = Arc::clone(&self.loader);
+        loader.fetch(&keys, |(key, fetched)| match fetched {
+            Ok(brick) => {
+                let upload = Instant::now();
+                self.put(places[&key], brick, rules, device);
+                upload_ms += milliseconds(upload);
+            }
+            Err(error) => self.damage.learn(key, error),
+        })?;
         stages.upload_ms += upload_ms;
         stages.load_ms += milliseconds(started) - upload_ms;
-        Ok(outcome?)
+        let unreadable: Vec<u32> =
+            wanted.iter().copied().filter(|&place| self.known_damage(place).is_some()).collect();
+        self.give_up(&unreadable)
+    }
+
+    /// Puts a brick into a free slot.
+    fn put(&mut self, place: u32, loaded: LoadedBrick, rules: &FrameRules, device: &mut Device) {
+        let slot = self.slots.take().expect("room was made before loading");
+        device.write_brick(slot, &loaded.samples);
+        let brick = ResidentBrick { slot, low: loaded.low, span: loaded.span };
+        self.cut.set_brick(place, brick);
+        let start = slot as usize * CELL_WORDS;
+        self.cells[start..start + CELL_WORDS].copy_from_slice(&rules.visible_cells(&loaded.cells, brick));
+        self.ranges[slot as usize] = Some(loaded.cells);
+        self.bricks_loaded += 1;
+        self.bytes_loaded += loaded.bytes;
     }
 
     fn write_index(&mut self, rules: &FrameRules, device: &mut Device, stages: &mut Stages) {
@@ -224,6 +270,7 @@ impl Residency {
         stages.refine_ms += milliseconds(started);
         let started = Instant::now();
         device.write_index(&index, &self.cells);
+        self.is_index_stale = false;
         stages.upload_ms += milliseconds(started);
     }
 }

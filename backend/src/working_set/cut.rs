@@ -110,6 +110,19 @@ impl Cut {
         children.iter_mut().filter_map(|child| child.brick.take().map(|brick| brick.slot)).collect()
     }
 
+    /// Drops all that is below a node, which must be an inner one; yields the slots of their bricks.
+    pub fn collapse_all(&mut self, place: u32) -> Vec<u32> {
+        let first = self.node(place).first_child.expect("only an inner node is collapsed");
+        let mut slots = Vec::new();
+        for child in first..first + 8 {
+            if self.node(child).first_child.is_some() {
+                slots.extend(self.collapse_all(child));
+            }
+        }
+        slots.extend(self.collapse(place));
+        slots
+    }
+
     /// Whether a place holds a node of the cut, not the remains of a collapsed family.
     pub fn is_live(&self, place: u32) -> bool {
         place == 0 || !self.free_families.contains(&(place - (place - 1) % 8))
@@ -167,6 +180,20 @@ mod tests {
         assert_eq!(cut.split(0, |_| Some(ANY)), first);
         assert_eq!(cut.nodes().len(), 9);
         assert_eq!(cut.node(first + 3).brick, None);
+    }
+
+    #[test]
+    fn all_below_a_node_goes_at_once() {
+        let mut cut = Cut::new(ANY);
+        let first = cut.split(0, |_| Some(ANY));
+        cut.set_brick(first, brick(1));
+        let below = cut.split(first, |_| Some(ANY));
+        cut.set_brick(below + 7, brick(2));
+        let mut slots = cut.collapse_all(0);
+        slots.sort_unstable();
+        assert_eq!((slots, cut.walk().count()), (vec![1, 2], 1));
+        assert!(!cut.is_live(first) && !cut.is_live(below + 7));
+        assert_eq!(cut.node(first).first_child, None);
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub struct IndexRules<'a> {
 impl IndexRules<'_> {
     /// Whether a node leaves the picture as it is: outside the volume, or nothing visible in its range.
     pub fn is_empty(&self, node: &CutNode) -> bool {
-        node.summary.is_none_or(|s| self.optics.is_empty_on(f64::from(s.min), f64::from(s.max)))
+        node.summary.is_none_or(|summary| !is_shown(self.optics, summary))
     }
 
     /// Levels that a node is too coarse by; at most 0 where no finer level exists.
@@ -58,6 +58,11 @@ impl IndexRules<'_> {
             (_, Compositing::Mimda(_)) | (None, _) => f64::from(f32::MAX),
         }
     }
+}
+
+/// Whether transfer functions show any value between a node's bounds.
+pub fn is_shown(optics: &Optics, NodeSummary { min, max }: NodeSummary) -> bool {
+    !optics.is_empty_on(f64::from(min), f64::from(max))
 }
 
 /// One record per place of the cut, with its neighbour links. A link leads to the node beyond the face at the same

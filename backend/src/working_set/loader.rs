@@ -8,8 +8,6 @@ use std::thread::JoinHandle;
 /// A brick as a device's cache holds it.
 #[derive(Clone, Debug)]
 pub struct LoadedBrick {
-    /// Which node.
-    pub key: NodeKey,
     /// 32³ samples; 65535 stands for 1. 8-bit codes are spread over the same range without loss.
     pub samples: Vec<u16>,
     /// Range of the samples around each of the 8³ cells.
@@ -22,11 +20,14 @@ pub struct LoadedBrick {
     pub bytes: u64,
 }
 
+/// A node, and its brick or why it cannot be had.
+pub type Fetched = (NodeKey, Result<LoadedBrick, BrickError>);
+
 /// A few threads that read bricks.
 #[derive(Debug)]
 pub struct Loader {
     requests: Option<Sender<NodeKey>>,
-    results: Receiver<Result<LoadedBrick, BrickError>>,
+    results: Receiver<Fetched>,
     threads: Vec<JoinHandle<()>>,
 }
 
@@ -40,7 +41,7 @@ impl Loader {
                 let (source, inbox, outbox) = (Arc::clone(&source), inbox.clone(), outbox.clone());
                 std::thread::spawn(move || {
                     for key in inbox {
-                        if outbox.send(load(&*source, key)).is_err() {
+                        if outbox.send((key, load(&*source, key))).is_err() {
                             return;
                         }
                     }
@@ -50,23 +51,19 @@ impl Loader {
         Self { requests: Some(requests), results, threads }
     }
 
-    /// Fetches bricks, in any order of arrival, and hands each to `arrived`.
+    /// Fetches bricks, in any order of arrival, and hands each, or why it cannot be had, to `arrived`.
     ///
     /// # Errors
-    /// The first brick that could not be had; the others are waited for all the same.
-    pub fn fetch(&self, keys: &[NodeKey], mut arrived: impl FnMut(LoadedBrick)) -> Result<(), BrickError> {
+    /// The threads ended before their time.
+    pub fn fetch(&self, keys: &[NodeKey], mut arrived: impl FnMut(Fetched)) -> Result<(), BrickError> {
         let requests = self.requests.as_ref().expect("requests end only when the loader is dropped");
         for &key in keys {
             requests.send(key).map_err(|_| lost())?;
         }
-        let mut outcome = Ok(());
         for _ in keys {
-            match self.results.recv().map_err(|_| lost())? {
-                Ok(brick) => arrived(brick),
-                Err(error) => outcome = Err(error),
-            }
+            arrived(self.results.recv().map_err(|_| lost())?);
         }
-        outcome
+        Ok(())
     }
 }
 
@@ -109,7 +106,6 @@ fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickErro
         )));
     }
     Ok(LoadedBrick {
-        key,
         samples,
         cells,
         low: f64::from(brick.low),

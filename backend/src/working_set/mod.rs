@@ -8,8 +8,8 @@ mod slots;
 mod touched;
 
 pub use cut::{Cut, CutNode, ResidentBrick};
-pub use index::{IndexRules, build_index};
-pub use loader::{LoadedBrick, Loader};
+pub use index::{IndexRules, build_index, is_shown};
+pub use loader::{Fetched, LoadedBrick, Loader};
 pub use lod::LodRule;
 pub use slots::SlotPool;
 pub use touched::{Touched, Wanted};

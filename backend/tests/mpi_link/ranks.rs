@@ -82,6 +82,8 @@ fn report(frame: u32, backend: u32) -> FrameReport {
         working_set_sum: 8,
         complete: true,
         shortfall: String::new(),
+        damaged_bricks: 0,
+        damaged: Vec::new(),
         stages: Stages::default(),
         total_ms: 0.25,
     }

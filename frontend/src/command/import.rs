@@ -1,6 +1,7 @@
 //! `lightloom import`.
 
 use super::say;
+use super::table::level_table;
 use crate::FrontendError;
 use crate::cli::ImportArgs;
 use crate::progress::Progress;
@@ -20,12 +21,16 @@ pub(super) fn import(args: &ImportArgs) -> Result<(), FrontendError> {
 
 fn text(args: &ImportArgs, summary: &ImportSummary) -> String {
     let (dims, (low, high)) = (summary.dims, summary.value_range);
+    let size_mm = summary.frame.voxel_size_m * 1e3;
     let mut text = format!(
-        "{}: {} × {} × {} voxels from {low} to {high}; {} in, {} out in {} bricks, {}; error RMS {:.3e}, largest {:.3e}",
+        "{}: {} × {} × {} voxels of {:.3} × {:.3} × {:.3} mm from {low} to {high}; {} in, {} out in {} bricks, {}; error RMS {:.3e}, largest {:.3e}",
         args.output.display(),
         dims.x,
         dims.y,
         dims.z,
+        size_mm.x,
+        size_mm.y,
+        size_mm.z,
         units::bytes(summary.source_bytes),
         units::bytes(summary.store_bytes),
         units::count(summary.stored_bricks),
@@ -33,11 +38,18 @@ fn text(args: &ImportArgs, summary: &ImportSummary) -> String {
         summary.rms_error,
         summary.max_error,
     );
+    if summary.frame.is_orientation_known {
+        text += &format!("; patient axes: {}", summary.frame.orientation);
+    }
+    if summary.emptied_bricks > 0 {
+        text += &format!("; {} bricks were left out as empty", units::count(summary.emptied_bricks));
+    }
     if summary.non_finite > 0 {
         text += &format!(
             "; {} voxels were not finite numbers and were replaced",
             units::count(summary.non_finite)
         );
     }
-    text
+    let levels = level_table(&summary.level_errors);
+    if levels.is_empty() { text } else { format!("{text}\n{}", levels.trim_end()) }
 }

@@ -2,7 +2,10 @@
 
 mod displays;
 mod import;
+mod info;
 mod simulate;
+mod table;
+mod verify;
 
 use crate::FrontendError;
 use crate::cli::Command;
@@ -13,6 +16,8 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
     match command {
         Command::Simulate(args) => simulate::simulate(args),
         Command::Import(args) => import::import(args),
+        Command::Info(args) => info::info(args),
+        Command::Verify(args) => verify::verify(args),
         Command::Displays => displays::displays(),
     }
 }

@@ -65,6 +65,10 @@ pub struct Totals {
     pub working_set_sum: u64,
     /// Time per stage, added up over back-ends.
     pub stages: Stages,
+    /// Bricks that cannot be read and were missed, added up over back-ends and frames.
+    pub damaged_bricks: u64,
+    /// What is wrong with them: each sentence once.
+    pub damaged: Vec<String>,
     /// Whether nothing was missing anywhere.
     pub complete: bool,
     /// Why not, for each back-end that was not complete.
@@ -87,6 +91,12 @@ impl Totals {
         self.working_set_union += report.working_set_union;
         self.working_set_sum += report.working_set_sum;
         self.stages = stages_sum(self.stages, report.stages);
+        self.damaged_bricks += report.damaged_bricks;
+        for sentence in &report.damaged {
+            if !self.damaged.contains(sentence) {
+                self.damaged.push(sentence.clone());
+            }
+        }
         self.complete &= report.complete;
         if !report.complete {
             self.shortfall.push(format!("back-end {}: {}", report.backend, report.shortfall));

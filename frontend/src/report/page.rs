@@ -3,6 +3,7 @@
 use super::html::{embedded_image, escape, facts, table};
 use super::stage_bar::stage_bar;
 use super::{FrameSummary, Report, Totals, units};
+use crate::orientation::describe;
 use crate::simulate::CONTACT_SHEET;
 use backend::output::OutputError;
 use std::path::Path;
@@ -67,10 +68,18 @@ fn notes(report: &Report) -> String {
     let incomplete = report.frames.iter().filter(|frame| !frame.total.complete);
     let shortfalls = incomplete
         .map(|frame| format!("Frame {} is not complete: {}", frame.index, frame.total.shortfall.join("; ")));
-    shortfalls
-        .chain(report.eye_warnings())
-        .map(|note| format!("<p class=\"note\">{}</p>", escape(&note)))
-        .collect()
+    let notes = shortfalls.chain(report.eye_warnings());
+    let notes: String = notes.map(|note| format!("<p class=\"note\">{}</p>", escape(&note))).collect();
+    format!("{notes}{}", damages(&report.total))
+}
+
+/// The bricks that could not be read; nothing where all could.
+fn damages(total: &Totals) -> String {
+    if total.damaged.is_empty() {
+        return String::new();
+    }
+    let rows: String = total.damaged.iter().map(|one| format!("<li>{}</li>", escape(one))).collect();
+    format!("<h2>Damaged bricks</h2><p>Their parents are shown in their place.</p><ul>{rows}</ul>")
 }
 
 fn eyes(report: &Report, out: &Path) -> Result<String, OutputError> {
@@ -122,12 +131,13 @@ fn setting(report: &Report) -> String {
 fn scene_facts(report: &Report) -> String {
     let scene = &report.scene;
     let (dims, size_mm, (low, high)) =
-        (scene.facts.dims, scene.facts.voxel_size_m * 1e3, scene.facts.value_range);
+        (scene.facts.dims, scene.facts.voxel_size_m() * 1e3, scene.facts.value_range);
     let quality = scene.quality;
     facts(&[
         ("volume", scene.volume.clone()),
         ("voxels", format!("{} × {} × {}", dims.x, dims.y, dims.z)),
         ("voxel as the data say", format!("{:.3} × {:.3} × {:.3} mm", size_mm.x, size_mm.y, size_mm.z)),
+        ("patient axes", describe(&scene.facts.frame)),
         ("values", format!("{low} to {high}")),
         ("longest edge in the display", format!("{:.3} m", scene.longest_m)),
         ("step", format!("{} voxels", quality.step_voxels)),

@@ -48,13 +48,6 @@ pub struct VolumeAxes {
     front: DVec3,
 }
 
-impl Default for VolumeAxes {
-    /// The volume's x right, y up, z to the viewers.
-    fn default() -> Self {
-        Self { right: DVec3::X, up: DVec3::Y, front: DVec3::Z }
-    }
-}
-
 impl VolumeAxes {
     /// From the axes that point up and to the viewers. `right` is their cross product unless it is given: data that
     /// were stored mirrored need the other one. None where two lie along one line.

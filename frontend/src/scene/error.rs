@@ -52,6 +52,15 @@ pub enum SceneError {
         /// What is wrong, and what to do.
         message: String,
     },
+    /// The scene's look depends on a volume that is not known yet.
+    #[error(
+        "{} has no [optics] in data values, so what it shows depends on the smallest and largest value of a volume, which an import knows only at its end; add [optics] to it, or leave bricks out with --empty-below",
+        path.display()
+    )]
+    RelativeLook {
+        /// The scene file.
+        path: PathBuf,
+    },
     /// The look does not fit the volume.
     #[error("the scene's look does not fit the volume, whose values run from {low} to {high}: {reason}")]
     Look {

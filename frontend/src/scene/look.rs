@@ -37,7 +37,7 @@ impl Look {
     /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display.
     pub fn optics(&self, value_range: (f64, f64), longest_m: f64) -> Result<Optics, SceneError> {
         let result = match self {
-            Look::InDataUnits(look) => look.optics(value_range),
+            Look::InDataUnits(look) => look.optics(look.domain.unwrap_or_else(|| interval(value_range))),
             Look::Relative { depth_across, colour } => {
                 let per_metre =
                     depth_across.points().iter().map(|&(s, depth)| (s, depth / longest_m)).collect();
@@ -50,14 +50,28 @@ impl Look {
                 })
             }
         };
-        let optics = result.and_then(|optics| optics.check().map_err(|e| e.to_string()).map(|()| optics));
-        optics.map_err(|reason| SceneError::Look { low: value_range.0, high: value_range.1, reason })
+        checked(result, value_range)
     }
 }
 
+fn checked(optics: Result<Optics, String>, (low, high): (f64, f64)) -> Result<Optics, SceneError> {
+    let optics = optics.and_then(|optics| optics.check().map_err(|e| e.to_string()).map(|()| optics));
+    optics.map_err(|reason| SceneError::Look { low, high, reason })
+}
+
 impl DataLook {
-    fn optics(&self, value_range: (f64, f64)) -> Result<Optics, String> {
-        let domain = self.domain.unwrap_or_else(|| interval(value_range));
+    /// Optics that show the same data values as this look does of any volume. Where the look has no domain, one that
+    /// reaches beyond all control points will do: outside them curves are constant.
+    pub(super) fn visibility(&self) -> Result<Optics, SceneError> {
+        let importance = self.mimda.iter().flat_map(|mimda| mimda.importance.points());
+        let values = self.extinction.points().iter().chain(importance).map(|point| point.0);
+        let span = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        let (low, high) = interval(span);
+        let domain = self.domain.unwrap_or((low - (high - low), high + (high - low)));
+        checked(self.optics(domain), domain)
+    }
+
+    fn optics(&self, domain: (f64, f64)) -> Result<Optics, String> {
         let mimda = match &self.mimda {
             None => None,
             Some(mimda) => {
@@ -106,6 +120,16 @@ mod tests {
             let optics = look(domain).optics((-1024.0, 3033.0), 0.7).unwrap();
             let at = |v: f64| optics.extinction.at(optics.normalise(v));
             assert!((at(50.0) - 5.5).abs() < 1e-9, "{domain:?}");
+        }
+    }
+
+    #[test]
+    fn what_a_look_shows_is_known_before_any_volume() {
+        for domain in [None, Some((-1000.0, 1000.0))] {
+            let Look::InDataUnits(look) = look(domain) else { panic!("it is in data units") };
+            let shown = look.visibility().unwrap();
+            assert!(shown.is_empty_on(-3000.0, -500.0) && !shown.is_empty_on(-3000.0, -499.0), "{domain:?}");
+            assert!(!shown.is_empty_on(7000.0, 9000.0), "{domain:?}");
         }
     }
 

@@ -25,7 +25,7 @@ pub use volume::{VolumeFacts, VolumeSource};
 use backend::protocol::{FrameState, Tool, ToolKind, VolumeRef};
 use display_config::Display;
 use glam::DVec3;
-use shaders::optics::{Light, Quality};
+use shaders::optics::{Light, Optics, Quality};
 use std::path::Path;
 
 /// A scene, read and checked. Everything that is the same in all frames is here; `motion` holds the rest.
@@ -35,7 +35,7 @@ pub struct Scene {
     pub name: String,
     /// Which volume.
     pub volume: VolumeSource,
-    /// Edge lengths of a voxel, metres, in place of what the volume says of itself.
+    /// Edge lengths of a voxel, metres, in place of what the volume says of itself; its axes' directions stay.
     pub voxel_size_m: Option<DVec3>,
     /// Where the volume floats.
     pub placement: Placement,
@@ -74,6 +74,18 @@ impl Scene {
         }
     }
 
+    /// What the transfer functions of a scene file show of any volume: of its [`Optics`], only which data values they
+    /// show means anything. The scene's own volume need not be there.
+    ///
+    /// # Errors
+    /// A file that is no scene, or one whose look depends on the volume.
+    pub fn visibility_in_file(path: &Path) -> Result<Optics, SceneError> {
+        match read::scene_without_volume(path)?.look {
+            Look::InDataUnits(look) => look.visibility(),
+            Look::Relative { .. } => Err(SceneError::RelativeLook { path: path.to_owned() }),
+        }
+    }
+
     /// How a back-end is told of the volume.
     pub fn volume_ref(&self) -> VolumeRef {
         match &self.volume {
@@ -94,16 +106,17 @@ impl Scene {
         facts: &VolumeFacts,
     ) -> Result<FrameState, SceneError> {
         let time_s = f64::from(index) / self.rate_hz;
-        let spacing_m = self.voxel_size_m.unwrap_or(facts.voxel_size_m);
+        let spacing_m = self.voxel_size_m.unwrap_or(facts.voxel_size_m());
         let extent_m = facts.dims.as_dvec3() * spacing_m;
         let scale = self.placement.scale(extent_m, display);
+        let place = self.placement_at(time_s);
         let observer = self.observer_m.unwrap_or(display.observer_in_display);
         Ok(FrameState {
             index,
             time_s,
             observer_in_display: self.motion.observer_m.at(time_s).unwrap_or(observer),
             eta: self.eta.unwrap_or(display.eta),
-            display_from_volume: self.placement_at(time_s).display_from_volume(facts.dims, spacing_m, scale),
+            display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
             optics: self.look.optics(facts.value_range, extent_m.max_element() * scale)?,
             light: self.light,
             quality: self.quality,

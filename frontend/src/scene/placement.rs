@@ -1,6 +1,7 @@
 //! Where a volume floats.
 
 use super::VolumeAxes;
+use backend::volume::{Space, VolumeFrame};
 use display_config::Display;
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
 
@@ -22,8 +23,9 @@ pub struct Placement {
     pub centre_m: DVec3,
     /// Its turn about the centre, after the axes were laid out.
     pub rotation: DQuat,
-    /// Which way it stands.
-    pub axes: VolumeAxes,
+    /// Which way it stands; None as the volume itself says: a patient upright and facing the viewers, and any other
+    /// volume with the axes of its file's space to the right, up and to the viewers.
+    pub axes: Option<VolumeAxes>,
     /// Its size.
     pub size: Size,
 }
@@ -31,8 +33,8 @@ pub struct Placement {
 impl Default for Placement {
     /// In the middle of the screen, half before it, three quarters of it high.
     fn default() -> Self {
-        let (axes, size) = (VolumeAxes::default(), Size::ScreenShare(0.75));
-        Self { centre_m: DVec3::ZERO, rotation: DQuat::IDENTITY, axes, size }
+        let size = Size::ScreenShare(0.75);
+        Self { centre_m: DVec3::ZERO, rotation: DQuat::IDENTITY, axes: None, size }
     }
 }
 
@@ -48,13 +50,24 @@ impl Placement {
         }
     }
 
-    /// Volume frame (voxels of `spacing_m`) to display frame; the volume's centre goes to `centre_m`.
-    pub fn display_from_volume(&self, dims: UVec3, spacing_m: DVec3, scale: f64) -> DAffine3 {
-        let turn = DMat3::from_quat(self.rotation) * self.axes.display_from_volume();
-        let linear = turn * DMat3::from_diagonal(spacing_m * scale);
+    /// Volume frame (voxels of `voxel_m` in the display) to display frame; the volume's centre goes to `centre_m`. Of
+    /// `frame`, the directions count, mirrored and sheared ones as they are, where the scene does not name axes.
+    pub fn display_from_volume(&self, dims: UVec3, voxel_m: DVec3, frame: &VolumeFrame) -> DAffine3 {
+        let stand = match (self.axes, frame.space) {
+            (Some(axes), _) => axes.display_from_volume(),
+            (None, Space::Patient) => upright_from_patient() * frame.directions(),
+            (None, Space::Unknown) => frame.directions(),
+        };
+        let linear = DMat3::from_quat(self.rotation) * stand * DMat3::from_diagonal(voxel_m);
         let centre_in_volume = 0.5 * dims.as_dvec3();
         DAffine3::from_mat3_translation(linear, self.centre_m - linear * centre_in_volume)
     }
+}
+
+/// A patient (x to the left hand, y to the back, z to the head) who stands and faces the viewers: the head is up, and
+/// the left hand at the viewers' right.
+fn upright_from_patient() -> DMat3 {
+    DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y)
 }
 
 /// Degrees about the display's x, then y, then z axis.
@@ -77,8 +90,9 @@ mod tests {
             size: Size::LongestM(0.7),
             ..Default::default()
         };
-        let extent_m = DIMS.as_dvec3() * SPACING_M;
-        let map = place.display_from_volume(DIMS, SPACING_M, 0.7 / extent_m.max_element());
+        let frame = VolumeFrame::of_voxels(SPACING_M);
+        let scale = 0.7 / (DIMS.as_dvec3() * SPACING_M).max_element();
+        let map = place.display_from_volume(DIMS, SPACING_M * scale, &frame);
         assert!((map.transform_point3(0.5 * DIMS.as_dvec3()) - place.centre_m).length() < 1e-15);
         let edge = |axis: DVec3| map.transform_vector3(axis * DIMS.as_dvec3()).length();
         assert!((edge(DVec3::X) - 0.7).abs() < 1e-12);

@@ -15,7 +15,7 @@ use super::{
 use backend::protocol::Tool;
 use glam::{DVec3, UVec3};
 use shaders::optics::{Curve, CurveError, CurveValue, Light, Mimda, MimdaForm, Quality};
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 use toml::Spanned;
 
@@ -23,15 +23,20 @@ type Checked<T> = Result<T, SceneError>;
 
 /// Reads a scene file; its volume must be there.
 pub(super) fn scene_from_file(path: &Path) -> Checked<Scene> {
-    let read = |source| SceneError::Read { path: path.to_owned(), source };
-    let text =
-        SceneText { file: path.display().to_string(), text: std::fs::read_to_string(path).map_err(read)? };
-    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let scene = scene_from_text(&text, &name, path.parent().unwrap_or(Path::new("")))?;
+    let scene = scene_without_volume(path)?;
     match &scene.volume {
         VolumeSource::Store(store) if !store.is_file() => Err(SceneError::NoStore { path: store.clone() }),
         _ => Ok(scene),
     }
+}
+
+/// Reads a scene file, whether its volume is there or not.
+pub(super) fn scene_without_volume(path: &Path) -> Checked<Scene> {
+    let read = |source| SceneError::Read { path: path.to_owned(), source };
+    let text =
+        SceneText { file: path.display().to_string(), text: std::fs::read_to_string(path).map_err(read)? };
+    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    scene_from_text(&text, &name, path.parent().unwrap_or(Path::new("")))
 }
 
 /// The scene of a text; stores are looked for from `folder`.
@@ -102,13 +107,20 @@ impl SceneText {
         };
         let centre_m = self.optional_point(&place.centre_m)?.unwrap_or(DVec3::ZERO);
         let deg = self.optional_point(&place.rotation_deg)?.unwrap_or(DVec3::ZERO);
-        let up = place.up.as_ref().map_or(VolumeAxis::PlusY, |up| *up.get_ref());
-        let span = place.up.as_ref().map_or(table.span(), Spanned::span);
-        let axes =
-            VolumeAxes::new(up, place.front.unwrap_or(VolumeAxis::PlusZ), place.right).ok_or_else(|| {
-                self.wrong(span, "up, front and right must be three different axes of the volume")
-            })?;
+        let axes = self.axes(place, table.span())?;
         Ok(Placement { centre_m, rotation: rotation_from_deg(deg), axes, size })
+    }
+
+    /// Which way the volume stands; None where the file leaves it to the volume.
+    fn axes(&self, place: &PlacementTable, table: Range<usize>) -> Checked<Option<VolumeAxes>> {
+        if place.up.is_none() && place.front.is_none() && place.right.is_none() {
+            return Ok(None);
+        }
+        let up = place.up.as_ref().map_or(VolumeAxis::PlusY, |up| *up.get_ref());
+        let span = place.up.as_ref().map_or(table, Spanned::span);
+        let axes = VolumeAxes::new(up, place.front.unwrap_or(VolumeAxis::PlusZ), place.right);
+        let message = "up, front and right must be three different axes of the volume";
+        axes.map(Some).ok_or_else(|| self.wrong(span, message))
     }
 
     /// The look of the file; None where it leaves it to the volume.

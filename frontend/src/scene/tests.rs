@@ -2,8 +2,9 @@
 
 use super::text::SceneText;
 use super::*;
+use backend::volume::{Space, VolumeFrame};
 use display_config::{Homography, Projector, Raster};
-use glam::{DMat3, UVec3};
+use glam::{DAffine3, DMat3, UVec3};
 
 fn display() -> Display {
     let raster = Raster { width: 8, height: 6, screen_from_pixel: Homography(DMat3::IDENTITY), output: None };
@@ -23,7 +24,15 @@ fn display() -> Display {
 
 const FACTS: VolumeFacts = VolumeFacts {
     dims: UVec3::new(256, 256, 108),
-    voxel_size_m: DVec3::new(0.957e-3, 0.957e-3, 1.5e-3),
+    frame: VolumeFrame {
+        axes_m: DMat3::from_cols(
+            DVec3::new(0.957e-3, 0.0, 0.0),
+            DVec3::new(0.0, 0.957e-3, 0.0),
+            DVec3::new(0.0, 0.0, 1.5e-3),
+        ),
+        origin_m: DVec3::ZERO,
+        space: Space::Unknown,
+    },
     value_range: (-1024.0, 3033.0),
 };
 
@@ -91,6 +100,91 @@ fn a_head_stands_upright_at_its_size() {
     let up = map.transform_vector3(DVec3::new(0.0, 0.0, 108.0));
     assert!(up.y > 0.0 && up.x.abs() < 1e-15 && up.z.abs() < 1e-15);
     assert!((map.transform_vector3(DVec3::new(256.0, 0.0, 0.0)).length() - 0.7).abs() < 1e-12);
+}
+
+/// Where a volume of these facts is put by a scene at its true size, the centre 0.5 m before the screen.
+fn placed(frame: VolumeFrame, rest: &str) -> DAffine3 {
+    let text = format!("[volume]\nsource='a.lloom'\n{rest}");
+    let facts = VolumeFacts { frame, ..FACTS };
+    read(&text).unwrap().frame(0, &display(), &facts).unwrap().display_from_volume
+}
+
+/// A patient whose voxel axes lie along these directions (columns), voxels as in [`FACTS`].
+fn patient(directions: DMat3) -> VolumeFrame {
+    VolumeFrame { axes_m: directions * FACTS.frame.axes_m, space: Space::Patient, ..FACTS.frame }
+}
+
+const TRUE_SIZE: &str = "[placement]\nscale=1\ncentre_m=[0,0,0.5]\n";
+
+#[track_caller]
+fn assert_steps(map: &DAffine3, expected_mm: [[f64; 3]; 3]) {
+    let found = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| 1e3 * map.transform_vector3(axis));
+    for (found, expected) in found.iter().zip(expected_mm) {
+        assert!((*found - DVec3::from_array(expected)).length() < 1e-12, "{found:?}, not {expected:?}");
+    }
+    let centre = map.transform_point3(0.5 * FACTS.dims.as_dvec3());
+    assert!((centre - DVec3::new(0.0, 0.0, 0.5)).length() < 1e-15, "{centre}");
+}
+
+#[test]
+fn a_patient_stands_upright_and_faces_the_viewers() {
+    // Rows to the left hand, columns to the back, slices to the head: as most CT scanners write.
+    let map = placed(patient(DMat3::IDENTITY), TRUE_SIZE);
+    assert_steps(&map, [[0.957, 0.0, 0.0], [0.0, 0.0, -0.957], [0.0, 1.5, 0.0]]);
+    // The middle of the face, and the left hand's side: 128 voxels of 0.957 mm from the centre.
+    let face = map.transform_point3(DVec3::new(128.0, 0.0, 54.0));
+    assert!((face - DVec3::new(0.0, 0.0, 0.5 + 0.122_496)).length() < 1e-12, "{face}");
+    let left = map.transform_point3(DVec3::new(256.0, 128.0, 54.0));
+    assert!((left - DVec3::new(0.122_496, 0.0, 0.5)).length() < 1e-12, "{left}");
+}
+
+#[test]
+fn other_orders_of_slices_show_the_same_patient() {
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    // Rows to the right hand, columns to the front: as NIfTI files mostly are.
+    let right_front_up = placed(patient(DMat3::from_cols(-x, -y, z)), TRUE_SIZE);
+    assert_steps(&right_front_up, [[-0.957, 0.0, 0.0], [0.0, 0.0, 0.957], [0.0, 1.5, 0.0]]);
+    // Slices from the head down: a left-handed system, no mirrored patient.
+    let downward = placed(patient(DMat3::from_cols(x, y, -z)), TRUE_SIZE);
+    assert_steps(&downward, [[0.957, 0.0, 0.0], [0.0, 0.0, -0.957], [0.0, -1.5, 0.0]]);
+    assert!(downward.matrix3.determinant() * right_front_up.matrix3.determinant() < 0.0);
+    // A tilted gantry: slices are sheared along the back.
+    let tilted = placed(patient(DMat3::from_cols(x, y, DVec3::new(0.0, 0.6, 0.8))), TRUE_SIZE);
+    assert_steps(&tilted, [[0.957, 0.0, 0.0], [0.0, 0.0, -0.957], [0.0, 1.2, -0.9]]);
+}
+
+#[test]
+fn what_a_scene_says_wins_over_the_file() {
+    let frame = patient(DMat3::from_cols(-DVec3::X, -DVec3::Y, DVec3::Z));
+    let axes = format!("{TRUE_SIZE}up='+y'\nfront='+z'\n");
+    assert_steps(&placed(frame, &axes), [[0.957, 0.0, 0.0], [0.0, 0.957, 0.0], [0.0, 0.0, 1.5]]);
+    let size = format!("voxel_size_m=[0.002,0.001,0.003]\n{TRUE_SIZE}");
+    assert_steps(&placed(frame, &size), [[-2.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 3.0, 0.0]]);
+    // A quarter turn about the display's y comes after the patient was put upright: the front goes to the right.
+    let turned = format!("{TRUE_SIZE}rotation_deg=[0,90,0]\n");
+    assert_steps(&placed(frame, &turned), [[0.0, 0.0, 0.957], [0.957, 0.0, 0.0], [0.0, 1.5, 0.0]]);
+}
+
+#[test]
+fn of_an_unknown_space_the_directions_count_as_they_are() {
+    assert_steps(&placed(FACTS.frame, TRUE_SIZE), [[0.957, 0.0, 0.0], [0.0, 0.957, 0.0], [0.0, 0.0, 1.5]]);
+    let turned =
+        VolumeFrame { space: Space::Unknown, ..patient(DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::Z)) };
+    assert_steps(&placed(turned, TRUE_SIZE), [[0.0, 0.957, 0.0], [0.957, 0.0, 0.0], [0.0, 0.0, 1.5]]);
+}
+
+#[test]
+fn a_look_relative_to_a_volume_cannot_say_what_is_empty() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let write = |text: &str| std::fs::write(&path, text).unwrap();
+    write("[volume]\nsource='not-there-yet.lloom'\n");
+    let said = Scene::visibility_in_file(&path).unwrap_err().to_string();
+    assert!(said.contains("[optics]") && said.contains("--empty-below") && !said.contains('\n'), "{said}");
+    write(&format!("{OPTICS}extinction = [[100, 0], [101, 5]]\ncolour = [[0, 1, 1, 1]]\n"));
+    let shown = Scene::visibility_in_file(&path).unwrap();
+    assert!(shown.is_empty_on(-5e3, 100.0) && !shown.is_empty_on(100.5, 100.6));
+    assert!(Scene::load(&path.to_string_lossy()).is_err(), "its store is not there");
 }
 
 #[test]

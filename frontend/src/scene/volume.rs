@@ -1,8 +1,11 @@
 //! Which volume a scene shows, and what is known of it.
 
 use super::{PROCEDURAL_NAMES, SceneError};
+use crate::orientation::FrameFacts;
 use backend::store::BrickSource;
+use backend::volume::VolumeFrame;
 use glam::{DVec3, UVec3};
+use serde::{Serialize, Serializer};
 use std::path::PathBuf;
 
 /// What names of procedural volumes begin with.
@@ -54,12 +57,13 @@ fn edge_voxels(size: &str) -> Result<u32, SceneError> {
 }
 
 /// What a scene must know of a volume before it can be placed and coloured.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct VolumeFacts {
     /// Voxels along each axis.
     pub dims: UVec3,
-    /// Edge lengths of a voxel as the data say, metres.
-    pub voxel_size_m: DVec3,
+    /// Size, orientation and place of the voxels, as the data say.
+    #[serde(serialize_with = "as_facts")]
+    pub frame: VolumeFrame,
     /// Smallest and largest data value.
     pub value_range: (f64, f64),
 }
@@ -67,10 +71,15 @@ pub struct VolumeFacts {
 impl VolumeFacts {
     /// The facts of an open volume.
     pub fn of(volume: &dyn BrickSource) -> Self {
-        Self {
-            dims: volume.shape().dims(),
-            voxel_size_m: volume.voxel_size_m(),
-            value_range: volume.value_range(),
-        }
+        Self { dims: volume.shape().dims(), frame: volume.frame(), value_range: volume.value_range() }
     }
+
+    /// Edge lengths of a voxel as the data say, metres.
+    pub fn voxel_size_m(&self) -> DVec3 {
+        self.frame.voxel_size_m()
+    }
+}
+
+fn as_facts<S: Serializer>(frame: &VolumeFrame, serializer: S) -> Result<S::Ok, S::Error> {
+    FrameFacts::of(frame).serialize(serializer)
 }

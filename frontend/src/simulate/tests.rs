@@ -6,14 +6,18 @@ use crate::scene::{Scene, VolumeFacts};
 use crate::session;
 use backend::output::{EyePlan, ScreenRaster};
 use backend::protocol::{DeviceInfo, FrameReport, ProjectorImage, Stages};
+use backend::volume::VolumeFrame;
 use display_config::{Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
 use std::path::Path;
 
 const WIDTH: u32 = 40;
 const HEIGHT: u32 = 30;
-const FACTS: VolumeFacts =
-    VolumeFacts { dims: UVec3::splat(64), voxel_size_m: DVec3::splat(1e-3), value_range: (0.0, 1.0) };
+
+fn facts() -> VolumeFacts {
+    let frame = VolumeFrame::of_voxels(DVec3::splat(1e-3));
+    VolumeFacts { dims: UVec3::splat(64), frame, value_range: (0.0, 1.0) }
+}
 
 fn display(projectors: u32) -> Display {
     let (w, h) = (f64::from(WIDTH), f64::from(HEIGHT));
@@ -69,6 +73,8 @@ fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
         working_set_sum: 60,
         complete: backend == 0,
         shortfall: if backend == 0 { String::new() } else { "the cache is full <b>".into() },
+        damaged_bricks: u64::from(backend),
+        damaged: if backend == 0 { Vec::new() } else { vec!["brick 7 of <a.lloom> is damaged".into()] },
         stages: Stages { refine_ms: 2.0, load_ms: 14.0, upload_ms: 3.0, cast_ms: 90.0, readback_ms: 1.5 },
         total_ms: 110.5,
     }
@@ -104,7 +110,7 @@ fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 
     let all = move |_| (0..projectors as usize).map(move |p| (p, weights(p)));
     let plan = EyePlan::new(ScreenRaster::of(&display), projectors as usize, all);
     let warning = Some("the eye at x = 2 m is outside the viewing zone".to_owned());
-    let frames = (0..frames).map(|i| scene.frame(i, &display, &FACTS).unwrap()).collect();
+    let frames = (0..frames).map(|i| scene.frame(i, &display, &facts()).unwrap()).collect();
     let eyes = vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }];
     (scene, Job { display, frames, eyes, out: out.to_owned(), exr: true })
 }
@@ -128,7 +134,7 @@ fn all_files_appear_and_the_report_adds_up() {
     let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
     let device = DeviceInfo { adapter: "fake".into(), reason: "a test".into(), filter: "exact".into() };
     let report =
-        Report::new(&scene, &FACTS, &job, vec![device; 2], frames, std::time::Duration::from_secs(1));
+        Report::new(&scene, &facts(), &job, vec![device; 2], frames, std::time::Duration::from_secs(1));
     report::write(&report, folder.path()).unwrap();
     assert_eq!(
         files(folder.path()),
@@ -141,10 +147,13 @@ fn all_files_appear_and_the_report_adds_up() {
         serde_json::from_str(&std::fs::read_to_string(folder.path().join(report::JSON)).unwrap()).unwrap();
     assert_eq!(json["total"]["rays"], 2 * 4 * 1200);
     assert_eq!(json["frames"][0]["total"]["complete"], false);
+    assert_eq!(json["total"]["damaged_bricks"], 2);
+    assert_eq!(json["total"]["damaged"], serde_json::json!(["brick 7 of <a.lloom> is damaged"]));
     assert_eq!(json["frames"][1]["pictures"][2], "frame-0001/projector-02.png");
     assert_eq!(json["eyes"][0]["projectors_seen"], 1);
     assert!(json["peak_memory_bytes"].is_u64() || !Path::new("/proc/self/status").exists());
     let html = std::fs::read_to_string(folder.path().join(report::HTML)).unwrap();
+    assert_eq!(html.matches("<li>brick 7 of &lt;a.lloom&gt; is damaged</li>").count(), 1);
     assert!(html.contains("the cache is full &lt;b&gt;") && html.contains("outside the viewing zone"));
     assert!(!html.contains("src=\"frame") && !html.contains("http://") && !html.contains("https://"));
 }

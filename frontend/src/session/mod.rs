@@ -1,21 +1,24 @@
 //! Where the front-end meets what it drives: displays, volumes, importers and back-ends.
 //!
-//! Everything that the commands need from elsewhere passes through this file and no other.
+//! Everything that the commands need from elsewhere passes through this folder and no other.
+
+mod import;
+mod levels;
+mod store;
+
+pub use import::{ImportSummary, import};
+pub use levels::LevelSummary;
+pub use store::{StoreSummary, VerifySummary, store_summary, verify};
 
 use crate::FrontendError;
-use crate::cli::{BitsArg, CodecArg, EndianArg, ImportArgs};
-use crate::progress::Progress;
-use crate::scene::{VolumeFacts, VolumeSource};
+use crate::scene::VolumeFacts;
 use crate::simulate::{Event, FrameSource};
 use backend::protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
-use backend::store::{self, BrickSource, BuildOptions, CodeBits, Codec, ImportOptions, Store};
+use backend::store::{BrickSource, Store};
 use backend::transport::{EventKind, Launch, Limits, Link, Session, launch, open_renderer, threads};
 use backend::volume::procedural::ProceduralVolume;
-use backend::volume::{ByteOrder, Element, RawLayout, Selection};
 use display_config::{Display, EyeModel};
-use glam::{DVec2, DVec3, UVec3};
-use serde::Serialize;
-use std::cell::RefCell;
+use glam::{DVec2, DVec3};
 
 /// The displays that come with the program: name, and a line about each.
 pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
@@ -135,91 +138,6 @@ impl FrameSource for Session {
     fn finish(self: Box<Self>) -> Result<(), FrontendError> {
         Session::finish(*self).map_err(|e| FrontendError::Backend(e.to_string()))
     }
-}
-
-/// What an import did.
-#[derive(Clone, Debug, Serialize)]
-pub struct ImportSummary {
-    /// Voxels along each axis.
-    pub dims: UVec3,
-    /// Bytes of the source's voxels.
-    pub source_bytes: u64,
-    /// Bytes of the store.
-    pub store_bytes: u64,
-    /// Bricks that hold anything.
-    pub stored_bricks: u64,
-    /// Smallest and largest value.
-    pub value_range: (f64, f64),
-    /// Root mean square of the store's error, data units.
-    pub rms_error: f64,
-    /// Largest error, data units.
-    pub max_error: f64,
-    /// Voxels that were not finite, and were replaced.
-    pub non_finite: u64,
-    /// Time it took, milliseconds.
-    pub total_ms: f64,
-}
-
-/// Makes a store from a volume file or a procedural volume.
-pub fn import(args: &ImportArgs, progress: Progress) -> Result<ImportSummary, FrontendError> {
-    let (input, options) = import_options(args)?;
-    let selection = Selection { raw: raw_layout(args)?, ..Selection::default() };
-    let progress = RefCell::new(progress);
-    let show = |done: u64, total: u64| {
-        progress.borrow_mut().set(done as f64 / total.max(1) as f64, "slabs");
-    };
-    let report = store::import(&input, &selection, &args.output, &options, &show)
-        .map_err(|e| FrontendError::Volume(e.to_string()))?;
-    Ok(ImportSummary {
-        dims: report.dims,
-        source_bytes: report.source_bytes,
-        store_bytes: report.store_bytes,
-        stored_bricks: report.stored_bricks,
-        value_range: report.value_range,
-        rms_error: report.rms_error,
-        max_error: report.max_error,
-        non_finite: report.non_finite,
-        total_ms: 1e3 * report.duration.as_secs_f64(),
-    })
-}
-
-/// The input as the importer wants it: without the `@VOXELS` of a procedural volume, which goes into the options.
-fn import_options(args: &ImportArgs) -> Result<(String, ImportOptions), FrontendError> {
-    let bits = match args.bits {
-        BitsArg::Eight => CodeBits::Eight,
-        BitsArg::Sixteen => CodeBits::Sixteen,
-    };
-    let codec = match args.codec {
-        CodecArg::Lz4 => Codec::Lz4,
-        CodecArg::None => Codec::None,
-    };
-    let mut options = ImportOptions {
-        build: BuildOptions { bits, codec, ..BuildOptions::default() },
-        ..ImportOptions::default()
-    };
-    let mut input = args.input.to_string_lossy().into_owned();
-    if let Some(VolumeSource::Procedural { name, dims }) = VolumeSource::parse_procedural(&input)? {
-        options.procedural_dims = dims;
-        input = format!("{}{name}", store::PROCEDURAL_PREFIX);
-    }
-    Ok((input, options))
-}
-
-fn raw_layout(args: &ImportArgs) -> Result<Option<RawLayout>, FrontendError> {
-    let (Some(dims), Some(element)) = (args.raw.dims, &args.raw.element) else { return Ok(None) };
-    let unknown = || {
-        FrontendError::Volume(format!("`{element}` is no voxel type; give uint8, int16, float or the like"))
-    };
-    Ok(Some(RawLayout {
-        dims,
-        element: Element::from_name(element).ok_or_else(unknown)?,
-        byte_order: match args.raw.endian {
-            EndianArg::Little => ByteOrder::Little,
-            EndianArg::Big => ByteOrder::Big,
-        },
-        spacing_mm: args.raw.spacing_mm,
-        header_skip_bytes: args.raw.skip_bytes,
-    }))
 }
 
 /// Which projectors each of `backends` back-ends drives: shares as even as can be, neighbours together.

@@ -1,0 +1,40 @@
+//! The command line.
+
+mod import;
+mod info;
+mod parse;
+mod simulate;
+#[cfg(test)]
+mod tests;
+mod verify;
+
+pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
+pub use info::InfoArgs;
+pub use simulate::{DeviceArg, FilterArg, SimulateArgs};
+pub use verify::VerifyArgs;
+
+use clap::{Parser, Subcommand};
+
+/// Volume rendering for projector-based light-field displays.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "lightloom", version)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What the program can do.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Render what every projector of a display shows, and what eyes before it see.
+    Simulate(SimulateArgs),
+    /// Turn a volume file, or a folder of one, into a store of bricks.
+    Import(ImportArgs),
+    /// Tell what a store holds.
+    Info(InfoArgs),
+    /// Read and check every byte of a store.
+    Verify(VerifyArgs),
+    /// List the displays that come with the program.
+    Displays,
+}

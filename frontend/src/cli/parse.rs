@@ -1,0 +1,34 @@
+//! Values of the command line: points, sizes, lengths.
+
+use glam::{DVec3, UVec3};
+
+/// Three finite numbers.
+pub(super) fn point(text: &str) -> Result<DVec3, String> {
+    let point = DVec3::from_array(three::<f64>(text)?);
+    if point.is_finite() { Ok(point) } else { Err("give three finite numbers".to_owned()) }
+}
+
+/// Three lengths above 0.
+pub(super) fn spacing(text: &str) -> Result<DVec3, String> {
+    let spacing = point(text)?;
+    if spacing.min_element() > 0.0 { Ok(spacing) } else { Err("give lengths above 0".to_owned()) }
+}
+
+/// Three sizes of at least 1.
+pub(super) fn dims(text: &str) -> Result<UVec3, String> {
+    let dims = UVec3::from_array(three::<u32>(text)?);
+    if dims.min_element() > 0 { Ok(dims) } else { Err("give sizes of at least 1".to_owned()) }
+}
+
+fn three<T: std::str::FromStr>(text: &str) -> Result<[T; 3], String> {
+    let parts = text.split(',').map(|part| part.trim().parse::<T>().ok()).collect::<Option<Vec<T>>>();
+    parts
+        .and_then(|p| p.try_into().ok())
+        .ok_or_else(|| "give three numbers with commas between them".to_owned())
+}
+
+/// A number that is neither NaN nor infinite.
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "give a finite number".to_owned())
+}

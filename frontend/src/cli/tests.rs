@@ -1,0 +1,100 @@
+//! Laws of the command line.
+
+use super::*;
+use clap::CommandFactory;
+use glam::DVec3;
+
+fn simulate(arguments: &[&str]) -> Result<SimulateArgs, clap::Error> {
+    let all = ["lightloom", "simulate", "procedural:shells", "--out", "o"].iter().chain(arguments);
+    Cli::try_parse_from(all).map(|cli| match cli.command {
+        Command::Simulate(args) => args,
+        other => panic!("{other:?}"),
+    })
+}
+
+#[test]
+fn the_command_line_is_consistent() {
+    Cli::command().debug_assert();
+}
+
+#[test]
+fn eyes_may_be_left_of_the_centre() {
+    let args = simulate(&["--eye", "-0.3,0,3", "--eye=0.3, 0, 3", "--frames", "2..5"]).unwrap();
+    assert_eq!(args.eyes, [DVec3::new(-0.3, 0.0, 3.0), DVec3::new(0.3, 0.0, 3.0)]);
+    assert_eq!(args.frames, Some((2, 5)));
+}
+
+#[test]
+fn nonsense_is_a_usage_error() {
+    for wrong in [
+        ["--eye", "1,2"],
+        ["--eye", "nan,0,1"],
+        ["--frames", "5..5"],
+        ["--frames", "3"],
+        ["--backends", "0"],
+        ["--cache-mib", "0"],
+        ["--device", "tpu"],
+    ] {
+        assert_eq!(simulate(&wrong).unwrap_err().exit_code(), 2, "{wrong:?}");
+    }
+}
+
+fn import(rest: &[&str]) -> Result<ImportArgs, i32> {
+    let all = ["lightloom", "import", "a.raw", "-o", "a.lloom"].iter().chain(rest);
+    Cli::try_parse_from(all).map_err(|error| error.exit_code()).map(|cli| match cli.command {
+        Command::Import(args) => args,
+        other => panic!("{other:?}"),
+    })
+}
+
+#[test]
+fn raw_voxels_need_size_and_type() {
+    let exit_code = |rest: &[&str]| import(rest).map(|_| ());
+    assert_eq!(exit_code(&["--raw-dims", "2,3,4"]), Err(2));
+    assert_eq!(exit_code(&["--raw-type", "int16"]), Err(2));
+    assert_eq!(exit_code(&["--raw-dims", "2,3,4", "--raw-type", "int16", "--bits", "16"]), Ok(()));
+    assert_eq!(exit_code(&["--raw-dims", "2,3,0", "--raw-type", "int16"]), Err(2));
+}
+
+#[test]
+fn an_import_takes_all_that_a_build_can_be_told() {
+    let args = import(&[
+        "--codec",
+        "zstd",
+        "--memory",
+        "512",
+        "--empty-below",
+        "-200",
+        "--deviation",
+        "--series",
+        "2",
+        "--level",
+        "1",
+        "--channel",
+        "0",
+        "--time",
+        "3",
+        "--spacing-mm",
+        "0.5,0.5,2",
+    ])
+    .unwrap();
+    assert_eq!((args.codec, args.memory_mib, args.empty_below), (CodecArg::Zstd, 512, Some(-200.0)));
+    assert_eq!((args.pick.level, args.pick.channel, args.pick.time), (Some(1), Some(0), Some(3)));
+    assert_eq!((args.pick.series.as_deref(), args.deviation), (Some("2"), true));
+    assert_eq!(args.pick.voxel_mm, Some(DVec3::new(0.5, 0.5, 2.0)));
+}
+
+#[test]
+fn contradictions_are_usage_errors() {
+    let wrong: [&[&str]; 6] = [
+        &["--empty-below", "1", "--empty-for", "a.toml"],
+        &["--empty-below", "nan"],
+        &["--memory", "0"],
+        &["--level", "-1"],
+        &["--spacing-mm", "1,0,1"],
+        &["--raw-dims", "1,1,1", "--raw-type", "int8", "--raw-spacing-mm", "1,1,1", "--spacing-mm", "1,1,1"],
+    ];
+    for rest in wrong {
+        assert_eq!(import(rest).map(|_| ()), Err(2), "{rest:?}");
+    }
+}
