@@ -15,6 +15,7 @@ mod reader;
 #[cfg(test)]
 mod reader_tests;
 mod samples;
+mod zarr;
 
 pub use element::{ByteOrder, Element};
 pub use error::VolumeError;
