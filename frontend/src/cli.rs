@@ -1,5 +1,9 @@
 //! The command line.
 
+mod export;
+
+pub use export::ExportArgs;
+
 use crate::scene::QualityPreset;
 use backend::protocol::{DeviceChoice, FilterChoice};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -22,6 +26,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Turn a volume file into a store of bricks.
     Import(ImportArgs),
+    /// Write a level of a store, or a part of it, as NRRD or OME-Zarr.
+    Export(ExportArgs),
     /// List the displays that come with the program.
     Displays,
 }

@@ -2,6 +2,10 @@
 //!
 //! Everything that the commands need from elsewhere passes through this file and no other.
 
+mod export;
+
+pub use export::{ExportSummary, export};
+
 use crate::FrontendError;
 use crate::cli::{BitsArg, CodecArg, EndianArg, ImportArgs};
 use crate::progress::Progress;

@@ -1,6 +1,7 @@
 //! The commands: from arguments to what they print.
 
 mod displays;
+mod export;
 mod import;
 mod simulate;
 
@@ -13,6 +14,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
     match command {
         Command::Simulate(args) => simulate::simulate(args),
         Command::Import(args) => import::import(args),
+        Command::Export(args) => export::export(args),
         Command::Displays => displays::displays(),
     }
 }
