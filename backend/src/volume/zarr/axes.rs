@@ -126,7 +126,7 @@ fn known_unit_m(unit: &str) -> Option<f64> {
         "foot" => 0.3048,
         "yard" => 0.9144,
         "mile" => 1609.344,
-        "parsec" => 3.085_677_581_491_367_3e16,
+        "parsec" => 3.085_677_581_491_367e16,
         _ => return None,
     })
 }
