@@ -1,4 +1,4 @@
-//! The renderer: volume store, working set, devices, reference integrator, outputs, protocol and transports.
+//! The renderer: volume store, working set, devices, reference integrator, outputs, exports, protocol and transports.
 
 pub mod device;
 pub mod export;

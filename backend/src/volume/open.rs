@@ -18,7 +18,7 @@ enum Format {
     MetaImage,
 }
 
-/// Opens a volume. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
+/// Opens a volume: a file, or a Zarr folder. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
 /// extension tells the format, and the first bytes do where the extension is not known.
 ///
 /// # Errors

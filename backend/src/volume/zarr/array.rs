@@ -58,11 +58,14 @@ impl LevelArray {
         if let Some(inner) = &inner {
             check_shard(folder, &chunk, inner)?;
         }
-        let most_file_bytes = if array.is_sharded() { Some(MOST_CHUNK_BYTES) } else { None };
         let unit = inner.unwrap_or(chunk);
         let voxel_bytes = if is_half { 2 } else { element.bytes() as u64 };
         let bytes = check_unit(folder, &unit, voxel_bytes, memory_bytes)?;
-        let most_bytes = most_file_bytes.unwrap_or(2 * bytes + MOST_OVERHEAD_BYTES);
+        // Of a shard only its table and inner chunks are read, unless the shard as a whole is packed.
+        let most_bytes = match array.is_sharded() {
+            true => MOST_CHUNK_BYTES,
+            false => bytes.saturating_mul(2).saturating_add(MOST_OVERHEAD_BYTES),
+        };
         let array = array.with_storage(files(most_bytes));
         let shards = ArrayShardedReadableExtCache::new(&array);
         let shape = array.shape().to_vec();

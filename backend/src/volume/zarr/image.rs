@@ -62,7 +62,11 @@ impl Image {
 
     /// Folder of a level's array.
     pub fn level_folder(&self, level: &Level) -> PathBuf {
-        self.folder.join(&level.path)
+        match level.path.as_str() {
+            // Joined with nothing, the folder would end in a slash.
+            "" => self.folder.clone(),
+            path => self.folder.join(path),
+        }
     }
 
     /// The levels with their sizes, for a sentence.
