@@ -1,6 +1,7 @@
-//! The renderer: volume store, working set, devices, reference integrator, outputs, protocol and transports.
+//! The renderer: volume store, working set, devices, reference integrator, outputs, exports, protocol and transports.
 
 pub mod device;
+pub mod export;
 pub mod output;
 pub mod protocol;
 pub mod reference;

@@ -1,7 +1,8 @@
 //! A store in a file: any brick reads alone, and many processes read at once.
 
 use super::bytes::checksum;
-use super::format::{Checksums, Entry, Extent, Header, HeaderError, LONGEST_HEADER, version};
+use super::entry::{Checksums, Entry, Extent};
+use super::format::{Header, HeaderError, LONGEST_HEADER, version};
 use super::read_at::ReadAt;
 use super::table::{EntryRules, Found, Table};
 use super::{BRICK_VOXELS, Brick, BrickError, BrickSource, CellRanges, CodeBits, Codec, Codes, Deviation};

@@ -24,7 +24,8 @@
 
 use super::Codec;
 use super::bytes::{f32_at, f64_at, u32_at, u64_at};
-use super::format::{Entry, Extent, Header, HeaderError, LONGEST_NAME, VERSION_AT, bits_of, damaged};
+use super::entry::{Entry, Extent};
+use super::format::{Header, HeaderError, LONGEST_NAME, VERSION_AT, bits_of, damaged};
 use crate::volume::VolumeFrame;
 use glam::{DVec3, UVec3};
 

@@ -9,6 +9,7 @@ mod cells;
 mod codec;
 #[cfg(test)]
 mod damage_tests;
+mod entry;
 mod error;
 mod file;
 mod format;

@@ -1,6 +1,6 @@
 //! From a node's samples to the bytes of its brick, and how far these are from the source.
 
-use super::format::{Checksums, Entry, Extent};
+use super::entry::{Checksums, Entry, Extent};
 use super::level::{Level, Spread};
 use super::quantise::{quantise_within, range};
 use super::tally::ErrorTally;

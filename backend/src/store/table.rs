@@ -1,6 +1,7 @@
 //! The table of an open store: from a node to what is known of it, read block by block as it is asked for.
 
-use super::format::{ENTRY_BYTES, Entry, Header};
+use super::entry::{ENTRY_BYTES, Entry};
+use super::format::Header;
 use super::format_v1;
 use super::node_table::NodeTable;
 use super::read_at::ReadAt;

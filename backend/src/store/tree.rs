@@ -1,6 +1,6 @@
 //! The table of a store being built: entries come layer by layer, finer layers before the coarser ones above them.
 
-use super::format::Entry;
+use super::entry::Entry;
 use super::{NodeKey, OctreeShape};
 use std::io::Write;
 
@@ -105,7 +105,7 @@ impl Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store::format::ENTRY_BYTES;
+    use crate::store::entry::ENTRY_BYTES;
     use glam::UVec3;
 
     fn entry(value: f32, codes: u32) -> Entry {

@@ -1,6 +1,6 @@
 //! Checking every byte of a store.
 
-use super::format::Entry;
+use super::entry::Entry;
 use super::table::Table;
 use super::{BrickSource, CellRanges, NodeKey, OctreeShape, Store, StoreError};
 use rayon::prelude::*;

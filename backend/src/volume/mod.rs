@@ -20,6 +20,7 @@ mod reader_tests;
 mod samples;
 mod shape;
 mod text_numbers;
+mod zarr;
 
 pub use element::{ByteOrder, Element};
 pub use error::VolumeError;

@@ -1,7 +1,7 @@
 //! Opening a volume file: which format is it?
 
 use super::file::{FileLayout, FileVolume};
-use super::{Selection, VolumeError, VolumeReader, metaimage, nifti, nrrd, raw};
+use super::{Selection, VolumeError, VolumeReader, metaimage, nifti, nrrd, raw, zarr};
 use flate2::read::MultiGzDecoder;
 use std::fs::File;
 use std::io::Read;
@@ -18,12 +18,15 @@ enum Format {
     MetaImage,
 }
 
-/// Opens a volume. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
+/// Opens a volume: a file, or a Zarr folder. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
 /// extension tells the format, and the first bytes do where the extension is not known.
 ///
 /// # Errors
 /// A missing file, a wrong header, fewer bytes than promised, an unknown format or element type: one sentence.
 pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>, VolumeError> {
+    if selection.raw.is_none() && zarr::is_zarr(path) {
+        return zarr::open(path, selection);
+    }
     let mut layout = match &selection.raw {
         Some(raw) => raw::layout(path, raw)?,
         None => layout(path, selection)?,

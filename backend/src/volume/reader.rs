@@ -81,7 +81,8 @@ impl std::fmt::Debug for dyn VolumeReader {
 pub struct Selection {
     /// A file without header holds this.
     pub raw: Option<RawLayout>,
-    /// Of a folder with several DICOM series: its number in the list (from 1), or how its UID starts or ends.
+    /// Of a folder with several DICOM series: its number in the list (from 1), or how its UID starts or ends; of a
+    /// folder with several OME-Zarr images: its number, or its folder's name.
     pub series: Option<String>,
     /// Of a pyramid: the level, 0 = finest; None is 0.
     pub level: Option<u32>,

@@ -111,6 +111,11 @@ impl Samples {
         }
     }
 
+    /// The memory of the numbers, in this machine's byte order.
+    pub fn bytes(&self) -> &[u8] {
+        with_samples!(self, |values| bytemuck::cast_slice(values.as_slice()))
+    }
+
     /// The memory of the numbers, to be filled from a file; [`Samples::reorder`] comes after.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         with_samples!(self, |values| bytemuck::cast_slice_mut(values.as_mut_slice()))

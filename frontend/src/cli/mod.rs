@@ -1,5 +1,6 @@
 //! The command line.
 
+mod export;
 mod import;
 mod info;
 mod parse;
@@ -8,6 +9,7 @@ mod simulate;
 mod tests;
 mod verify;
 
+pub use export::ExportArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
 pub use simulate::{DeviceArg, FilterArg, SimulateArgs};
@@ -31,6 +33,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Turn a volume file, or a folder of one, into a store of bricks.
     Import(ImportArgs),
+    /// Write a level of a store, or a part of it, as NRRD or OME-Zarr.
+    Export(ExportArgs),
     /// Tell what a store holds.
     Info(InfoArgs),
     /// Read and check every byte of a store.

@@ -20,7 +20,8 @@ pub(super) fn dims(text: &str) -> Result<UVec3, String> {
     if dims.min_element() > 0 { Ok(dims) } else { Err("give sizes of at least 1".to_owned()) }
 }
 
-fn three<T: std::str::FromStr>(text: &str) -> Result<[T; 3], String> {
+/// Three numbers with commas between them.
+pub(super) fn three<T: std::str::FromStr>(text: &str) -> Result<[T; 3], String> {
     let parts = text.split(',').map(|part| part.trim().parse::<T>().ok()).collect::<Option<Vec<T>>>();
     parts
         .and_then(|p| p.try_into().ok())

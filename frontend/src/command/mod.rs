@@ -1,6 +1,7 @@
 //! The commands: from arguments to what they print.
 
 mod displays;
+mod export;
 mod import;
 mod info;
 mod simulate;
@@ -18,6 +19,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Import(args) => import::import(args),
         Command::Info(args) => info::info(args),
         Command::Verify(args) => verify::verify(args),
+        Command::Export(args) => export::export(args),
         Command::Displays => displays::displays(),
     }
 }

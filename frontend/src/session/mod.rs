@@ -10,6 +10,10 @@ pub use import::{ImportSummary, import};
 pub use levels::LevelSummary;
 pub use store::{StoreSummary, VerifySummary, store_summary, verify};
 
+mod export;
+
+pub use export::{ExportSummary, export};
+
 use crate::FrontendError;
 use crate::scene::VolumeFacts;
 use crate::simulate::{Event, FrameSource};
