@@ -1,5 +1,6 @@
 //! Volumes as users have them: file readers and procedural fields.
 
+mod dicom;
 mod element;
 mod error;
 mod file;
