@@ -16,6 +16,7 @@ mod reader;
 #[cfg(test)]
 mod reader_tests;
 mod samples;
+mod tiff;
 
 pub use element::{ByteOrder, Element};
 pub use error::VolumeError;

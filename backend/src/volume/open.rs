@@ -1,7 +1,7 @@
 //! Opening a volume file: which format is it?
 
-use super::file::{FileLayout, FileVolume};
-use super::{Selection, VolumeError, VolumeFrame, VolumeReader, metaimage, nifti, nrrd, raw};
+use super::file::FileVolume;
+use super::{Selection, VolumeError, VolumeFrame, VolumeReader, dicom, metaimage, nifti, nrrd, raw, tiff};
 use flate2::read::MultiGzDecoder;
 use std::fs::File;
 use std::io::Read;
@@ -10,23 +10,32 @@ use std::path::Path;
 /// Bytes looked at to tell a format.
 const MAGIC_BYTES: u64 = 512;
 
-/// A format with a header of its own.
+/// A format that tells what is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     Nrrd,
     Nifti,
     MetaImage,
+    Dicom,
+    Tiff,
 }
 
 /// Opens a volume. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
-/// extension tells the format, and the first bytes do where the extension is not known.
+/// extension tells the format, and the first bytes do where the extension is not known. A folder holds a DICOM
+/// series or TIFF slices.
 ///
 /// # Errors
 /// A missing file, a wrong header, fewer bytes than promised, an unknown format or element type: one sentence.
 pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>, VolumeError> {
     let mut layout = match &selection.raw {
         Some(raw) => raw::layout(path, raw)?,
-        None => layout(path)?,
+        None => match format(path)? {
+            Format::Nrrd => nrrd::layout(path)?,
+            Format::Nifti => nifti::layout(path)?,
+            Format::MetaImage => metaimage::layout(path)?,
+            Format::Dicom => return dicom::open(path, selection),
+            Format::Tiff => return tiff::open(path, selection),
+        },
     };
     if let Some(spacing_mm) = selection.spacing_mm {
         layout.frame = VolumeFrame::of_voxels(spacing_mm * 1e-3);
@@ -34,13 +43,24 @@ pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>,
     Ok(Box::new(FileVolume::new(layout)?))
 }
 
-fn layout(path: &Path) -> Result<FileLayout, VolumeError> {
+fn format(path: &Path) -> Result<Format, VolumeError> {
+    if path.is_dir() {
+        return format_of_folder(path);
+    }
     let start = first_bytes(path)?;
     let format = by_extension(path).or_else(|| by_magic(&start));
-    match format.ok_or_else(|| VolumeError::UnknownFormat { path: path.into() })? {
-        Format::Nrrd => nrrd::layout(path),
-        Format::Nifti => nifti::layout(path),
-        Format::MetaImage => metaimage::layout(path),
+    format.ok_or_else(|| VolumeError::UnknownFormat { path: path.into() })
+}
+
+fn format_of_folder(folder: &Path) -> Result<Format, VolumeError> {
+    if dicom::is_in(folder)? {
+        Ok(Format::Dicom)
+    } else if !tiff::slices_in(folder)?.is_empty() {
+        Ok(Format::Tiff)
+    } else {
+        let what =
+            "the folder holds neither DICOM images nor TIFF slices: give the file or folder with the volume";
+        Err(VolumeError::unsupported(folder, what))
     }
 }
 
@@ -53,6 +73,8 @@ fn by_extension(path: &Path) -> Option<Format> {
         Some(Format::Nifti)
     } else if ends(&[".mhd", ".mha"]) {
         Some(Format::MetaImage)
+    } else if tiff::has_extension(path) {
+        Some(Format::Tiff)
     } else {
         None
     }
@@ -65,6 +87,10 @@ fn by_magic(start: &[u8]) -> Option<Format> {
         Some(Format::Nifti)
     } else if start.starts_with(b"ObjectType") || start.starts_with(b"NDims") {
         Some(Format::MetaImage)
+    } else if dicom::is_dicom(start) {
+        Some(Format::Dicom)
+    } else if tiff::is_tiff(start) {
+        Some(Format::Tiff)
     } else {
         None
     }

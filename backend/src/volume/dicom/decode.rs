@@ -39,9 +39,12 @@ pub(super) fn check(file: &ImageFile) -> Result<(), VolumeError> {
     Err(VolumeError::unsupported(&file.path, what))
 }
 
+/// Highest byte first, which the standard has since retired.
+const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
+
 /// The crate swaps the bytes of pairs, which is all of a number of 16 bits but not of 32.
 fn check_bytes(file: &ImageFile) -> Result<(), VolumeError> {
-    if file.transfer_syntax == uids::EXPLICIT_VR_BIG_ENDIAN && file.pixels.allocated > 16 {
+    if file.transfer_syntax == BIG_ENDIAN && file.pixels.allocated > 16 {
         let what = "it has pixels of 32 bits, highest byte first: convert it to Explicit VR Little Endian";
         return Err(VolumeError::unsupported(&file.path, what));
     }
@@ -49,14 +52,18 @@ fn check_bytes(file: &ImageFile) -> Result<(), VolumeError> {
 }
 
 /// Reads frames, keeping the file of the last one where there is more in it.
-#[derive(Default)]
 pub(super) struct Decoder {
     /// Most bytes of a file that is kept.
-    pub memory_bytes: u64,
+    memory_bytes: u64,
     kept: Option<(PathBuf, DefaultDicomObject)>,
 }
 
 impl Decoder {
+    /// Keeps files of up to so many bytes.
+    pub fn new(memory_bytes: u64) -> Self {
+        Self { memory_bytes, kept: None }
+    }
+
     /// The cells of a frame, lowest byte first: as many bytes as [`Frame::bytes`] says.
     pub fn frame(&mut self, frame: &Frame) -> Result<Vec<u8>, VolumeError> {
         let file = &*frame.file;

@@ -98,16 +98,21 @@ pub(in crate::volume) fn is_dicom(start: &[u8]) -> bool {
     start.get(PREAMBLE_BYTES..).is_some_and(|start| start.starts_with(MAGIC)) || start.starts_with(MAGIC)
 }
 
+/// Whether a file is a DICOM file.
+pub(super) fn is_dicom_file(path: &Path) -> Result<bool, VolumeError> {
+    let mut start = Vec::new();
+    let file = File::open(path).map_err(VolumeError::open(path))?;
+    let magic_bytes = (PREAMBLE_BYTES + MAGIC.len()) as u64;
+    file.take(magic_bytes).read_to_end(&mut start).map_err(VolumeError::read(path))?;
+    Ok(is_dicom(&start))
+}
+
 /// Reads the header; no frames where the file is not a DICOM file, or holds no image.
 pub(super) fn read(path: &Path) -> Result<Vec<Frame>, VolumeError> {
-    let mut start = Vec::new();
-    let mut stream = File::open(path).map_err(VolumeError::open(path))?;
-    let length = stream.metadata().map_err(VolumeError::open(path))?.len();
-    let magic_bytes = (PREAMBLE_BYTES + MAGIC.len()) as u64;
-    stream.by_ref().take(magic_bytes).read_to_end(&mut start).map_err(VolumeError::open(path))?;
-    if !is_dicom(&start) {
+    if !is_dicom_file(path)? {
         return Ok(Vec::new());
     }
+    let length = std::fs::metadata(path).map_err(VolumeError::open(path))?.len();
     let object = OpenFileOptions::new().read_until(FIRST_PIXELS).open_file(path);
     let object = object.map_err(|cause| damaged(path, &cause))?;
     match image_file(path, &object, object.meta().transfer_syntax(), length)? {

@@ -13,6 +13,7 @@ mod volume;
 
 use super::{Selection, VolumeError, VolumeReader};
 pub(super) use header::is_dicom;
+pub(super) use scan::is_in;
 use std::path::Path;
 
 /// Opens the series in a folder, or around a file.

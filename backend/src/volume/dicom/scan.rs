@@ -13,6 +13,18 @@ const SAME: f64 = 1e-3;
 /// Images that can lie in one volume.
 pub(super) type Series = Vec<Frame>;
 
+/// Whether a folder holds a DICOM file.
+pub(in crate::volume) fn is_in(folder: &Path) -> Result<bool, VolumeError> {
+    let mut paths = Vec::new();
+    list(folder, DEEPEST, &mut paths)?;
+    for path in paths {
+        if header::is_dicom_file(&path)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// All series in a folder, by number and UID; none where it holds no DICOM image.
 pub(super) fn series_in(folder: &Path) -> Result<Vec<Series>, VolumeError> {
     let mut paths = Vec::new();

@@ -42,11 +42,7 @@ impl DicomVolume {
             let what = format!("its voxels cannot lie so: edges of {} mm", info.frame.voxel_size_m() * 1e3);
             return Err(VolumeError::header(&first.file.path, what));
         }
-        Ok(Self {
-            info,
-            slices,
-            decoder: Decoder { memory_bytes: selection.memory_bytes, ..Decoder::default() },
-        })
+        Ok(Self { info, slices, decoder: Decoder::new(selection.memory_bytes) })
     }
 }
 
