@@ -28,6 +28,11 @@ pub(super) fn values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeEr
     Ok(values)
 }
 
+/// The values, but none of a volume that is far larger than those of the tests: a header that lies.
+pub(super) fn some_values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeError> {
+    if reader.info().voxels() > 1 << 14 { Ok(Vec::new()) } else { values(reader) }
+}
+
 pub(super) fn expected(dims: UVec3, value: impl Fn(f64, f64, f64) -> f64) -> Vec<f64> {
     let place = |i: u32| (i % dims.x, i / dims.x % dims.y, i / dims.x / dims.y);
     (0..dims.element_product()).map(place).map(|(x, y, z)| value(x.into(), y.into(), z.into())).collect()

@@ -10,6 +10,7 @@ use dicom_pixeldata::PixelDecoder;
 use dicom_transfer_syntax_registry::{TransferSyntaxIndex, TransferSyntaxRegistry};
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
 /// First bytes of the element of the pixels in files with and without value representations; then comes its
@@ -145,9 +146,20 @@ fn unpack(object: &DefaultDicomObject, frame: &Frame) -> Result<Vec<u8>, VolumeE
             rle::unpack(packed, pixels, usize::from(file.pixels.allocated / 8))
                 .ok_or_else(|| wrong("has damaged runs"))
         }
-        _ => match object.decode_pixel_data_frame(frame.index) {
-            Ok(pixels) => Ok(pixels.data().to_vec()),
-            Err(cause) => Err(damaged(&file.path, &cause)),
-        },
+        _ => unpack_jpeg(object, frame),
+    }
+}
+
+/// The crate copies what the JPEG holds to where the frame has room, and panics where the JPEG is the larger.
+fn unpack_jpeg(object: &DefaultDicomObject, frame: &Frame) -> Result<Vec<u8>, VolumeError> {
+    let path = &frame.file.path;
+    let unpack = || object.decode_pixel_data_frame(frame.index).map(|pixels| pixels.data().to_vec());
+    match catch_unwind(AssertUnwindSafe(unpack)) {
+        Ok(Ok(cells)) => Ok(cells),
+        Ok(Err(cause)) => Err(damaged(path, &cause)),
+        Err(_) => {
+            let what = format!("{} is not of the size that the header says: copy it again", frame.name());
+            Err(VolumeError::unsupported(path, what))
+        }
     }
 }
