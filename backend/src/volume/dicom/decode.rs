@@ -41,7 +41,7 @@ pub(super) fn check(file: &ImageFile) -> Result<(), VolumeError> {
 }
 
 /// Highest byte first, which the standard has since retired.
-const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
+pub(super) const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
 
 /// The crate swaps the bytes of pairs, which is all of a number of 16 bits but not of 32.
 fn check_bytes(file: &ImageFile) -> Result<(), VolumeError> {

@@ -1,8 +1,8 @@
 //! What the header of a DICOM file says of its frames; the pixels are not read.
 
 use super::attributes::{FrameAttributes, integer, item, number, numbers, text, time, vector};
-use super::decode;
 use super::pixels::PixelFormat;
+use super::{decode, lengths};
 use crate::volume::{MAX_EDGE_VOXELS, VolumeError};
 use dicom_core::Tag;
 use dicom_dictionary_std::tags;
@@ -16,8 +16,8 @@ use std::sync::Arc;
 /// Float pixel data, the first of the elements with pixels: reading a header ends before it.
 const FIRST_PIXELS: Tag = Tag(0x7FE0, 0x0008);
 /// What a Part 10 file starts with after its preamble of so many bytes; old files lack the preamble.
-const MAGIC: &[u8] = b"DICM";
-const PREAMBLE_BYTES: usize = 128;
+pub(super) const MAGIC: &[u8] = b"DICM";
+pub(super) const PREAMBLE_BYTES: usize = 128;
 /// None of the packings makes fewer bytes of so many: deflate, the best of them, has 1032.
 const LARGEST_RATIO: u64 = 1032;
 /// The tags that may tell images at the same place apart, in the order that they sort by.
@@ -100,18 +100,24 @@ pub(in crate::volume) fn is_dicom(start: &[u8]) -> bool {
 
 /// Whether a file is a DICOM file.
 pub(super) fn is_dicom_file(path: &Path) -> Result<bool, VolumeError> {
+    Ok(is_dicom(&start(path)?))
+}
+
+fn start(path: &Path) -> Result<Vec<u8>, VolumeError> {
     let mut start = Vec::new();
     let file = File::open(path).map_err(VolumeError::open(path))?;
     let magic_bytes = (PREAMBLE_BYTES + MAGIC.len()) as u64;
     file.take(magic_bytes).read_to_end(&mut start).map_err(VolumeError::read(path))?;
-    Ok(is_dicom(&start))
+    Ok(start)
 }
 
 /// Reads the header; no frames where the file is not a DICOM file, or holds no image.
 pub(super) fn read(path: &Path) -> Result<Vec<Frame>, VolumeError> {
-    if !is_dicom_file(path)? {
+    let start = start(path)?;
+    if !is_dicom(&start) {
         return Ok(Vec::new());
     }
+    lengths::check(path, start[MAGIC.len()..].ends_with(MAGIC))?;
     let length = std::fs::metadata(path).map_err(VolumeError::open(path))?.len();
     let object = OpenFileOptions::new().read_until(FIRST_PIXELS).open_file(path);
     let object = object.map_err(|cause| damaged(path, &cause))?;

@@ -3,6 +3,7 @@
 mod attributes;
 mod decode;
 mod header;
+mod lengths;
 mod pixels;
 mod rle;
 mod scan;
