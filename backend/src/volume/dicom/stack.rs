@@ -168,14 +168,15 @@ fn check_steps(slices: &[Frame], pose: &Pose) -> Result<(), String> {
     let is_gap =
         |&i: &usize| count(i) >= GAP_STEPS && (steps[i] - count(i) * usual).abs() <= tolerance * count(i);
     let vouch = "or give the spacing to read them as evenly spaced";
-    if wrong.iter().all(|i| is_gap(i)) {
+    if wrong.iter().all(is_gap) {
         let missing: f64 = wrong.iter().map(|&i| count(i) - 1.0).sum();
+        let missing = match missing as u64 {
+            1 => "1 slice is missing".to_owned(),
+            count => format!("{count} slices are missing"),
+        };
         let gaps: Vec<String> = wrong.iter().take(MOST_LISTED).map(|&i| between(i)).collect();
         let more = if wrong.len() > MOST_LISTED { " and elsewhere" } else { "" };
-        return Err(format!(
-            "{missing} slices are missing, {}{more}: copy the series again, {vouch}",
-            gaps.join(", ")
-        ));
+        return Err(format!("{missing}, {}{more}: copy the series again, {vouch}", gaps.join(", ")));
     }
     Err(format!(
         "the slices are not evenly spaced: {:.3} mm {}, {usual:.3} mm elsewhere; resample the series, {vouch}",

@@ -137,7 +137,7 @@ fn of_several_series_one_is_chosen() {
 fn what_is_wrong_with_a_stack_is_said_with_its_place() {
     let said = said_of("missing");
     assert!(
-        said.contains("1 slices are missing") && said.contains("between 1 (instance 2) at 32.00 mm"),
+        said.contains("1 slice is missing") && said.contains("between 1 (instance 2) at 32.00 mm"),
         "{said}"
     );
     let said = said_of("duplicate");
