@@ -1,6 +1,6 @@
 //! The bytes of a frame, out of its file and whatever packs them there.
 
-use super::header::{Frame, ImageFile, damaged};
+use super::header::{Frame, ImageFile, cause_of, damaged};
 use super::rle;
 use crate::volume::VolumeError;
 use dicom_core::DicomValue;
@@ -156,7 +156,12 @@ fn unpack_jpeg(object: &DefaultDicomObject, frame: &Frame) -> Result<Vec<u8>, Vo
     let unpack = || object.decode_pixel_data_frame(frame.index).map(|pixels| pixels.data().to_vec());
     match catch_unwind(AssertUnwindSafe(unpack)) {
         Ok(Ok(cells)) => Ok(cells),
-        Ok(Err(cause)) => Err(damaged(path, &cause)),
+        Ok(Err(cause)) => {
+            let cause = cause_of(&cause);
+            let what =
+                format!("{}: {cause}; unpack it first, for instance with gdcmconv --raw", frame.name());
+            Err(VolumeError::unsupported(path, what))
+        }
         Err(_) => {
             let what = format!("{} is not of the size that the header says: copy it again", frame.name());
             Err(VolumeError::unsupported(path, what))

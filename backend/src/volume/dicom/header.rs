@@ -127,12 +127,17 @@ pub(super) fn read(path: &Path) -> Result<Vec<Frame>, VolumeError> {
     }
 }
 
-/// A file that the DICOM crate gave up on: its own words, from the outermost to the cause.
+/// A file that the DICOM crate gave up on.
 pub(super) fn damaged(path: &Path, error: &dyn std::error::Error) -> VolumeError {
+    let what = format!("{}; the file may be damaged: copy it again", cause_of(error));
+    VolumeError::unsupported(path, what)
+}
+
+/// An error in its own words, from the outermost to the cause.
+pub(super) fn cause_of(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |&error| error.source());
     let words: Vec<String> = causes.map(|cause| cause.to_string().replace('\n', " ")).collect();
-    let what = format!("{}; the file may be damaged: copy it again", words.join(": "));
-    VolumeError::unsupported(path, what)
+    words.join(": ")
 }
 
 fn image_file(

@@ -179,7 +179,7 @@ fn files_cut_short_at_any_place_are_survived() {
     let folder = tempfile::tempdir().unwrap();
     for name in DAMAGED {
         let bytes = std::fs::read(file(name)).unwrap();
-        for length in (0..bytes.len() - 1).step_by(3) {
+        for length in (0..bytes.len() - 1).step_by(7) {
             match read_bytes(folder.path(), &bytes[..length]) {
                 Ok(values) => {
                     assert_eq!(values, read_bytes(folder.path(), &bytes).unwrap(), "{name} {length}")
@@ -200,7 +200,7 @@ fn a_wrong_byte_anywhere_is_survived() {
     let folder = tempfile::tempdir().unwrap();
     for name in DAMAGED {
         let bytes = std::fs::read(file(name)).unwrap();
-        for at in (0..bytes.len()).step_by(2) {
+        for at in (0..bytes.len()).step_by(5) {
             for wrong in [0x00, 0x7f, 0xff] {
                 let mut damaged = bytes.clone();
                 damaged[at] = wrong;
