@@ -41,13 +41,13 @@ impl TiffVolume {
     /// Files with a slice each, in order.
     pub fn of_files(folder: &Path, paths: Vec<PathBuf>, selection: &Selection) -> Result<Self, VolumeError> {
         let mut first = TiffFile::open(&paths[0])?;
-        let count = first.pages.len();
         let mut stack = Hyperstack::of_slices(1);
         stack.voxel_mm = description(&mut first)?.map_or([None; 3], |(stack, _)| stack.voxel_mm);
         let (_, sample) = stack.choose(folder, first.format.samples, selection)?;
         for path in &paths {
             let file = TiffFile::open(path)?;
             if file.pages.len() > 1 {
+                let count = file.pages.len();
                 let what =
                     format!("it has {count} pages, and files of a folder have one: open the file itself");
                 return Err(VolumeError::unsupported(path, what));
