@@ -4,7 +4,7 @@
 //! parts count by the voxels of the source that each holds. Squares add up by the law of total variance: what a
 //! coarse voxel's parts vary within themselves, and what their means vary about its own.
 
-use super::level::{Level, Spread, SpreadSlab};
+use super::level::{Level, Spread, SpreadRow};
 use super::ring::{Ring, TILE};
 use rayon::prelude::*;
 
@@ -29,33 +29,31 @@ type Rows = [[f32; COLUMNS]; ROWS];
 /// Writes slab `z / 2` of the coarser level from slab `z`, its last, and the one before. Returns the sum over all
 /// voxels of the source in it of the squared difference between the finer level's means and the coarser's.
 pub(super) fn halve(fine: &Level, z: u32, coarse: &mut Level, source: glam::UVec3) -> f64 {
-    let (width, [tiles, tile_rows]) = (coarse.dims.x as usize, coarse.tiles());
-    let under = |row: usize| under(fine, row, z, [source.y, source.z]);
+    let width = coarse.dims.x as usize;
     let columns = Columns { count: width, edge: coarse.edge, source: source.x };
-    let room = TILE * width;
-    let SpreadSlab { means, uniform, low, high, variance } = coarse.spread_mut(z / 2);
-    let variances: Vec<&mut [f32]> = match variance {
-        Some(variance) => variance.chunks_mut(room).collect(),
-        None => (0..tile_rows).map(|_| &mut [][..]).collect(),
-    };
-    let rooms = means.par_chunks_mut(room).zip(low.par_chunks_mut(room)).zip(high.par_chunks_mut(room));
-    let rooms = rooms.zip(variances).zip(uniform.par_chunks_mut(tiles));
-    rooms
-        .enumerate()
-        .map(|(tile_y, ((((means, low), high), variance), uniform))| {
-            let rows = (means.len() / width).min(TILE);
-            let under: Vec<Under> = (0..rows).map(|row| under(tile_y * TILE + row)).collect();
-            let mut out = TileRow { means, low, high, variance, width };
-            let mut squares = 0.0;
-            for (tile, uniform) in uniform.iter_mut().enumerate() {
-                *uniform = fine_uniform(fine, tile, tile_y, z);
-                if uniform.is_nan() {
-                    squares += out.halve_tile(fine, tile, &under, &columns);
+    let rows = coarse.spread_mut(z / 2).into_par_iter().enumerate();
+    rows.map(|(tile_y, mut row)| {
+        let under = |i: usize| under(fine, tile_y * TILE + i, z, [source.y, source.z]);
+        let under: Vec<Under> = (0..row.means.rows).map(under).collect();
+        let halve_tile = |tile: usize| {
+            let uniform = fine_uniform(fine, tile, tile_y, z);
+            row.uniform[tile] = uniform;
+            match uniform.is_nan() {
+                true => halve_tile(&mut row, fine, tile, &under, &columns),
+                false => {
+                    clear(&mut row, tile);
+                    0.0
                 }
             }
-            squares
-        })
-        .sum()
+        };
+        (0..width.div_ceil(TILE)).map(halve_tile).sum::<f64>()
+    })
+    .sum()
+}
+
+fn clear(row: &mut SpreadRow, tile: usize) {
+    let rings = [&mut row.means, &mut row.low, &mut row.high];
+    rings.into_iter().chain(&mut row.variance).for_each(|ring| ring.clear(tile));
 }
 
 /// The value of the up to eight fine tiles under a coarse tile; NaN where it is not the same.
@@ -111,16 +109,6 @@ impl Columns {
     }
 }
 
-/// The room of a row of tiles in a coarse slab.
-struct TileRow<'a> {
-    means: &'a mut [f32],
-    low: &'a mut [f32],
-    high: &'a mut [f32],
-    /// Empty where it is not kept.
-    variance: &'a mut [f32],
-    width: usize,
-}
-
 /// A coarse row of one tile.
 struct CoarseRow {
     means: [f32; TILE],
@@ -130,38 +118,33 @@ struct CoarseRow {
     between: [f32; TILE],
 }
 
-impl TileRow<'_> {
-    fn halve_tile(&mut self, fine: &Level, tile: usize, under: &[Under], columns: &Columns) -> f64 {
-        let start = tile * TILE;
-        let count = TILE.min(self.width - start);
-        let last = columns.halves(columns.count - 1);
-        let is_cut = start + count == columns.count && last[0] != last[1];
-        let cut = is_cut.then(|| (count - 1, [last[0] / (last[0] + last[1]), last[1] / (last[0] + last[1])]));
-        let mut squares = 0.0;
-        let rows = under.len();
-        for (row, under) in under.iter().enumerate() {
-            let coarse = coarse_row(fine, tile, under, cut.map(|(at, parts)| (at, parts.map(|w| w as f32))));
-            let at = start * rows + row * count;
-            self.means[at..at + count].copy_from_slice(&coarse.means[..count]);
-            self.low[at..at + count].copy_from_slice(&coarse.low[..count]);
-            self.high[at..at + count].copy_from_slice(&coarse.high[..count]);
-            if !self.variance.is_empty() {
-                let variance =
-                    variance(fine, tile, under, cut.map(|(at, parts)| (at, parts.map(|w| w as f32))));
-                for (i, out) in self.variance[at..at + count].iter_mut().enumerate() {
-                    *out = variance[i] + coarse.between[i];
-                }
+/// Halves what is under a tile; returns the squares of [`halve`].
+fn halve_tile(out: &mut SpreadRow, fine: &Level, tile: usize, under: &[Under], columns: &Columns) -> f64 {
+    let count = TILE.min(columns.count - tile * TILE);
+    let last = columns.halves(columns.count - 1);
+    let of_last = last[0] + last[1];
+    let is_cut = tile * TILE + count == columns.count && last[0] != last[1];
+    let cut = is_cut.then(|| (count - 1, last.map(|half| (half / of_last) as f32)));
+    let mut squares = 0.0;
+    for (row, under) in under.iter().enumerate() {
+        let coarse = coarse_row(fine, tile, under, cut);
+        let at = row * count..(row + 1) * count;
+        out.means.room(tile)[at.clone()].copy_from_slice(&coarse.means[..count]);
+        out.low.room(tile)[at.clone()].copy_from_slice(&coarse.low[..count]);
+        out.high.room(tile)[at.clone()].copy_from_slice(&coarse.high[..count]);
+        if let Some(out) = &mut out.variance {
+            let within = variance(fine, tile, under, cut);
+            for (i, out) in out.room(tile)[at].iter_mut().enumerate() {
+                *out = within[i] + coarse.between[i];
             }
-            let whole = coarse.between[..count].iter().sum::<f32>();
-            let mut weighted = f64::from(whole) * f64::from(columns.edge);
-            if is_cut {
-                weighted +=
-                    f64::from(coarse.between[count - 1]) * (last[0] + last[1] - f64::from(columns.edge));
-            }
-            squares += weighted * under.source_voxels;
         }
-        squares
+        let mut weighted = f64::from(coarse.between[..count].iter().sum::<f32>()) * f64::from(columns.edge);
+        if is_cut {
+            weighted += f64::from(coarse.between[count - 1]) * (of_last - f64::from(columns.edge));
+        }
+        squares += weighted * under.source_voxels;
     }
+    squares
 }
 
 /// The numbers of a ring under a tile's row; beyond the level's end its edge repeats, and counts nothing.
@@ -172,10 +155,11 @@ fn rows_of(fine: &Level, ring: &Ring, tile: usize, under: &Under, of_uniform: im
         let mut filled = 0;
         for (half, fine_tile) in (2 * tile..(2 * tile + 2).min(across)).enumerate() {
             let count = fine.tile_width(fine_tile);
+            let start = y % TILE * count;
             let out = &mut out[half * TILE..half * TILE + count];
             let uniform = fine.uniform(z, fine_tile, y / TILE);
             match uniform.is_nan() {
-                true => out.copy_from_slice(ring.row(z, fine_tile, y)),
+                true => out.copy_from_slice(&ring.tile(z, fine_tile, y / TILE)[start..start + count]),
                 false => out.fill(of_uniform(uniform)),
             }
             filled = half * TILE + count;
