@@ -5,6 +5,7 @@
 //! coarse voxel's parts vary within themselves, and what their means vary about its own.
 
 use super::level::{Level, Spread, SpreadRow};
+use super::quantise::range;
 use super::ring::{Ring, TILE};
 use rayon::prelude::*;
 
@@ -32,7 +33,7 @@ pub(super) fn halve(fine: &Level, z: u32, coarse: &mut Level, source: glam::UVec
     let width = coarse.dims.x as usize;
     let columns = Columns { count: width, edge: coarse.edge, source: source.x };
     let rows = coarse.spread_mut(z / 2).into_par_iter().enumerate();
-    rows.map(|(tile_y, mut row)| {
+    let squares = rows.map(|(tile_y, mut row)| {
         let under = |i: usize| under(fine, tile_y * TILE + i, z, [source.y, source.z]);
         let under: Vec<Under> = (0..row.means.rows).map(under).collect();
         let halve_tile = |tile: usize| {
@@ -47,13 +48,14 @@ pub(super) fn halve(fine: &Level, z: u32, coarse: &mut Level, source: glam::UVec
             }
         };
         (0..width.div_ceil(TILE)).map(halve_tile).sum::<f64>()
-    })
-    .sum()
+    });
+    // Added up one after the other: the sum must not depend on how threads share the rows.
+    squares.collect::<Vec<f64>>().iter().sum()
 }
 
 fn clear(row: &mut SpreadRow, tile: usize) {
     let rings = [&mut row.means, &mut row.low, &mut row.high];
-    rings.into_iter().chain(&mut row.variance).for_each(|ring| ring.clear(tile));
+    rings.into_iter().chain(&mut row.deviation).for_each(|ring| ring.clear(tile));
 }
 
 /// The value of the up to eight fine tiles under a coarse tile; NaN where it is not the same.
@@ -114,8 +116,10 @@ struct CoarseRow {
     means: [f32; TILE],
     low: [f32; TILE],
     high: [f32; TILE],
-    /// Of the fine means about the coarse one.
+    /// Variance of the fine means about the coarse one, in squares of `unit`.
     between: [f32; TILE],
+    /// A power of two near the row's range: squares of numbers as large or small as f32 has them are none of f32's.
+    unit: f32,
 }
 
 /// Halves what is under a tile; returns the squares of [`halve`].
@@ -132,17 +136,17 @@ fn halve_tile(out: &mut SpreadRow, fine: &Level, tile: usize, under: &[Under], c
         out.means.room(tile)[at.clone()].copy_from_slice(&coarse.means[..count]);
         out.low.room(tile)[at.clone()].copy_from_slice(&coarse.low[..count]);
         out.high.room(tile)[at.clone()].copy_from_slice(&coarse.high[..count]);
-        if let Some(out) = &mut out.variance {
-            let within = variance(fine, tile, under, cut);
+        if let Some(out) = &mut out.deviation {
+            let within = within(fine, tile, under, cut, coarse.unit);
             for (i, out) in out.room(tile)[at].iter_mut().enumerate() {
-                *out = within[i] + coarse.between[i];
+                *out = (within[i] + coarse.between[i]).sqrt() * coarse.unit;
             }
         }
         let mut weighted = f64::from(coarse.between[..count].iter().sum::<f32>()) * f64::from(columns.edge);
         if is_cut {
             weighted += f64::from(coarse.between[count - 1]) * (of_last - f64::from(columns.edge));
         }
-        squares += weighted * under.source_voxels;
+        squares += weighted * under.source_voxels * f64::from(coarse.unit).powi(2);
     }
     squares
 }
@@ -183,11 +187,38 @@ fn weighted_means(rows: &Rows, weights: [f32; ROWS], cut: Option<(usize, [f32; 2
     means
 }
 
-fn variance(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32; 2])>) -> [f32; TILE] {
-    match fine.spread.as_ref().and_then(|spread| spread.variance.as_ref()) {
-        Some(ring) => weighted_means(&rows_of(fine, ring, tile, under, |_| 0.0), under.weights, cut),
+/// Variance within the fine voxels, in squares of `unit`.
+fn within(
+    fine: &Level,
+    tile: usize,
+    under: &Under,
+    cut: Option<(usize, [f32; 2])>,
+    unit: f32,
+) -> [f32; TILE] {
+    match fine.spread.as_ref().and_then(|spread| spread.deviation.as_ref()) {
+        Some(ring) => {
+            let deviations = rows_of(fine, ring, tile, under, |_| 0.0);
+            weighted_means(&squared(&deviations, &[0.0; TILE], unit), under.weights, cut)
+        }
         None => [0.0; TILE],
     }
+}
+
+/// Squared differences to the coarse voxels around, in squares of `unit`.
+fn squared(rows: &Rows, coarse: &[f32; TILE], unit: f32) -> Rows {
+    let per_unit = 1.0 / unit;
+    std::array::from_fn(|row| {
+        std::array::from_fn(|i| {
+            let difference = rows[row][i] * per_unit - coarse[i / 2] * per_unit;
+            difference * difference
+        })
+    })
+}
+
+/// A power of two near the range of some numbers; within what f32 and its inverse have.
+fn unit(low: &[f32; TILE], high: &[f32; TILE]) -> f32 {
+    let range = f64::from(range(high).1) - f64::from(range(low).0);
+    f32::from_bits(((range.log2().floor().clamp(-100.0, 120.0) as i32 + 127) as u32) << 23)
 }
 
 fn coarse_row(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32; 2])>) -> CoarseRow {
@@ -201,14 +232,10 @@ fn coarse_row(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32
     };
     let raw = weighted_means(&rows, under.weights, cut);
     // Rounding must not carry a mean out of what it is a mean of: equal voxels stay equal.
-    let means: [f32; TILE] = std::array::from_fn(|i| larger(low[i], smaller(high[i], raw[i])));
-    let squared: Rows = std::array::from_fn(|row| {
-        std::array::from_fn(|i| {
-            let difference = rows[row][i] - means[i / 2];
-            difference * difference
-        })
-    });
-    CoarseRow { means, low, high, between: weighted_means(&squared, under.weights, cut) }
+    let means: [f32; TILE] = std::array::from_fn(|i| raw[i].max(low[i]).min(high[i]));
+    let unit = unit(&low, &high);
+    let between = weighted_means(&squared(&rows, &means, unit), under.weights, cut);
+    CoarseRow { means, low, high, between, unit }
 }
 
 fn smaller(a: f32, b: f32) -> f32 {

@@ -39,11 +39,12 @@ fn take_stored<S: Sample>(level: &mut Level, z: u32, stored: &[S], info: &Volume
     let width = level.dims.x as usize;
     let is_plain = S::IS_EXACT_IN_F32 && info.is_unscaled();
     let rows = stored.par_chunks(TILE * width).zip(level.slab_mut(z));
-    rows.map(|(stored, (means, uniform))| match is_plain {
+    let taken = rows.map(|(stored, (means, uniform))| match is_plain {
         true => take_exact(stored, width, means, uniform),
         false => take_rounded(stored, width, info, means, uniform),
-    })
-    .reduce(Taken::nothing, Taken::merge)
+    });
+    // Added up one after the other: the sum must not depend on how threads share the rows.
+    taken.collect::<Vec<_>>().into_iter().fold(Taken::nothing(), Taken::merge)
 }
 
 /// A row of tiles whose numbers are the data values, and exact in f32: their range is that of the bricks to be.

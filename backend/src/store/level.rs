@@ -10,8 +10,8 @@ pub(super) struct Spread {
     /// Smallest and largest value of the source.
     pub low: Ring,
     pub high: Ring,
-    /// Variance of the source's values, where it is kept.
-    pub variance: Option<Ring>,
+    /// Standard deviation of the source's values, where it is kept.
+    pub deviation: Option<Ring>,
 }
 
 /// A level's last slabs. A tile of a slab whose voxels are all equal is only known by that value, and its room in the
@@ -56,13 +56,20 @@ impl Level {
             let spread = match depth == shape.finest_depth() {
                 true => None,
                 false => {
-                    let variance = has_deviation.then(ring).transpose()?;
-                    Some(Spread { low: ring()?, high: ring()?, variance })
+                    let deviation = has_deviation.then(ring).transpose()?;
+                    Some(Spread { low: ring()?, high: ring()?, deviation })
                 }
             };
             Ok(Self::new(shape, depth, ring()?, spread))
         };
         depths().map(level).collect()
+    }
+
+    /// Bytes that telling of a level's tiles takes, whatever is in them.
+    pub fn tile_bytes(dims: UVec3) -> u64 {
+        let tiles = [dims.x, dims.y].map(|n| u64::from(n).div_ceil(TILE as u64));
+        let count = tiles[0].saturating_mul(tiles[1]).saturating_mul(u64::from(kept(dims)));
+        count.saturating_mul(4 * Ring::TILE_BYTES + size_of::<f32>() as u64)
     }
 
     fn new(shape: OctreeShape, depth: u8, means: Ring, spread: Option<Spread>) -> Self {
@@ -102,13 +109,13 @@ impl Level {
     pub fn spread_mut(&mut self, z: u32) -> Vec<SpreadRow<'_>> {
         let (start, across) = (self.uniform_start(z), self.tiles[0]);
         let spread = self.spread.as_mut().expect("coarse levels have a spread");
-        let mut variance = spread.variance.as_mut().map(|ring| ring.slab_mut(z).into_iter());
+        let mut deviation = spread.deviation.as_mut().map(|ring| ring.slab_mut(z).into_iter());
         let rings =
             self.means.slab_mut(z).into_iter().zip(spread.low.slab_mut(z)).zip(spread.high.slab_mut(z));
         let uniform = self.uniform[start..start + across * self.tiles[1]].chunks_mut(across);
         let row = |(((means, low), high), uniform)| {
-            let variance = variance.as_mut().and_then(Iterator::next);
-            SpreadRow { uniform, means, low, high, variance }
+            let deviation = deviation.as_mut().and_then(Iterator::next);
+            SpreadRow { uniform, means, low, high, deviation }
         };
         rings.zip(uniform).map(row).collect()
     }
@@ -233,7 +240,7 @@ pub(super) struct SpreadRow<'a> {
     pub means: TileRow<'a>,
     pub low: TileRow<'a>,
     pub high: TileRow<'a>,
-    pub variance: Option<TileRow<'a>>,
+    pub deviation: Option<TileRow<'a>>,
 }
 
 /// Voxels of the level at the 32 stored samples of a cell, along one axis.

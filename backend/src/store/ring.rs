@@ -57,6 +57,9 @@ pub(super) struct Ring {
 }
 
 impl Ring {
+    /// Bytes that telling of a tile takes.
+    pub const TILE_BYTES: u64 = size_of::<Tile>() as u64;
+
     /// Bytes that a ring of a level takes at most.
     pub fn bytes(dims: UVec3) -> u64 {
         u64::from(dims.x) * u64::from(dims.y) * u64::from(kept(dims)) * size_of::<f32>() as u64
@@ -178,8 +181,13 @@ fn spill_file(folder: &Path, bytes: u64) -> Result<MmapMut, StoreError> {
 /// Gives a new file room on the disk.
 fn reserve(mut file: &File, bytes: u64) -> std::io::Result<()> {
     #[cfg(target_os = "linux")]
-    if rustix::fs::fallocate(file, rustix::fs::FallocateFlags::empty(), 0, bytes).is_ok() {
-        return Ok(());
+    {
+        use rustix::{fs::FallocateFlags, io::Errno};
+        match rustix::fs::fallocate(file, FallocateFlags::empty(), 0, bytes) {
+            Ok(()) => return Ok(()),
+            Err(Errno::OPNOTSUPP | Errno::NOSYS | Errno::INVAL) => {}
+            Err(error) => return Err(error.into()),
+        }
     }
     // A file system that cannot set room aside gets zeros; a full disk says so at one of them.
     let mut left = bytes;
