@@ -15,6 +15,8 @@ mod file;
 mod format;
 mod format_v1;
 mod halve;
+#[cfg(test)]
+mod hard_tests;
 mod import;
 mod intake;
 mod level;
