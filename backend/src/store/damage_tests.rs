@@ -4,6 +4,7 @@ use super::build_tests::{Grid, build_in, options};
 use super::table::Table;
 use super::*;
 use crate::volume::Element;
+use crate::volume::procedural::ProceduralVolume;
 use glam::UVec3;
 use std::path::Path;
 
@@ -122,4 +123,23 @@ fn a_file_of_version_1_still_reads() {
         let error = brick.value(Brick::index(x + 2, y + 2, z + 2)) - (x + 10 * y + 100 * z) as f64;
         assert!(error.abs() <= 354.0 / 255.0 / 2.0 + 1e-3, "{error}");
     }
+}
+
+/// A file written once by the first program that wrote version 2: whoever changes the format changes the version.
+#[test]
+fn a_file_of_version_2_still_reads() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/version_2.lloom");
+    let store = Store::open(Path::new(path)).unwrap();
+    assert_eq!((store.version(), store.bits(), store.codec()), (2, CodeBits::Sixteen, Codec::Zstd));
+    assert_eq!((store.listed_nodes(), store.stored_bricks(), store.has_deviation()), (33, 28, true));
+    let found = store.verify(&|_, _| {});
+    assert_eq!((found.bricks, found.damages), (28, vec![]));
+    let vessels = ProceduralVolume::new("sparse-vessels", UVec3::splat(60), 1e-3).unwrap();
+    for node in store.shape().nodes(2) {
+        let (brick, truth) = (store.brick(node).unwrap(), vessels.brick(node).unwrap());
+        let error = (0..BRICK_VOXELS).map(|i| (brick.value(i) - truth.value(i)).abs()).fold(0.0, f64::max);
+        // Both have 16 bits of their own range, of the values 0 to 1.
+        assert!(error <= 1.1 / 65535.0, "{node}: {error}");
+    }
+    assert!(store.brick(NodeKey::ROOT).unwrap().deviation.is_some_and(|deviation| deviation.step > 0.0));
 }
