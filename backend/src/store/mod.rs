@@ -15,6 +15,8 @@ mod file;
 mod format;
 mod format_v1;
 mod halve;
+#[cfg(test)]
+mod hostile_tests;
 mod import;
 mod intake;
 mod level;
@@ -24,6 +26,8 @@ mod options;
 mod pack;
 mod quantise;
 mod read_at;
+#[cfg(test)]
+mod resign;
 mod ring;
 mod sink;
 mod source;
