@@ -85,6 +85,11 @@ impl Store {
         Ok(Self { path: path.into(), version, file_bytes, shape, header, table, rules, file })
     }
 
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The name of the volume it was built from.
     pub fn source_name(&self) -> &str {
         &self.header.source_name

@@ -49,7 +49,7 @@ pub enum VolumeError {
     },
     /// Neither extension nor first bytes are known.
     #[error(
-        "the format of {} is not known: give a .nrrd, .nhdr, .nii, .nii.gz, .mhd or .mha file, or say dimensions, element type, byte order and spacing of a raw file",
+        "the format of {} is not known: give a DICOM, TIFF, NRRD, NIfTI or MetaImage file, or a folder of a DICOM series, of TIFF slices or of OME-Zarr, or say dimensions, element type, byte order and spacing of a raw file",
         path.display()
     )]
     UnknownFormat {

@@ -3,6 +3,7 @@
 mod choice;
 mod data_files;
 mod data_stream;
+mod dicom;
 mod element;
 mod error;
 mod file;
@@ -20,6 +21,7 @@ mod reader_tests;
 mod samples;
 mod shape;
 mod text_numbers;
+mod tiff;
 mod zarr;
 
 pub use element::{ByteOrder, Element};

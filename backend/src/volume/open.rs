@@ -1,7 +1,7 @@
 //! Opening a volume file: which format is it?
 
-use super::file::{FileLayout, FileVolume};
-use super::{Selection, VolumeError, VolumeReader, metaimage, nifti, nrrd, raw, zarr};
+use super::file::FileVolume;
+use super::{Selection, VolumeError, VolumeReader, dicom, metaimage, nifti, nrrd, raw, tiff, zarr};
 use flate2::read::MultiGzDecoder;
 use std::fs::File;
 use std::io::Read;
@@ -10,26 +10,34 @@ use std::path::Path;
 /// Bytes looked at to tell a format.
 const MAGIC_BYTES: u64 = 512;
 
-/// A format with a header of its own.
+/// A format that tells what is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     Nrrd,
     Nifti,
     MetaImage,
+    Dicom,
+    Tiff,
+    Zarr,
 }
 
-/// Opens a volume: a file, or a Zarr folder. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
-/// extension tells the format, and the first bytes do where the extension is not known.
+/// Opens a volume. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
+/// extension tells the format, and the first bytes do where the extension is not known. A folder holds a DICOM
+/// series, TIFF slices or an OME-Zarr image.
 ///
 /// # Errors
 /// A missing file, a wrong header, fewer bytes than promised, an unknown format or element type: one sentence.
 pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>, VolumeError> {
-    if selection.raw.is_none() && zarr::is_zarr(path) {
-        return zarr::open(path, selection);
-    }
     let mut layout = match &selection.raw {
         Some(raw) => raw::layout(path, raw)?,
-        None => layout(path, selection)?,
+        None => match format(path)? {
+            Format::Nrrd => nrrd::layout(path, selection)?,
+            Format::Nifti => nifti::layout(path, selection)?,
+            Format::MetaImage => metaimage::layout(path, selection)?,
+            Format::Dicom => return dicom::open(path, selection),
+            Format::Tiff => return tiff::open(path, selection),
+            Format::Zarr => return zarr::open(path, selection),
+        },
     };
     if let Some(spacing_mm) = selection.spacing_mm {
         layout.frame = layout.frame.with_voxel_size(spacing_mm * 1e-3);
@@ -37,13 +45,25 @@ pub fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>,
     Ok(Box::new(FileVolume::new(layout)?))
 }
 
-fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, VolumeError> {
+fn format(path: &Path) -> Result<Format, VolumeError> {
+    if path.is_dir() {
+        return format_of_folder(path);
+    }
     let start = first_bytes(path)?;
     let format = by_extension(path).or_else(|| by_magic(&start));
-    match format.ok_or_else(|| VolumeError::UnknownFormat { path: path.into() })? {
-        Format::Nrrd => nrrd::layout(path, selection),
-        Format::Nifti => nifti::layout(path, selection),
-        Format::MetaImage => metaimage::layout(path, selection),
+    format.ok_or_else(|| VolumeError::UnknownFormat { path: path.into() })
+}
+
+fn format_of_folder(folder: &Path) -> Result<Format, VolumeError> {
+    if zarr::is_zarr(folder) {
+        Ok(Format::Zarr)
+    } else if dicom::is_in(folder)? {
+        Ok(Format::Dicom)
+    } else if !tiff::slices_in(folder)?.is_empty() {
+        Ok(Format::Tiff)
+    } else {
+        let what = "the folder holds no DICOM images, TIFF slices or Zarr array: give the file or folder with the volume";
+        Err(VolumeError::unsupported(folder, what))
     }
 }
 
@@ -56,6 +76,8 @@ fn by_extension(path: &Path) -> Option<Format> {
         Some(Format::Nifti)
     } else if ends(&[".mhd", ".mha"]) {
         Some(Format::MetaImage)
+    } else if tiff::has_extension(path) {
+        Some(Format::Tiff)
     } else {
         None
     }
@@ -68,6 +90,10 @@ fn by_magic(start: &[u8]) -> Option<Format> {
         Some(Format::Nifti)
     } else if start.starts_with(b"ObjectType") || start.starts_with(b"NDims") {
         Some(Format::MetaImage)
+    } else if dicom::is_dicom(start) {
+        Some(Format::Dicom)
+    } else if tiff::is_tiff(start) {
+        Some(Format::Tiff)
     } else {
         None
     }

@@ -9,6 +9,16 @@ use crate::volume::{Element, MAX_EDGE_VOXELS, Samples, VolumeError, VolumeFrame,
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
+/// Edge in voxels of the blocks in which a field is looked at as a whole.
+const BLOCK: usize = 32;
+
+/// Where the field is zero in a layer of blocks.
+#[derive(Default)]
+struct Zeros {
+    layer: Option<u32>,
+    blocks: Vec<bool>,
+}
+
 /// A procedural volume. Its voxels are point samples of the field at every level: coarse levels are not averages.
 pub struct ProceduralVolume {
     info: VolumeInfo,
@@ -16,6 +26,7 @@ pub struct ProceduralVolume {
     field: Box<dyn Field>,
     /// Voxels along the largest axis: one unit of the field.
     unit_voxels: f64,
+    zeros: Zeros,
 }
 
 impl ProceduralVolume {
@@ -37,7 +48,7 @@ impl ProceduralVolume {
         let frame = VolumeFrame::of_voxels(DVec3::splat(voxel_size_m));
         let info =
             VolumeInfo { name: name.into(), dims, frame, element: Element::F32, slope: 1.0, intercept: 0.0 };
-        Ok(Self { info, shape: OctreeShape::new(dims), field, unit_voxels })
+        Ok(Self { info, shape: OctreeShape::new(dims), field, unit_voxels, zeros: Zeros::default() })
     }
 
     /// The field itself; a position in the volume frame (voxels) is divided by max(dims) first.
@@ -111,14 +122,43 @@ impl VolumeReader for ProceduralVolume {
     }
 
     fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError> {
+        let Samples::F32(slab) = slab else { panic!("the slab is of the volume's own element") };
+        self.look_for_zeros(z);
         let position = |voxel: usize| (voxel as f64 + 0.5) / self.unit_voxels;
         let width = self.info.dims.x as usize;
-        let Samples::F32(slab) = slab else { panic!("the slab is of the volume's own element") };
+        let across = width.div_ceil(BLOCK);
+        let (field, zeros) = (&self.field, &self.zeros.blocks);
         slab.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-            for (x, value) in row.iter_mut().enumerate() {
-                *value = self.field.value(DVec3::new(position(x), position(y), position(z as usize))) as f32;
+            let zeros = &zeros[y / BLOCK * across..][..across];
+            for (block, values) in row.chunks_mut(BLOCK).enumerate() {
+                if zeros[block] {
+                    values.fill(0.0);
+                    continue;
+                }
+                for (i, value) in values.iter_mut().enumerate() {
+                    let x = position(block * BLOCK + i);
+                    *value = field.value(DVec3::new(x, position(y), position(z as usize))) as f32;
+                }
             }
         });
         Ok(())
+    }
+}
+
+impl ProceduralVolume {
+    /// Finds the blocks of slab `z` in which the field is zero, once for all slabs of a layer of blocks.
+    fn look_for_zeros(&mut self, z: u32) {
+        let layer = z / BLOCK as u32;
+        if self.zeros.layer == Some(layer) {
+            return;
+        }
+        let blocks = self.info.dims.map(|n| n.div_ceil(BLOCK as u32));
+        let (field, edge) = (&self.field, BLOCK as f64 / self.unit_voxels);
+        let is_zero = |block: u32| {
+            let low = UVec3::new(block % blocks.x, block / blocks.x, layer).as_dvec3() * edge;
+            field.range_in_box(low, low + edge) == (0.0, 0.0)
+        };
+        self.zeros.blocks = (0..blocks.x * blocks.y).into_par_iter().map(is_zero).collect();
+        self.zeros.layer = Some(layer);
     }
 }

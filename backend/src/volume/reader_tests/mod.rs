@@ -12,14 +12,14 @@ use super::*;
 use glam::{DVec3, UVec3};
 use std::path::{Path, PathBuf};
 
-const DIMS: UVec3 = UVec3::new(5, 6, 4);
-const VOXEL_SIZE_M: DVec3 = DVec3::new(0.5e-3, 0.75e-3, 2e-3);
+pub(super) const DIMS: UVec3 = UVec3::new(5, 6, 4);
+pub(super) const VOXEL_SIZE_M: DVec3 = DVec3::new(0.5e-3, 0.75e-3, 2e-3);
 
-fn data(name: &str) -> PathBuf {
+pub(super) fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(name)
 }
 
-fn values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeError> {
+pub(super) fn values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeError> {
     let slab_voxels = reader.info().slab_voxels();
     let info = reader.info().clone();
     let mut slab = Samples::new(info.element, slab_voxels);
@@ -31,12 +31,17 @@ fn values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeError> {
     Ok(values)
 }
 
-fn expected(dims: UVec3, value: impl Fn(f64, f64, f64) -> f64) -> Vec<f64> {
+/// The values, but none of a volume that is far larger than those of the tests: a header that lies.
+pub(super) fn some_values(reader: &mut dyn VolumeReader) -> Result<Vec<f64>, VolumeError> {
+    if reader.info().voxels() > 1 << 14 { Ok(Vec::new()) } else { values(reader) }
+}
+
+pub(super) fn expected(dims: UVec3, value: impl Fn(f64, f64, f64) -> f64) -> Vec<f64> {
     let place = |i: u32| (i % dims.x, i / dims.x % dims.y, i / dims.x / dims.y);
     (0..dims.element_product()).map(place).map(|(x, y, z)| value(x.into(), y.into(), z.into())).collect()
 }
 
-fn ramp(x: f64, y: f64, z: f64) -> f64 {
+pub(super) fn ramp(x: f64, y: f64, z: f64) -> f64 {
     x + 10.0 * y + 100.0 * z
 }
 
