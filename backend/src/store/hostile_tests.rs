@@ -41,7 +41,8 @@ fn spoil(bytes: &mut [u8], table: usize, random: &mut Random) {
             2 => bytes[at] = random.below(256) as u8,
             // A whole number, as its field is aligned.
             _ => {
-                let (at, value) = (at & !3, [0u32, 1, 0x7f80_0000, 0x7fff_ffff, u32::MAX][random.below(5)]);
+                let at = at - (at - range.start) % 4;
+                let value = [0u32, 1, 0x7f80_0000, 0x7fff_ffff, u32::MAX][random.below(5)];
                 bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
             }
         }

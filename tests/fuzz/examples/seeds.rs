@@ -85,17 +85,11 @@ fn volumes(out: &Path) -> Result<(), Box<dyn Error>> {
     for path in files(data)? {
         let (name, bytes) = (path.strip_prefix(data)?.to_string_lossy().replace('/', "_"), fs::read(&path)?);
         let seeds: Vec<(u8, Vec<u8>)> = if path.starts_with(data.join("dicom")) {
-            vec![
-                (number("input.dcm", Form::File), bytes.clone()),
-                (number("slice.dcm", Form::Folder), bytes),
-            ]
+            vec![(number("input.dcm", Form::File), bytes.clone()), (number("slice.dcm", Form::Folder), bytes)]
         } else if let Some(name) = ["zarr.json", ".zarray"].into_iter().find(|name| path.ends_with(name)) {
             vec![(number(name, Form::Zarr), [bytes, vec![0; 65]].concat())]
         } else if name.ends_with(".tif") || name.ends_with(".tiff") {
-            vec![
-                (number("input.tif", Form::File), bytes.clone()),
-                (number("slice.tif", Form::Folder), bytes),
-            ]
+            vec![(number("input.tif", Form::File), bytes.clone()), (number("slice.tif", Form::Folder), bytes)]
         } else if name.ends_with(".gz") && (name.contains(".nii") || name.contains(".hdr")) {
             let packed = if name.contains(".nii") { "input.nii.gz" } else { "input.hdr.gz" };
             vec![
@@ -105,7 +99,7 @@ fn volumes(out: &Path) -> Result<(), Box<dyn Error>> {
         } else {
             let ending = name.rsplit('.').next().unwrap_or_default();
             let is_same = |(input, form): &(&str, Form)| {
-                matches!(form, Form::File | Form::Raw) && input.rsplit('.').next() == Some(ending)
+                *form == Form::File && input.rsplit('.').next() == Some(ending)
             };
             let found = FORMATS.iter().position(is_same);
             found.map(|place| (place as u8, bytes)).into_iter().collect()
@@ -114,6 +108,10 @@ fn volumes(out: &Path) -> Result<(), Box<dyn Error>> {
             fs::write(out.join(format!("{format}_{name}")), [vec![format], bytes].concat())?;
         }
     }
+    // The layout of raw voxels, as the target reads it: 4³ bytes of 1 mm after these 16.
+    let layout = [4, 4, 4].into_iter().flat_map(u32::to_le_bytes).chain([0, 0, 1, 16]);
+    let raw = number("input.raw", Form::Raw);
+    fs::write(out.join("raw"), [raw].into_iter().chain(layout).chain(0..64).collect::<Vec<u8>>())?;
     Ok(())
 }
 

@@ -10,6 +10,7 @@ use lightloom_fuzz::budget::Budget;
 use lightloom_fuzz::format::{FORMATS, Form};
 use std::fs;
 use std::io::Write;
+use std::panic::PanicHookInfo;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use tempfile::TempDir;
@@ -25,6 +26,10 @@ const MEMORY_BYTES: u64 = 1 << 20;
 const CONSTANT_BYTES: usize = (MOST_BYTES + MEMORY_BYTES) as usize + (6 << 20);
 /// Memory per byte of the file: headers are kept as text, as fields, and as lists of names and pages.
 const BYTES_PER_BYTE: usize = 64;
+/// The same for DICOM, whose elements may be deflated.
+const BYTES_PER_BYTE_OF_DICOM: usize = 4 * 1032;
+/// The same for TIFF, whose pages are unpacked whole, all channels of them: Zstandard packs 128 KiB into four bytes.
+const BYTES_PER_BYTE_OF_TIFF: usize = 1 << 15;
 /// Files that headers may name, beside the input's own.
 const COMPANIONS: [(&str, &[u8]); 8] = [
     ("input.img", include_bytes!("../../data/pair.img")),
@@ -42,38 +47,61 @@ static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
     let memory = Path::new("/dev/shm");
     let place = if memory.is_dir() { memory.into() } else { std::env::temp_dir() };
     let folder = tempfile::Builder::new().prefix("lightloom-fuzz-").tempdir_in(place).expect("a folder");
-    for (name, bytes) in COMPANIONS {
-        fs::write(folder.path().join(name), bytes).expect("the folder takes files");
+    for (number, (_, form)) in FORMATS.into_iter().enumerate() {
+        let folder = folder.path().join(number.to_string());
+        fs::create_dir(&folder).expect("the folder takes folders");
+        let companions: &[_] = if form == Form::File { &COMPANIONS } else { &[] };
+        for (name, bytes) in companions {
+            fs::write(folder.join(name), bytes).expect("the folder takes files");
+        }
     }
     folder
 });
 
-fuzz_target!(|data: &[u8]| {
+fuzz_target!(init: std::panic::set_hook(Box::new(told)), |data: &[u8]| {
     let Some((&first, bytes)) = data.split_first() else { return };
-    let (name, form) = FORMATS[usize::from(first) % FORMATS.len()];
+    let number = usize::from(first) % FORMATS.len();
+    let (name, form) = FORMATS[number];
     let raw = if form == Form::Raw { raw(bytes) } else { None };
-    let Some(path) = write(name, form, bytes) else { return };
+    let Some(path) = write(&FOLDER.path().join(number.to_string()), name, form, bytes) else { return };
+    let ratio = match name.rsplit('.').next() {
+        Some("tif") => BYTES_PER_BYTE_OF_TIFF,
+        Some("dcm") => BYTES_PER_BYTE_OF_DICOM,
+        _ => BYTES_PER_BYTE,
+    };
     for selection in selections() {
         let selection = Selection { raw: raw.clone(), ..selection };
-        let _budget = Budget::new(CONSTANT_BYTES + BYTES_PER_BYTE * bytes.len());
+        let _budget = Budget::new(CONSTANT_BYTES + ratio * bytes.len());
         if let Ok(mut volume) = open(&path, &selection) {
             read(volume.as_mut());
         }
     }
 });
 
+/// In the place of libFuzzer's hook, which aborts: the reader of DICOM catches panics of the decoder of JPEG. What is
+/// not caught aborts as well, a little later.
+fn told(panic: &PanicHookInfo<'_>) {
+    eprintln!("{panic}");
+}
+
 fn selections() -> [Selection; 3] {
     let plain = Selection { memory_bytes: MEMORY_BYTES, ..Selection::default() };
     let first = Selection { channel: Some(0), time: Some(0), series: Some("1".into()), ..plain.clone() };
     let (spacing_mm, memory_bytes) = (Some(DVec3::new(1.0, 0.5, 2.0)), 1);
-    let later =
-        Selection { channel: Some(1), time: Some(1), level: Some(1), spacing_mm, memory_bytes, ..plain.clone() };
+    let later = Selection {
+        channel: Some(1),
+        time: Some(1),
+        level: Some(1),
+        spacing_mm,
+        memory_bytes,
+        ..plain.clone()
+    };
     [plain, first, later]
 }
 
 /// Writes the input where it is to be opened; None where it is not one.
-fn write(name: &str, form: Form, bytes: &[u8]) -> Option<PathBuf> {
-    let path = FOLDER.path().join(name);
+fn write(folder: &Path, name: &str, form: Form, bytes: &[u8]) -> Option<PathBuf> {
+    let path = folder.join(name);
     match form {
         Form::File | Form::Raw => fs::write(&path, bytes).ok()?,
         Form::Packed => {
@@ -82,22 +110,19 @@ fn write(name: &str, form: Form, bytes: &[u8]) -> Option<PathBuf> {
             packed.finish().ok()?;
         }
         Form::Folder => {
-            let folder = FOLDER.path().join(format!("folder_of_{name}"));
-            fs::create_dir_all(&folder).ok()?;
-            fs::write(folder.join(name), bytes).ok()?;
-            return Some(folder);
+            fs::write(&path, bytes).ok()?;
+            return Some(folder.into());
         }
         Form::Zarr => {
             let split = bytes.iter().position(|&byte| byte == 0)?;
-            let folder = FOLDER.path().join(format!("array{name}.zarr"));
             // The first chunk, as either version of the format names it.
             for (chunk, parent) in [("c/0/0/0", "c/0/0"), ("0/0/0", "0/0")] {
                 fs::create_dir_all(folder.join(parent)).ok()?;
                 fs::write(folder.join(chunk), &bytes[split + 1..]).ok()?;
             }
             fs::write(folder.join("0.0.0"), &bytes[split + 1..]).ok()?;
-            fs::write(folder.join(name), &bytes[..split]).ok()?;
-            return Some(folder);
+            fs::write(&path, &bytes[..split]).ok()?;
+            return Some(folder.into());
         }
     }
     Some(path)
