@@ -19,6 +19,9 @@ use std::time::Instant;
 /// Bricks that are quantised and packed before they are written: some per core, not a whole layer of a huge volume.
 const BRICKS_AT_ONCE: usize = 128;
 
+/// So much may always be taken.
+const LEAST_MEMORY_BYTES: u64 = 64 << 20;
+
 /// Builds a store from a volume. `progress` is told (done, total) in slabs; a volume with values that are not finite is
 /// read twice. The file appears under its name only when it is complete.
 ///
@@ -34,8 +37,9 @@ pub fn build(
     let info = reader.info().clone();
     let slabs = u64::from(info.dims.z);
     let mut building = Building::start(&info, out, options)?;
-    // A survey stands for no slab; the bar rests meanwhile.
-    stream(reader, &|_| {}, |z, slab| {
+    let stop = options.stop.clone();
+    let should_stop = || stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed));
+    let is_complete = stream(reader, &should_stop, |z, slab| {
         building.check_stop()?;
         building.non_finite += slab.replaced;
         let taken = take(&mut building.levels[0], z, &slab.stored, &info);
@@ -44,6 +48,9 @@ pub fn build(
         progress(u64::from(z) + 1, slabs);
         Ok::<_, StoreError>(())
     })?;
+    if !is_complete {
+        return Err(StoreError::Interrupted { path: out.into() });
+    }
     building.finish(&info, started)
 }
 
@@ -83,11 +90,11 @@ impl Building {
             value_range: (0.0, 0.0),
             nodes: table.nodes(),
             table_offset: 0,
+            stored_bricks: None,
             levels: vec![LevelError::default(); count],
             source_name: shortened(&info.name),
         };
-        let slabs = SLABS_UNDER_WAY as u64 * info.slab_voxels() as u64 * info.element.bytes() as u64;
-        let memory = options.memory_bytes.saturating_sub(slabs);
+        let memory = memory_for_rings(info, shape, options)?;
         let sink = Sink::create(out, shape, header.length())?;
         Ok(Self {
             path: out.into(),
@@ -131,25 +138,23 @@ impl Building {
         let (slabs, source) = (&self.levels[level], self.header.dims);
         let BuildOptions { bits, codec, ref emptiness, .. } = self.options;
         let rules = PackRules { bits, codec, emptiness, source };
-        let mut bricks = Vec::new();
         for nodes in slabs.layer_nodes(layer).chunks(BRICKS_AT_ONCE) {
             self.check_stop()?;
-            let mut packed: Vec<PackedBrick> = nodes
+            let packed: Vec<PackedBrick> = nodes
                 .par_iter()
                 .map_init(Scratch::default, |scratch, &node| pack(slabs, node, &rules, scratch))
                 .collect();
-            for brick in &mut packed {
+            for brick in packed {
                 self.packing[level].merge(brick.errors);
                 if level == 0 {
                     let (low, high) = brick.range;
                     self.brick_range = (self.brick_range.0.min(low), self.brick_range.1.max(high));
                 }
                 self.emptied_bricks += u64::from(brick.is_emptied);
-                self.sink.write(brick)?;
+                self.sink.put(brick)?;
             }
-            bricks.append(&mut packed);
         }
-        self.sink.put_layer(&bricks);
+        self.sink.end_layer(self.levels[level].depth, layer);
         Ok(())
     }
 
@@ -190,6 +195,23 @@ impl Building {
             duration: started.elapsed(),
         })
     }
+}
+
+/// What is left of the memory for the levels' slabs, after the slabs being read and what tells of the tiles.
+fn memory_for_rings(
+    info: &VolumeInfo,
+    shape: OctreeShape,
+    options: &BuildOptions,
+) -> Result<u64, StoreError> {
+    let slabs = SLABS_UNDER_WAY as u64 * info.slab_voxels() as u64 * info.element.bytes() as u64;
+    let tiles: u64 = (0..=shape.finest_depth()).map(|depth| Level::tile_bytes(shape.level_dims(depth))).sum();
+    let least = slabs.saturating_add(tiles);
+    if least > options.memory_bytes.max(LEAST_MEMORY_BYTES) {
+        let (least, given) = (least >> 20, options.memory_bytes >> 20);
+        let what = format!("slabs of {} need {least} MiB of memory, and {given} MiB are given", info.dims);
+        return Err(StoreError::Input { input: info.name.clone(), what });
+    }
+    Ok(options.memory_bytes.saturating_sub(least))
 }
 
 /// As much of a name as the header takes.

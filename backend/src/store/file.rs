@@ -4,7 +4,7 @@ use super::bytes::checksum;
 use super::entry::{Checksums, Entry, Extent};
 use super::format::{Header, HeaderError, LONGEST_HEADER, version};
 use super::read_at::ReadAt;
-use super::table::{EntryRules, Found, Table};
+use super::table::{EntryRules, Fault, Found, Table};
 use super::{BRICK_VOXELS, Brick, BrickError, BrickSource, CellRanges, CodeBits, Codec, Codes, Deviation};
 use super::{LevelError, NodeKey, NodeSummary, OctreeShape, StoreError, format, format_v1};
 use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame};
@@ -66,7 +66,7 @@ impl Store {
         let shape = OctreeShape::new(header.dims);
         let table = match version {
             format_v1::VERSION => Table::dense(&header, shape, file_bytes),
-            _ => Table::tree(&header, file_bytes),
+            _ => Table::tree(&header, shape, file_bytes),
         };
         let table = table.map_err(damaged)?;
         let bricks = match table {
@@ -76,6 +76,8 @@ impl Store {
             Table::Tree { .. } => (header.length(), header.table_offset),
         };
         let rules = EntryRules {
+            shape,
+            largest_code: header.bits.largest(),
             bricks,
             codes: header.bits.brick_bytes() as u64,
             cells: CellRanges::byte_count(header.bits) as u64,
@@ -110,10 +112,12 @@ impl Store {
         self.table.count()
     }
 
-    /// Bricks that take bytes. Reads the whole table; damaged entries do not count.
+    /// Bricks that take bytes. Of a store of format version 1 it reads the whole table; damaged entries do not count.
     pub fn stored_bricks(&self) -> u64 {
-        let entries = (0..self.table.count()).filter_map(|place| self.entry(place));
-        entries.filter(|entry| entry.extent.bytes() > 0).count() as u64
+        self.header.stored_bricks.unwrap_or_else(|| {
+            let entries = (0..self.table.count()).filter_map(|place| self.entry(place).ok());
+            entries.filter(|entry| entry.extent.bytes() > 0).count() as u64
+        })
     }
 
     /// Errors of the levels against the source, the finest first; empty where an older program built the store.
@@ -140,7 +144,7 @@ impl Store {
     pub fn stored_bytes(&self, node: NodeKey) -> u64 {
         match self.find(node) {
             Found::Entry(entry) => entry.extent.bytes(),
-            Found::Within(_) | Found::Damaged { .. } => 0,
+            Found::Within(_) | Found::Lost { .. } => 0,
         }
     }
 
@@ -151,13 +155,13 @@ impl Store {
     pub fn cells(&self, node: NodeKey) -> Result<Option<CellRanges>, BrickError> {
         let entry = self.entry_of(node)?;
         if entry.extent.codes == 0 {
-            return Ok(Some(CellRanges::uniform(0)));
+            return Ok(entry.extent.checksums.map(|_| CellRanges::uniform(0)));
         }
         let bytes = self.read(entry.extent.offset, u64::from(entry.extent.cells), node)?;
         self.cells_from(&entry.extent, &bytes).map_err(|what| self.damaged(node, &what))
     }
 
-    pub(super) fn entry(&self, place: u64) -> Option<Entry> {
+    pub(super) fn entry(&self, place: u64) -> Result<Entry, Fault> {
         self.table.entry(place, &self.rules, &*self.file)
     }
 
@@ -179,7 +183,10 @@ impl Store {
                 let extent = Extent { checksums, ..Extent::default() };
                 Ok(Entry { extent, step: 0.0, deviation_step: 0.0, ..entry })
             }
-            Found::Damaged { place, .. } => Err(self.damaged(node, &format!("entry {place} of the table"))),
+            Found::Lost { place, fault: Fault::Damaged, .. } => {
+                Err(self.damaged(node, &format!("entry {place} of the table")))
+            }
+            Found::Lost { fault: Fault::Unreadable(cause), .. } => Err(self.unreadable(node, &cause)),
         }
     }
 
@@ -192,11 +199,13 @@ impl Store {
 
     fn read(&self, offset: u64, length: u64, node: NodeKey) -> Result<Vec<u8>, BrickError> {
         let mut bytes = vec![0; length as usize];
-        self.file.read_at(offset, &mut bytes).map_err(|cause| {
-            let path = self.path.display();
-            BrickError(format!("cannot read brick {node} of {path}: {cause}; check the disk or the network"))
-        })?;
+        self.file.read_at(offset, &mut bytes).map_err(|cause| self.unreadable(node, &cause))?;
         Ok(bytes)
+    }
+
+    fn unreadable(&self, node: NodeKey, cause: &std::io::Error) -> BrickError {
+        let path = self.path.display();
+        BrickError(format!("cannot read brick {node} of {path}: {cause}; check the disk or the network"))
     }
 
     /// Reads and decodes what an entry tells of.
@@ -255,9 +264,9 @@ impl BrickSource for Store {
     fn summary(&self, node: NodeKey) -> NodeSummary {
         match self.find(node) {
             Found::Entry(Entry { min, max, .. })
-            | Found::Damaged { above: Some(Entry { min, max, .. }), .. } => NodeSummary { min, max },
+            | Found::Lost { above: Some(Entry { min, max, .. }), .. } => NodeSummary { min, max },
             Found::Within(entry) => NodeSummary { min: entry.low, max: entry.low },
-            Found::Damaged { above: None, .. } => {
+            Found::Lost { above: None, .. } => {
                 let (low, high) = self.header.value_range;
                 let (min, max) = ((low as f32).next_down(), (high as f32).next_up());
                 NodeSummary { min: min.max(f32::MIN), max: max.min(f32::MAX) }
@@ -304,6 +313,10 @@ fn check_header(header: &Header) -> Result<(), String> {
             "the voxel size is {} m, and each edge must be positive",
             header.frame.voxel_size_m()
         ));
+    }
+    let is_error = |error: f64| error.is_finite() && error >= 0.0;
+    if !header.levels.iter().all(|level| is_error(level.rms) && is_error(level.max)) {
+        return Err("the errors of its levels are no numbers that make sense".into());
     }
     // Beyond f32 lies no stored value.
     let is_value = |value: f64| value.abs() <= f64::from(f32::MAX);

@@ -19,7 +19,8 @@
 //! | 152..160 | offset of the table in the file, u64 |
 //! | 160..164 | length N of the source's name in bytes, u32, at most 4096 |
 //! | 164..168 | levels L of the octree, u32 |
-//! | 168..192 | zero |
+//! | 168..176 | bricks that take bytes, u64 |
+//! | 176..192 | zero |
 //! | 192..192+16L | of each level, the finest first: RMS and largest error against the source, f64 each |
 //! | then N bytes | the source's name, UTF-8, then zeros up to a multiple of 64: the header's end |
 //!
@@ -58,8 +59,9 @@ const NODES_AT: usize = RANGE_AT + 2 * size_of::<f64>();
 const TABLE_AT: usize = NODES_AT + size_of::<u64>();
 const NAME_LENGTH_AT: usize = TABLE_AT + size_of::<u64>();
 const LEVELS_AT: usize = NAME_LENGTH_AT + size_of::<u32>();
+const STORED_AT: usize = LEVELS_AT + size_of::<u32>();
 /// Bytes of the header before what has no fixed length.
-pub(super) const FIXED_BYTES: usize = LEVELS_AT + size_of::<u32>() + 24;
+pub(super) const FIXED_BYTES: usize = STORED_AT + size_of::<u64>() + 16;
 /// Bytes of a level's errors.
 const LEVEL_BYTES: usize = 2 * size_of::<f64>();
 /// Longest name of a source in bytes.
@@ -83,6 +85,8 @@ pub(super) struct Header {
     /// Entries of the table.
     pub nodes: u64,
     pub table_offset: u64,
+    /// Bricks that take bytes; None in files of version 1.
+    pub stored_bricks: Option<u64>,
     /// The finest first.
     pub levels: Vec<LevelError>,
     pub source_name: String,
@@ -125,6 +129,7 @@ impl Header {
         put(TABLE_AT, &self.table_offset.to_le_bytes());
         put(NAME_LENGTH_AT, &(self.source_name.len() as u32).to_le_bytes());
         put(LEVELS_AT, &(self.levels.len() as u32).to_le_bytes());
+        put(STORED_AT, &self.stored_bricks.unwrap_or_default().to_le_bytes());
         for (i, level) in self.levels.iter().enumerate() {
             put(FIXED_BYTES + i * LEVEL_BYTES, &level.rms.to_le_bytes());
             put(FIXED_BYTES + i * LEVEL_BYTES + size_of::<f64>(), &level.max.to_le_bytes());
@@ -173,6 +178,7 @@ impl Header {
             value_range: (numbers[12], numbers[13]),
             nodes: u64_at(bytes, NODES_AT),
             table_offset: u64_at(bytes, TABLE_AT),
+            stored_bricks: Some(u64_at(bytes, STORED_AT)),
             levels: (0..levels).map(level).collect(),
             source_name: str::from_utf8(name).map_err(|_| damaged("the source's name is no text"))?.into(),
         })
@@ -217,7 +223,7 @@ mod tests {
     fn offsets_are_those_of_the_description() {
         assert_eq!((CHECKSUM_AT, BITS_AT, SPACE_AT, DIMS_AT, AXES_AT), (12, 16, 19, 20, 32));
         assert_eq!((ORIGIN_AT, RANGE_AT, NODES_AT, TABLE_AT), (104, 128, 144, 152));
-        assert_eq!((NAME_LENGTH_AT, LEVELS_AT, FIXED_BYTES), (160, 164, 192));
+        assert_eq!((NAME_LENGTH_AT, LEVELS_AT, STORED_AT, FIXED_BYTES), (160, 164, 168, 192));
     }
 
     fn header() -> Header {
@@ -231,6 +237,7 @@ mod tests {
             value_range: (-1.5, 7.0),
             nodes: 1,
             table_offset: 4711,
+            stored_bricks: Some(1),
             levels: vec![LevelError { rms: 0.5, max: 2.0 }, LevelError { rms: 1.5, max: 3.0 }],
             source_name: "größe.nrrd".into(),
         }

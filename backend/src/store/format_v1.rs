@@ -77,6 +77,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, HeaderError> {
         value_range: (f64_of(RANGE_AT, 0), f64_of(RANGE_AT, 1)),
         nodes: u64_at(bytes, NODES_AT),
         table_offset: (HEADER_BYTES + source_name.len()).next_multiple_of(TABLE_ALIGNMENT) as u64,
+        stored_bricks: None,
         levels: Vec::new(),
         source_name,
     })

@@ -4,7 +4,8 @@
 //! parts count by the voxels of the source that each holds. Squares add up by the law of total variance: what a
 //! coarse voxel's parts vary within themselves, and what their means vary about its own.
 
-use super::level::{Level, Spread, SpreadSlab};
+use super::level::{Level, Spread, SpreadRow};
+use super::quantise::range;
 use super::ring::{Ring, TILE};
 use rayon::prelude::*;
 
@@ -29,33 +30,32 @@ type Rows = [[f32; COLUMNS]; ROWS];
 /// Writes slab `z / 2` of the coarser level from slab `z`, its last, and the one before. Returns the sum over all
 /// voxels of the source in it of the squared difference between the finer level's means and the coarser's.
 pub(super) fn halve(fine: &Level, z: u32, coarse: &mut Level, source: glam::UVec3) -> f64 {
-    let (width, [tiles, tile_rows]) = (coarse.dims.x as usize, coarse.tiles());
-    let under = |row: usize| under(fine, row, z, [source.y, source.z]);
+    let width = coarse.dims.x as usize;
     let columns = Columns { count: width, edge: coarse.edge, source: source.x };
-    let room = TILE * width;
-    let SpreadSlab { means, uniform, low, high, variance } = coarse.spread_mut(z / 2);
-    let variances: Vec<&mut [f32]> = match variance {
-        Some(variance) => variance.chunks_mut(room).collect(),
-        None => (0..tile_rows).map(|_| &mut [][..]).collect(),
-    };
-    let rooms = means.par_chunks_mut(room).zip(low.par_chunks_mut(room)).zip(high.par_chunks_mut(room));
-    let rooms = rooms.zip(variances).zip(uniform.par_chunks_mut(tiles));
-    rooms
-        .enumerate()
-        .map(|(tile_y, ((((means, low), high), variance), uniform))| {
-            let rows = (means.len() / width).min(TILE);
-            let under: Vec<Under> = (0..rows).map(|row| under(tile_y * TILE + row)).collect();
-            let mut out = TileRow { means, low, high, variance, width };
-            let mut squares = 0.0;
-            for (tile, uniform) in uniform.iter_mut().enumerate() {
-                *uniform = fine_uniform(fine, tile, tile_y, z);
-                if uniform.is_nan() {
-                    squares += out.halve_tile(fine, tile, &under, &columns);
+    let rows = coarse.spread_mut(z / 2).into_par_iter().enumerate();
+    let squares = rows.map(|(tile_y, mut row)| {
+        let under = |i: usize| under(fine, tile_y * TILE + i, z, [source.y, source.z]);
+        let under: Vec<Under> = (0..row.means.rows).map(under).collect();
+        let halve_tile = |tile: usize| {
+            let uniform = fine_uniform(fine, tile, tile_y, z);
+            row.uniform[tile] = uniform;
+            match uniform.is_nan() {
+                true => halve_tile(&mut row, fine, tile, &under, &columns),
+                false => {
+                    clear(&mut row, tile);
+                    0.0
                 }
             }
-            squares
-        })
-        .sum()
+        };
+        (0..width.div_ceil(TILE)).map(halve_tile).sum::<f64>()
+    });
+    // Added up one after the other: the sum must not depend on how threads share the rows.
+    squares.collect::<Vec<f64>>().iter().sum()
+}
+
+fn clear(row: &mut SpreadRow, tile: usize) {
+    let rings = [&mut row.means, &mut row.low, &mut row.high];
+    rings.into_iter().chain(&mut row.deviation).for_each(|ring| ring.clear(tile));
 }
 
 /// The value of the up to eight fine tiles under a coarse tile; NaN where it is not the same.
@@ -111,57 +111,44 @@ impl Columns {
     }
 }
 
-/// The room of a row of tiles in a coarse slab.
-struct TileRow<'a> {
-    means: &'a mut [f32],
-    low: &'a mut [f32],
-    high: &'a mut [f32],
-    /// Empty where it is not kept.
-    variance: &'a mut [f32],
-    width: usize,
-}
-
 /// A coarse row of one tile.
 struct CoarseRow {
     means: [f32; TILE],
     low: [f32; TILE],
     high: [f32; TILE],
-    /// Of the fine means about the coarse one.
+    /// Variance of the fine means about the coarse one, in squares of `unit`.
     between: [f32; TILE],
+    /// A power of two near the row's range: squares of numbers as large or small as f32 has them are none of f32's.
+    unit: f32,
 }
 
-impl TileRow<'_> {
-    fn halve_tile(&mut self, fine: &Level, tile: usize, under: &[Under], columns: &Columns) -> f64 {
-        let start = tile * TILE;
-        let count = TILE.min(self.width - start);
-        let last = columns.halves(columns.count - 1);
-        let is_cut = start + count == columns.count && last[0] != last[1];
-        let cut = is_cut.then(|| (count - 1, [last[0] / (last[0] + last[1]), last[1] / (last[0] + last[1])]));
-        let mut squares = 0.0;
-        let rows = under.len();
-        for (row, under) in under.iter().enumerate() {
-            let coarse = coarse_row(fine, tile, under, cut.map(|(at, parts)| (at, parts.map(|w| w as f32))));
-            let at = start * rows + row * count;
-            self.means[at..at + count].copy_from_slice(&coarse.means[..count]);
-            self.low[at..at + count].copy_from_slice(&coarse.low[..count]);
-            self.high[at..at + count].copy_from_slice(&coarse.high[..count]);
-            if !self.variance.is_empty() {
-                let variance =
-                    variance(fine, tile, under, cut.map(|(at, parts)| (at, parts.map(|w| w as f32))));
-                for (i, out) in self.variance[at..at + count].iter_mut().enumerate() {
-                    *out = variance[i] + coarse.between[i];
-                }
+/// Halves what is under a tile; returns the squares of [`halve`].
+fn halve_tile(out: &mut SpreadRow, fine: &Level, tile: usize, under: &[Under], columns: &Columns) -> f64 {
+    let count = TILE.min(columns.count - tile * TILE);
+    let last = columns.halves(columns.count - 1);
+    let of_last = last[0] + last[1];
+    let is_cut = tile * TILE + count == columns.count && last[0] != last[1];
+    let cut = is_cut.then(|| (count - 1, last.map(|half| (half / of_last) as f32)));
+    let mut squares = 0.0;
+    for (row, under) in under.iter().enumerate() {
+        let coarse = coarse_row(fine, tile, under, cut);
+        let at = row * count..(row + 1) * count;
+        out.means.room(tile)[at.clone()].copy_from_slice(&coarse.means[..count]);
+        out.low.room(tile)[at.clone()].copy_from_slice(&coarse.low[..count]);
+        out.high.room(tile)[at.clone()].copy_from_slice(&coarse.high[..count]);
+        if let Some(out) = &mut out.deviation {
+            let within = within(fine, tile, under, cut, coarse.unit);
+            for (i, out) in out.room(tile)[at].iter_mut().enumerate() {
+                *out = (within[i] + coarse.between[i]).sqrt() * coarse.unit;
             }
-            let whole = coarse.between[..count].iter().sum::<f32>();
-            let mut weighted = f64::from(whole) * f64::from(columns.edge);
-            if is_cut {
-                weighted +=
-                    f64::from(coarse.between[count - 1]) * (last[0] + last[1] - f64::from(columns.edge));
-            }
-            squares += weighted * under.source_voxels;
         }
-        squares
+        let mut weighted = f64::from(coarse.between[..count].iter().sum::<f32>()) * f64::from(columns.edge);
+        if is_cut {
+            weighted += f64::from(coarse.between[count - 1]) * (of_last - f64::from(columns.edge));
+        }
+        squares += weighted * under.source_voxels * f64::from(coarse.unit).powi(2);
     }
+    squares
 }
 
 /// The numbers of a ring under a tile's row; beyond the level's end its edge repeats, and counts nothing.
@@ -172,10 +159,11 @@ fn rows_of(fine: &Level, ring: &Ring, tile: usize, under: &Under, of_uniform: im
         let mut filled = 0;
         for (half, fine_tile) in (2 * tile..(2 * tile + 2).min(across)).enumerate() {
             let count = fine.tile_width(fine_tile);
+            let start = y % TILE * count;
             let out = &mut out[half * TILE..half * TILE + count];
             let uniform = fine.uniform(z, fine_tile, y / TILE);
             match uniform.is_nan() {
-                true => out.copy_from_slice(ring.row(z, fine_tile, y)),
+                true => out.copy_from_slice(&ring.tile(z, fine_tile, y / TILE)[start..start + count]),
                 false => out.fill(of_uniform(uniform)),
             }
             filled = half * TILE + count;
@@ -199,11 +187,38 @@ fn weighted_means(rows: &Rows, weights: [f32; ROWS], cut: Option<(usize, [f32; 2
     means
 }
 
-fn variance(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32; 2])>) -> [f32; TILE] {
-    match fine.spread.as_ref().and_then(|spread| spread.variance.as_ref()) {
-        Some(ring) => weighted_means(&rows_of(fine, ring, tile, under, |_| 0.0), under.weights, cut),
+/// Variance within the fine voxels, in squares of `unit`.
+fn within(
+    fine: &Level,
+    tile: usize,
+    under: &Under,
+    cut: Option<(usize, [f32; 2])>,
+    unit: f32,
+) -> [f32; TILE] {
+    match fine.spread.as_ref().and_then(|spread| spread.deviation.as_ref()) {
+        Some(ring) => {
+            let deviations = rows_of(fine, ring, tile, under, |_| 0.0);
+            weighted_means(&squared(&deviations, &[0.0; TILE], unit), under.weights, cut)
+        }
         None => [0.0; TILE],
     }
+}
+
+/// Squared differences to the coarse voxels around, in squares of `unit`.
+fn squared(rows: &Rows, coarse: &[f32; TILE], unit: f32) -> Rows {
+    let per_unit = 1.0 / unit;
+    std::array::from_fn(|row| {
+        std::array::from_fn(|i| {
+            let difference = rows[row][i] * per_unit - coarse[i / 2] * per_unit;
+            difference * difference
+        })
+    })
+}
+
+/// A power of two near the range of some numbers; within what f32 and its inverse have.
+fn unit(low: &[f32; TILE], high: &[f32; TILE]) -> f32 {
+    let range = f64::from(range(high).1) - f64::from(range(low).0);
+    f32::from_bits(((range.log2().floor().clamp(-100.0, 120.0) as i32 + 127) as u32) << 23)
 }
 
 fn coarse_row(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32; 2])>) -> CoarseRow {
@@ -217,14 +232,10 @@ fn coarse_row(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32
     };
     let raw = weighted_means(&rows, under.weights, cut);
     // Rounding must not carry a mean out of what it is a mean of: equal voxels stay equal.
-    let means: [f32; TILE] = std::array::from_fn(|i| larger(low[i], smaller(high[i], raw[i])));
-    let squared: Rows = std::array::from_fn(|row| {
-        std::array::from_fn(|i| {
-            let difference = rows[row][i] - means[i / 2];
-            difference * difference
-        })
-    });
-    CoarseRow { means, low, high, between: weighted_means(&squared, under.weights, cut) }
+    let means: [f32; TILE] = std::array::from_fn(|i| raw[i].max(low[i]).min(high[i]));
+    let unit = unit(&low, &high);
+    let between = weighted_means(&squared(&rows, &means, unit), under.weights, cut);
+    CoarseRow { means, low, high, between, unit }
 }
 
 fn smaller(a: f32, b: f32) -> f32 {

@@ -1,6 +1,5 @@
 //! From what a user names, a file or a procedural volume, to a store.
 
-use super::sink::folder_of;
 use super::{BuildOptions, BuildReport, StoreError, build};
 use crate::volume::procedural::ProceduralVolume;
 use crate::volume::{Selection, VolumeReader, open};
@@ -30,7 +29,7 @@ impl Default for ImportOptions {
 /// Builds the store `out` from `input`: a volume file (of which `selection` says more), or `procedural:NAME`.
 ///
 /// # Errors
-/// Those of [`open`] and [`build`]; an output that is the input.
+/// Those of [`open`] and [`build`].
 pub fn import(
     input: &str,
     selection: &Selection,
@@ -42,23 +41,7 @@ pub fn import(
         Some(name) => {
             Box::new(ProceduralVolume::new(name, options.procedural_dims, options.procedural_voxel_m)?)
         }
-        None => {
-            check_not_itself(input, out)?;
-            open(Path::new(input), selection)?
-        }
+        None => open(Path::new(input), selection)?,
     };
     build(reader.as_mut(), out, &options.build, progress)
-}
-
-/// The store must not take the place of the file that it is made from.
-fn check_not_itself(input: &str, out: &Path) -> Result<(), StoreError> {
-    let place = |path: &Path| {
-        let folder = folder_of(path).canonicalize().ok()?;
-        Some(folder.join(path.file_name()?))
-    };
-    if place(Path::new(input)).is_some_and(|place_in| Some(place_in) == place(out)) {
-        let what = "the store would replace it: choose another name for the store".into();
-        return Err(StoreError::Input { input: input.into(), what });
-    }
-    Ok(())
 }

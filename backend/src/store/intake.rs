@@ -1,7 +1,7 @@
 //! Taking slabs of the source over into the finest level.
 
 use super::level::Level;
-use super::ring::TILE;
+use super::ring::{TILE, TileRow};
 use super::tally::ErrorTally;
 use crate::volume::{Sample, Samples, VolumeInfo, with_samples};
 use rayon::prelude::*;
@@ -36,20 +36,19 @@ pub(super) fn take(level: &mut Level, z: u32, slab: &Samples, info: &VolumeInfo)
 }
 
 fn take_stored<S: Sample>(level: &mut Level, z: u32, stored: &[S], info: &VolumeInfo) -> Taken {
-    let (width, tiles) = (level.dims.x as usize, level.tiles()[0]);
+    let width = level.dims.x as usize;
     let is_plain = S::IS_EXACT_IN_F32 && info.is_unscaled();
-    let (means, uniform) = level.slab_mut(z);
-    let rows = stored.par_chunks(TILE * width).zip(means.par_chunks_mut(TILE * width));
-    rows.zip(uniform.par_chunks_mut(tiles))
-        .map(|((stored, means), uniform)| match is_plain {
-            true => take_exact(stored, width, means, uniform),
-            false => take_rounded(stored, width, info, means, uniform),
-        })
-        .reduce(Taken::nothing, Taken::merge)
+    let rows = stored.par_chunks(TILE * width).zip(level.slab_mut(z));
+    let taken = rows.map(|(stored, (means, uniform))| match is_plain {
+        true => take_exact(stored, width, means, uniform),
+        false => take_rounded(stored, width, info, means, uniform),
+    });
+    // Added up one after the other: the sum must not depend on how threads share the rows.
+    taken.collect::<Vec<_>>().into_iter().fold(Taken::nothing(), Taken::merge)
 }
 
 /// A row of tiles whose numbers are the data values, and exact in f32: their range is that of the bricks to be.
-fn take_exact<S: Sample>(stored: &[S], width: usize, means: &mut [f32], uniform: &mut [f32]) -> Taken {
+fn take_exact<S: Sample>(stored: &[S], width: usize, mut means: TileRow, uniform: &mut [f32]) -> Taken {
     for (tile, uniform) in uniform.iter_mut().enumerate() {
         let columns = tile * TILE..((tile + 1) * TILE).min(width);
         let first = stored[columns.start].to_f32();
@@ -57,9 +56,11 @@ fn take_exact<S: Sample>(stored: &[S], width: usize, means: &mut [f32], uniform:
             .chunks_exact(width)
             .all(|row| row[columns.clone()].iter().fold(true, |all, v| all & (v.to_f32() == first)));
         *uniform = if is_uniform { first } else { f32::NAN };
-    }
-    for (tile, _) in uniform.iter().enumerate().filter(|(_, uniform)| uniform.is_nan()) {
-        for_rows(stored, width, tile, means, |row, means| {
+        if is_uniform {
+            means.clear(tile);
+            continue;
+        }
+        for_rows(stored, width, tile, means.room(tile), |row, means| {
             means.iter_mut().zip(row).for_each(|(mean, value)| *mean = value.to_f32());
         });
     }
@@ -71,12 +72,10 @@ fn for_rows<S>(
     stored: &[S],
     width: usize,
     tile: usize,
-    means: &mut [f32],
+    room: &mut [f32],
     mut act: impl FnMut(&[S], &mut [f32]),
 ) {
-    let rows = stored.len() / width;
     let columns = tile * TILE..((tile + 1) * TILE).min(width);
-    let room = &mut means[columns.start * rows..columns.end * rows];
     for (row, means) in stored.chunks_exact(width).zip(room.chunks_exact_mut(columns.len())) {
         act(&row[columns.clone()], means);
     }
@@ -87,13 +86,13 @@ fn take_rounded<S: Sample>(
     stored: &[S],
     width: usize,
     info: &VolumeInfo,
-    means: &mut [f32],
+    mut means: TileRow,
     uniform: &mut [f32],
 ) -> Taken {
     let mut taken = Taken::nothing();
     for (tile, uniform) in uniform.iter_mut().enumerate() {
         let (mut first, mut is_uniform) = (None, true);
-        for_rows(stored, width, tile, means, |row, means| {
+        for_rows(stored, width, tile, means.room(tile), |row, means| {
             for (&stored, mean) in row.iter().zip(means) {
                 let value = info.value(stored.to_f64());
                 *mean = value as f32;
@@ -105,6 +104,9 @@ fn take_rounded<S: Sample>(
             }
         });
         *uniform = first.filter(|_| is_uniform).unwrap_or(f32::NAN);
+        if is_uniform {
+            means.clear(tile);
+        }
     }
     taken
 }

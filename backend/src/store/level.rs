@@ -1,6 +1,6 @@
 //! The last slabs of one level of the octree while a store is built: its voxels, and what they stand for.
 
-use super::ring::{Ring, TILE, kept};
+use super::ring::{Budget, Ring, TILE, TileRow, kept};
 use super::{BRICK_EDGE, BRICK_VOXELS, NodeKey, OVERLAP, OWN_EDGE, OctreeShape, StoreError};
 use glam::UVec3;
 use std::path::Path;
@@ -10,8 +10,8 @@ pub(super) struct Spread {
     /// Smallest and largest value of the source.
     pub low: Ring,
     pub high: Ring,
-    /// Variance of the source's values, where it is kept.
-    pub variance: Option<Ring>,
+    /// Standard deviation of the source's values, where it is kept.
+    pub deviation: Option<Ring>,
 }
 
 /// A level's last slabs. A tile of a slab whose voxels are all equal is only known by that value, and its room in the
@@ -29,7 +29,7 @@ pub(super) struct Level {
     uniform: Vec<f32>,
 }
 
-/// A run of a brick's samples along x that lies in one tile.
+/// A run of a brick's samples along x or y that lies in one tile.
 struct Segment {
     tile: usize,
     first_sample: usize,
@@ -39,38 +39,37 @@ struct Segment {
 }
 
 impl Level {
-    /// All levels, finest first. What does not fit into `memory_bytes` is kept in files in `folder`, the finest level
-    /// first: it is the largest.
+    /// All levels, finest first. What does not fit into `memory_bytes` is kept in files in `folder`.
     pub fn all(
         shape: OctreeShape,
         has_deviation: bool,
         memory_bytes: u64,
         folder: &Path,
     ) -> Result<Vec<Self>, StoreError> {
-        let mut left = memory_bytes;
-        let mut levels = Vec::new();
-        for depth in 0..=shape.finest_depth() {
-            let dims = shape.level_dims(depth);
-            let is_finest = depth == shape.finest_depth();
-            let rings = if is_finest { 1 } else { 3 + u64::from(has_deviation) };
-            let bytes = rings * Ring::bytes(dims);
-            let is_in_memory = bytes <= left;
-            left -= if is_in_memory { bytes } else { 0 };
-            let ring = || match is_in_memory {
-                true => Ok(Ring::in_memory(dims)),
-                false => Ring::in_file(dims, folder),
-            };
-            let spread = match is_finest {
+        let rings = |depth| if depth == shape.finest_depth() { 1 } else { 3 + u64::from(has_deviation) };
+        let depths = || (0..=shape.finest_depth()).rev();
+        let most: u64 = depths().map(|depth| rings(depth) * Ring::bytes(shape.level_dims(depth))).sum();
+        let budget = Budget::new(memory_bytes);
+        let spill = (most > memory_bytes).then_some(folder);
+        let level = |depth| {
+            let ring = || Ring::new(shape.level_dims(depth), &budget, spill);
+            let spread = match depth == shape.finest_depth() {
                 true => None,
                 false => {
-                    let variance = has_deviation.then(ring).transpose()?;
-                    Some(Spread { low: ring()?, high: ring()?, variance })
+                    let deviation = has_deviation.then(ring).transpose()?;
+                    Some(Spread { low: ring()?, high: ring()?, deviation })
                 }
             };
-            levels.push(Self::new(shape, depth, ring()?, spread));
-        }
-        levels.reverse();
-        Ok(levels)
+            Ok(Self::new(shape, depth, ring()?, spread))
+        };
+        depths().map(level).collect()
+    }
+
+    /// Bytes that telling of a level's tiles takes, whatever is in them.
+    pub fn tile_bytes(dims: UVec3) -> u64 {
+        let tiles = [dims.x, dims.y].map(|n| u64::from(n).div_ceil(TILE as u64));
+        let count = tiles[0].saturating_mul(tiles[1]).saturating_mul(u64::from(kept(dims)));
+        count.saturating_mul(4 * Ring::TILE_BYTES + size_of::<f32>() as u64)
     }
 
     fn new(shape: OctreeShape, depth: u8, means: Ring, spread: Option<Spread>) -> Self {
@@ -99,25 +98,26 @@ impl Level {
         self.uniform[self.uniform_start(z) + tile_y * self.tiles[0] + tile_x]
     }
 
-    /// The room of a slab's means, and of its tiles' values.
-    pub fn slab_mut(&mut self, z: u32) -> (&mut [f32], &mut [f32]) {
-        let start = self.uniform_start(z);
-        let tiles = self.tiles[0] * self.tiles[1];
-        (self.means.slab_mut(z), &mut self.uniform[start..start + tiles])
+    /// The room of a slab's means, and of its tiles' values, row of tiles by row of tiles.
+    pub fn slab_mut(&mut self, z: u32) -> Vec<(TileRow<'_>, &mut [f32])> {
+        let (start, across) = (self.uniform_start(z), self.tiles[0]);
+        let uniform = self.uniform[start..start + across * self.tiles[1]].chunks_mut(across);
+        self.means.slab_mut(z).into_iter().zip(uniform).collect()
     }
 
-    /// The same with the slabs of the spread: low, high, variance.
-    pub fn spread_mut(&mut self, z: u32) -> SpreadSlab<'_> {
-        let start = self.uniform_start(z);
-        let tiles = self.tiles[0] * self.tiles[1];
+    /// The same with what coarse voxels stand for.
+    pub fn spread_mut(&mut self, z: u32) -> Vec<SpreadRow<'_>> {
+        let (start, across) = (self.uniform_start(z), self.tiles[0]);
         let spread = self.spread.as_mut().expect("coarse levels have a spread");
-        SpreadSlab {
-            means: self.means.slab_mut(z),
-            uniform: &mut self.uniform[start..start + tiles],
-            low: spread.low.slab_mut(z),
-            high: spread.high.slab_mut(z),
-            variance: spread.variance.as_mut().map(|ring| ring.slab_mut(z)),
-        }
+        let mut deviation = spread.deviation.as_mut().map(|ring| ring.slab_mut(z).into_iter());
+        let rings =
+            self.means.slab_mut(z).into_iter().zip(spread.low.slab_mut(z)).zip(spread.high.slab_mut(z));
+        let uniform = self.uniform[start..start + across * self.tiles[1]].chunks_mut(across);
+        let row = |(((means, low), high), uniform)| {
+            let deviation = deviation.as_mut().and_then(Iterator::next);
+            SpreadRow { uniform, means, low, high, deviation }
+        };
+        rings.zip(uniform).map(row).collect()
     }
 
     /// Layers of bricks (cells along z) that are complete once slab `z` is there, and were not before.
@@ -159,26 +159,26 @@ impl Level {
         of_uniform: impl Fn(f32) -> f32,
         samples: &mut Vec<f32>,
     ) {
-        let segments = segments(node.cell.x, self.dims.x);
-        let (first, last) = (&segments[0], &segments[segments.len() - 1]);
-        let (start, end) = (first.first_sample, last.first_sample + last.count);
-        let ys = sample_indices(node.cell.y, self.dims.y);
+        let [xs, ys] = [0, 1].map(|axis| segments(node.cell[axis], self.dims[axis]));
         samples.resize(BRICK_VOXELS, 0.0);
         let zs = sample_indices(node.cell.z, self.dims.z);
         for (plane, z) in samples.chunks_exact_mut(BRICK_EDGE * BRICK_EDGE).zip(zs) {
-            for (out, y) in plane.chunks_exact_mut(BRICK_EDGE).zip(ys) {
-                for segment in &segments {
-                    let out = &mut out[segment.first_sample..][..segment.count];
-                    let uniform = self.uniform(z as u32, segment.tile, y / TILE);
+            for y in &ys {
+                for x in &xs {
+                    let uniform = self.uniform(z as u32, x.tile, y.tile);
                     match uniform.is_nan() {
-                        true => copy(&ring.row(z as u32, segment.tile, y)[segment.first_voxel..], out),
-                        false => out.fill(of_uniform(uniform)),
+                        true => copy_tile(
+                            ring.tile(z as u32, x.tile, y.tile),
+                            self.tile_width(x.tile),
+                            x,
+                            y,
+                            plane,
+                        ),
+                        false => fill(of_uniform(uniform), x, y, plane),
                     }
                 }
-                let (before, after) = (out[start], out[end - 1]);
-                out[..start].fill(before);
-                out[end..].fill(after);
             }
+            repeat_edges(&xs, &ys, plane);
         }
     }
 
@@ -193,22 +193,54 @@ impl Level {
     }
 }
 
-/// Copies the start of a row; the lengths that most runs have are known to the compiler, which needs no call then.
-fn copy(row: &[f32], out: &mut [f32]) {
-    match out.len() {
-        OWN_EDGE => out.copy_from_slice(&row[..OWN_EDGE]),
-        OVERLAP => out.copy_from_slice(&row[..OVERLAP]),
-        count => out.copy_from_slice(&row[..count]),
+/// Copies what a brick has of a tile into a plane of its samples.
+fn copy_tile(tile: &[f32], width: usize, x: &Segment, y: &Segment, plane: &mut [f32]) {
+    let rows = tile.chunks_exact(width).skip(y.first_voxel);
+    let out = plane.chunks_exact_mut(BRICK_EDGE).skip(y.first_sample).take(y.count);
+    for (out, row) in out.zip(rows) {
+        let (out, row) = (&mut out[x.first_sample..][..x.count], &row[x.first_voxel..][..x.count]);
+        match x.count {
+            // Lengths that the compiler knows need no call.
+            OWN_EDGE => out[..OWN_EDGE].copy_from_slice(&row[..OWN_EDGE]),
+            OVERLAP => out[..OVERLAP].copy_from_slice(&row[..OVERLAP]),
+            _ => out.copy_from_slice(row),
+        }
     }
 }
 
-/// The room of a coarse slab.
-pub(super) struct SpreadSlab<'a> {
-    pub means: &'a mut [f32],
+fn fill(value: f32, x: &Segment, y: &Segment, plane: &mut [f32]) {
+    for out in plane.chunks_exact_mut(BRICK_EDGE).skip(y.first_sample).take(y.count) {
+        out[x.first_sample..][..x.count].fill(value);
+    }
+}
+
+/// Repeats the edges of what lies inside the level up to the plane's ends.
+fn repeat_edges(xs: &[Segment], ys: &[Segment], plane: &mut [f32]) {
+    let ends = |segments: &[Segment]| {
+        let last = &segments[segments.len() - 1];
+        (segments[0].first_sample, last.first_sample + last.count)
+    };
+    let ((left, right), (top, bottom)) = (ends(xs), ends(ys));
+    if right - left < BRICK_EDGE {
+        for row in plane.chunks_exact_mut(BRICK_EDGE).take(bottom).skip(top) {
+            let (before, after) = (row[left], row[right - 1]);
+            row[..left].fill(before);
+            row[right..].fill(after);
+        }
+    }
+    for y in (0..top).chain(bottom..BRICK_EDGE) {
+        let edge = y.clamp(top, bottom - 1) * BRICK_EDGE;
+        plane.copy_within(edge..edge + BRICK_EDGE, y * BRICK_EDGE);
+    }
+}
+
+/// The room of a row of tiles of a coarse slab.
+pub(super) struct SpreadRow<'a> {
     pub uniform: &'a mut [f32],
-    pub low: &'a mut [f32],
-    pub high: &'a mut [f32],
-    pub variance: Option<&'a mut [f32]>,
+    pub means: TileRow<'a>,
+    pub low: TileRow<'a>,
+    pub high: TileRow<'a>,
+    pub deviation: Option<TileRow<'a>>,
 }
 
 /// Voxels of the level at the 32 stored samples of a cell, along one axis.
@@ -217,7 +249,7 @@ fn sample_indices(cell: u32, voxels: u32) -> [usize; BRICK_EDGE] {
     std::array::from_fn(|i| (first + i as i64).clamp(0, i64::from(voxels) - 1) as usize)
 }
 
-/// The samples of a cell that lie inside the level along x, tile by tile.
+/// The samples of a cell that lie inside the level along an axis, tile by tile.
 fn segments(cell: u32, voxels: u32) -> Vec<Segment> {
     let first = i64::from(cell) * OWN_EDGE as i64 - OVERLAP as i64;
     let (inside, end) = (first.max(0) as usize, (first + BRICK_EDGE as i64).min(i64::from(voxels)) as usize);

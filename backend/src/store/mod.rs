@@ -16,6 +16,8 @@ mod format;
 mod format_v1;
 mod halve;
 #[cfg(test)]
+mod hard_tests;
+#[cfg(test)]
 mod hostile_tests;
 mod import;
 mod intake;

@@ -37,7 +37,8 @@ pub struct BuildOptions {
     pub bits: CodeBits,
     /// Compression of the bricks.
     pub codec: Codec,
-    /// Memory for the slabs of all levels; what does not fit is kept in a working file beside the store.
+    /// Memory for slabs: those being read, and the last ones of all levels, of which what does not fit is kept in working
+    /// files beside the store. Beyond it, a build takes some 110 bytes per brick that is not one value.
     pub memory_bytes: u64,
     /// Which bricks are left out.
     pub emptiness: Emptiness,

@@ -105,14 +105,15 @@ fn plain(codes: &Codes) -> Cow<'_, [u8]> {
 
 /// The standard deviations of a coarse node, in place of its samples; None where they are not kept or all zero.
 fn deviation(level: &Level, node: NodeKey, samples: &mut Vec<f32>) -> Option<Deviation> {
-    let variance = level.spread.as_ref()?.variance.as_ref()?;
-    level.samples(node, variance, |_| 0.0, samples);
-    let largest = range(samples).1.sqrt();
+    let deviation = level.spread.as_ref()?.deviation.as_ref()?;
+    level.samples(node, deviation, |_| 0.0, samples);
+    let largest = range(samples).1;
     if largest <= 0.0 {
         return None;
     }
-    let step = largest / 255.0;
-    let codes = samples.iter().map(|variance| (variance.sqrt() / step).round() as u8).collect();
+    // The least f32 is its own 255th part.
+    let step = (largest / 255.0).max(f32::from_bits(1));
+    let codes = samples.iter().map(|deviation| (deviation / step).round() as u8).collect();
     Some(Deviation { codes, step })
 }
 

@@ -99,7 +99,7 @@ fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     }
     let range = f64::from(high) - f64::from(low);
     let largest = f64::from(bits.largest());
-    if range <= largest && low.abs().max(high.abs()) <= EXACT_INTEGER && are_whole(samples, low) {
+    if range <= largest && low.abs().max(high.abs()) <= EXACT_INTEGER && are_whole(samples) {
         return 1.0;
     }
     let ideal = range / largest;
@@ -108,15 +108,11 @@ fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     down.max(f32::from_bits(1))
 }
 
-/// Whether all samples, at most 65535 above `low`, are whole numbers.
-fn are_whole(samples: &[f32], low: f32) -> bool {
-    let is_whole = |v: f32| {
-        let above = v - low;
-        (above + ROUNDER) - ROUNDER == above
-    };
+/// Whether all samples, of magnitudes that i32 has, are whole numbers.
+fn are_whole(samples: &[f32]) -> bool {
+    let is_whole = |v: f32| (v as i32) as f32 == v;
     let (lanes, rest) = samples.as_chunks::<LANES>();
-    low.trunc() == low
-        && lanes.iter().all(|lane| lane.iter().fold(true, |all, &v| all & is_whole(v)))
+    lanes.iter().all(|lane| lane.iter().fold(true, |all, &v| all & is_whole(v)))
         && rest.iter().all(|&v| is_whole(v))
 }
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! A store being written: bricks as they come, then the table, and the header last.
 
-use super::format::Header;
+use super::format::{Header, MAGIC};
 use super::pack::PackedBrick;
 use super::tree::Tree;
 use super::working_file::WorkingFile;
 use super::{OctreeShape, StoreError};
 use std::fs::File;
-use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Bytes collected before they are written.
@@ -15,8 +15,9 @@ const WRITE_BUFFER_BYTES: usize = 1 << 20;
 /// The file being written. It has its name only when it is complete, and until then no header either.
 pub(super) struct Sink {
     path: PathBuf,
-    file: BufWriter<File>,
+    // Dropped in this order: the name goes before the lock does.
     working: WorkingFile,
+    file: BufWriter<File>,
     tree: Tree,
     position: u64,
     stored_bricks: u64,
@@ -26,28 +27,31 @@ impl Sink {
     /// Starts a file with room for a header of so many bytes.
     pub fn create(path: &Path, shape: OctreeShape, header_bytes: u64) -> Result<Self, StoreError> {
         let failed = StoreError::write(path);
+        // Without a slash at the end, which a path of a file may have until something is to be written there.
+        let path = path.components().as_path();
+        check_replaceable(path)?;
         let (working, file) = WorkingFile::create(path).map_err(&failed)?;
         let mut file = BufWriter::with_capacity(WRITE_BUFFER_BYTES, file);
         file.seek(SeekFrom::Start(header_bytes)).map_err(&failed)?;
         let tree = Tree::new(shape);
-        Ok(Self { path: path.into(), file, working, tree, position: header_bytes, stored_bricks: 0 })
+        Ok(Self { path: path.into(), working, file, tree, position: header_bytes, stored_bricks: 0 })
     }
 
-    /// Writes a layer of bricks, in the order that [`Tree::put_layer`] wants.
-    pub fn put_layer(&mut self, bricks: &[PackedBrick]) {
-        self.tree.put_layer(bricks.iter().map(|brick| (brick.node, brick.entry)));
-    }
-
-    /// Writes a brick's bytes and notes where they are.
-    pub fn write(&mut self, brick: &mut PackedBrick) -> Result<(), StoreError> {
+    /// Writes a brick; they come in the order that [`Tree::put`] wants.
+    pub fn put(&mut self, mut brick: PackedBrick) -> Result<(), StoreError> {
         if !brick.bytes.is_empty() {
             brick.entry.extent.offset = self.position;
             self.position += brick.bytes.len() as u64;
             self.stored_bricks += 1;
             self.file.write_all(&brick.bytes).map_err(StoreError::write(&self.path))?;
-            brick.bytes = Vec::new();
         }
+        self.tree.put(brick.node, brick.entry);
         Ok(())
+    }
+
+    /// Ends a layer of bricks of constant z.
+    pub fn end_layer(&mut self, depth: u8, z: u32) {
+        self.tree.end_layer(depth, z);
     }
 
     /// Bricks that took any bytes.
@@ -60,7 +64,8 @@ impl Sink {
         let failed = StoreError::write(&self.path);
         let nodes = self.tree.write(&mut self.file).map_err(&failed)?;
         let bytes = self.file.stream_position().map_err(&failed)?;
-        let header = Header { nodes, table_offset: self.position, ..header };
+        let stored_bricks = Some(self.stored_bricks);
+        let header = Header { nodes, table_offset: self.position, stored_bricks, ..header };
         self.file.seek(SeekFrom::Start(0)).map_err(&failed)?;
         self.file.write_all(&header.to_bytes()).map_err(&failed)?;
         let file = self.file.into_inner().map_err(|error| failed(error.into_error()))?;
@@ -68,6 +73,20 @@ impl Sink {
         self.working.rename(&self.path).map_err(&failed)?;
         sync_folder(&self.path);
         Ok(bytes)
+    }
+}
+
+/// A store may take the place of a store, and of nothing else: a mistyped name must cost nobody their data.
+fn check_replaceable(path: &Path) -> Result<(), StoreError> {
+    let Ok(found) = std::fs::metadata(path) else { return Ok(()) };
+    let mut start = Vec::new();
+    let is_store = found.is_file()
+        && File::open(path).is_ok_and(|file| file.take(MAGIC.len() as u64).read_to_end(&mut start).is_ok())
+        && (start.is_empty() || start == MAGIC);
+    // Of a folder, the working file will say that it is one.
+    match is_store || found.is_dir() {
+        true => Ok(()),
+        false => Err(StoreError::Occupied { path: path.into() }),
     }
 }
 

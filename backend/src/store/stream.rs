@@ -1,7 +1,9 @@
 //! The slabs of a volume, read ahead by a thread of their own: the disk and the decompressor work while others pack.
 
+use super::quantise::range;
 use crate::volume::{Sample, Samples, VolumeError, VolumeInfo, VolumeReader, with_samples};
 use crossbeam_channel::{Receiver, Sender, bounded};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Slabs under way at once: one being read, one waiting, one being taken in.
 pub(super) const SLABS_UNDER_WAY: usize = 3;
@@ -13,16 +15,15 @@ pub(super) struct CleanSlab {
     pub replaced: u64,
 }
 
-/// Hands every slab of a volume, in order, to `take` until it fails; reads ahead meanwhile.
+/// Hands every slab of a volume, in order, to `take` until it fails; reads ahead meanwhile. False where `stop` ended it.
 ///
 /// NaN becomes the smallest finite value of the volume; infinities, and what is beyond f32, the smallest and the
-/// largest. To know these the volume is read a second time, from the first slab on that has such a voxel; `survey` is
-/// told the slabs that are done of that.
+/// largest. To know these, the first slab that has such a voxel makes the rest of the volume be read twice.
 pub(super) fn stream<E: From<VolumeError>>(
     reader: &mut dyn VolumeReader,
-    survey: &(dyn Fn(u32) + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
     mut take: impl FnMut(u32, &CleanSlab) -> Result<(), E>,
-) -> Result<(), E> {
+) -> Result<bool, E> {
     let info = reader.info().clone();
     let (filled, slabs) = bounded::<Result<CleanSlab, VolumeError>>(SLABS_UNDER_WAY);
     let (emptied, spares) = bounded(SLABS_UNDER_WAY);
@@ -30,65 +31,110 @@ pub(super) fn stream<E: From<VolumeError>>(
         let spare = Samples::new(info.element, info.slab_voxels());
         emptied.send(spare).expect("the channel has room for all slabs");
     }
+    let is_left = AtomicBool::new(false);
+    let should_stop = || is_left.load(Ordering::Relaxed) || stop();
     std::thread::scope(|scope| {
-        scope.spawn(move || read_ahead(reader, &spares, &filled, survey));
-        // Owned here, so that the thread finds the channel closed where this ends early.
-        let slabs = slabs;
-        let emptied = emptied;
-        for z in 0..info.dims.z {
-            let slab = slabs.recv().expect("the reading thread sends every slab, or an error")?;
-            take(z, &slab)?;
-            // The thread that read the last slab is gone.
-            let _ = emptied.send(slab.stored);
-        }
-        Ok(())
+        let (stop, info) = (&should_stop, &info);
+        let ahead = ReadAhead { reader, info, stop, range: None, cleaner: None };
+        scope.spawn(move || ahead.run(&spares, &filled));
+        let mut take_all = || {
+            for z in 0..info.dims.z {
+                // A thread that ended without an error was told to stop.
+                let Ok(slab) = slabs.recv() else { return Ok(false) };
+                let slab = slab?;
+                take(z, &slab)?;
+                // The thread that read the last slab is gone.
+                let _ = emptied.send(slab.stored);
+            }
+            Ok(true)
+        };
+        let taken = take_all();
+        is_left.store(true, Ordering::Relaxed);
+        // The thread finds the channels closed where it waits for them.
+        drop((slabs, emptied));
+        taken
     })
 }
 
-fn read_ahead(
-    reader: &mut dyn VolumeReader,
-    spares: &Receiver<Samples>,
-    filled: &Sender<Result<CleanSlab, VolumeError>>,
-    survey: &(dyn Fn(u32) + Sync),
-) {
-    let mut cleaner = None;
-    for z in 0..reader.info().dims.z {
-        let Ok(mut stored) = spares.recv() else { return };
-        let slab = reader
-            .read_slab(z, &mut stored)
-            .and_then(|()| clean(reader, &mut stored, &mut cleaner, survey))
-            .and_then(|replaced| match replaced {
-                // Another slab was read on the way.
-                None => reader
-                    .read_slab(z, &mut stored)
-                    .and_then(|()| clean(reader, &mut stored, &mut cleaner, survey)),
-                some => Ok(some),
-            })
-            .map(|replaced| CleanSlab { stored, replaced: replaced.unwrap_or(0) });
-        let is_last = slab.is_err();
-        if filled.send(slab).is_err() || is_last {
-            return;
-        }
-    }
+/// The reading thread's part.
+struct ReadAhead<'a> {
+    reader: &'a mut dyn VolumeReader,
+    info: &'a VolumeInfo,
+    stop: &'a (dyn Fn() -> bool + Sync),
+    /// Stored numbers of the smallest and the largest finite value so far, where there may be others.
+    range: Option<(f64, f64)>,
+    cleaner: Option<Cleaner>,
 }
 
-/// Cleans a slab; None where the volume had to be surveyed first, which spends the slab.
-fn clean(
-    reader: &mut dyn VolumeReader,
-    slab: &mut Samples,
-    cleaner: &mut Option<Cleaner>,
-    survey: &(dyn Fn(u32) + Sync),
-) -> Result<Option<u64>, VolumeError> {
-    let info = reader.info().clone();
-    if info.is_all_finite() || is_clean(slab, &info) {
-        return Ok(Some(0));
-    }
-    match cleaner {
-        Some(cleaner) => Ok(Some(cleaner.clean(slab, &info))),
-        None => {
-            *cleaner = Some(Cleaner::survey(reader, slab, survey)?);
-            Ok(None)
+impl ReadAhead<'_> {
+    fn run(mut self, spares: &Receiver<Samples>, filled: &Sender<Result<CleanSlab, VolumeError>>) {
+        for z in 0..self.info.dims.z {
+            let Ok(mut stored) = spares.recv() else { return };
+            let slab = match self.read(z, &mut stored) {
+                Ok(None) => return,
+                Ok(Some(replaced)) => Ok(CleanSlab { stored, replaced }),
+                Err(error) => Err(error),
+            };
+            let is_last = slab.is_err();
+            if filled.send(slab).is_err() || is_last {
+                return;
+            }
         }
+    }
+
+    /// Reads a slab and cleans it; returns how many voxels were replaced, or None where it was told to stop.
+    fn read(&mut self, z: u32, slab: &mut Samples) -> Result<Option<u64>, VolumeError> {
+        if (self.stop)() {
+            return Ok(None);
+        }
+        self.reader.read_slab(z, slab)?;
+        if self.info.is_all_finite() {
+            return Ok(Some(0));
+        }
+        if is_clean(slab, self.info) {
+            self.look(slab);
+            return Ok(Some(0));
+        }
+        if self.cleaner.is_none() {
+            self.cleaner = self.survey(z, slab)?;
+            // Other slabs were read on the way.
+            self.reader.read_slab(z, slab)?;
+        }
+        Ok(self.cleaner.map(|cleaner| cleaner.clean(slab, self.info)))
+    }
+
+    /// Takes the finite numbers of a slab into the range.
+    fn look(&mut self, slab: &Samples) {
+        if self.cleaner.is_some() {
+            return;
+        }
+        let numbers = (0..slab.len()).map(|i| slab.get(i)).filter(|&v| can_be_kept(self.info.value(v)));
+        let (low, high) = match slab {
+            Samples::F32(values) if self.info.is_unscaled() && is_clean(slab, self.info) => {
+                let (low, high) = range(values);
+                (f64::from(low), f64::from(high))
+            }
+            _ => numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v))),
+        };
+        let (lowest, highest) = self.range.unwrap_or((low, high));
+        self.range = (low <= high).then(|| (lowest.min(low), highest.max(high))).or(self.range);
+    }
+
+    /// Reads the rest of the volume for its finite range; None where it was told to stop.
+    fn survey(&mut self, z: u32, slab: &mut Samples) -> Result<Option<Cleaner>, VolumeError> {
+        self.look(slab);
+        for z in z + 1..self.info.dims.z {
+            if (self.stop)() {
+                return Ok(None);
+            }
+            self.reader.read_slab(z, slab)?;
+            self.look(slab);
+        }
+        let nothing = || VolumeError::NoFiniteValue { name: self.info.name.clone() };
+        let (low, high) = self.range.ok_or_else(nothing)?;
+        // A negative slope turns the order of values around.
+        let [smallest, largest] = if self.info.slope > 0.0 { [low, high] } else { [high, low] };
+        Ok(Some(Cleaner { smallest, largest }))
     }
 }
 
@@ -115,29 +161,6 @@ struct Cleaner {
 }
 
 impl Cleaner {
-    /// Reads a whole volume to find its finite range.
-    fn survey(
-        reader: &mut dyn VolumeReader,
-        slab: &mut Samples,
-        progress: &(dyn Fn(u32) + Sync),
-    ) -> Result<Self, VolumeError> {
-        let info = reader.info().clone();
-        let mut range: Option<(f64, f64)> = None;
-        for z in 0..info.dims.z {
-            reader.read_slab(z, slab)?;
-            let stored = (0..slab.len()).map(|i| slab.get(i)).filter(|&v| can_be_kept(info.value(v)));
-            for number in stored {
-                let (low, high) = range.unwrap_or((number, number));
-                range = Some((low.min(number), high.max(number)));
-            }
-            progress(z + 1);
-        }
-        let (low, high) = range.ok_or_else(|| VolumeError::NoFiniteValue { name: info.name.clone() })?;
-        // A negative slope turns the order of values around.
-        let [smallest, largest] = if info.slope > 0.0 { [low, high] } else { [high, low] };
-        Ok(Self { smallest, largest })
-    }
-
     /// Cleans numbers in place; returns how many were not finite.
     fn clean(&self, slab: &mut Samples, info: &VolumeInfo) -> u64 {
         let mut replaced = 0;

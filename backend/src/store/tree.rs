@@ -24,22 +24,15 @@ impl Tree {
         Self { depths: (0..=shape.finest_depth()).map(|_| Vec::new()).collect() }
     }
 
-    /// Takes in a layer of nodes of one depth and z in their order, after all layers of the next depth below it.
-    /// Bounds become those of all below; children that a constant stands for are dropped.
-    pub fn put_layer(&mut self, layer: impl IntoIterator<Item = (NodeKey, Entry)>) {
-        let mut place = None;
-        for (node, entry) in layer {
-            let row = self.above(node, entry);
-            place = Some(node);
-            self.depths[usize::from(node.depth)].push(row);
-        }
-        if let Some(NodeKey { depth, cell }) = place {
-            self.drop_below(depth, cell.z);
-        }
+    /// Takes in a node. Those of a depth come in their order, and after all those below them. Bounds become those of
+    /// all below.
+    pub fn put(&mut self, node: NodeKey, entry: Entry) {
+        let row = self.above(node, entry);
+        self.depths[usize::from(node.depth)].push(row);
     }
 
-    /// Drops the nodes below those of a layer that stand for all below them.
-    fn drop_below(&mut self, depth: u8, layer: u32) {
+    /// Drops the nodes below those of a complete layer of constant z that stand for all below them.
+    pub fn end_layer(&mut self, depth: u8, layer: u32) {
         let (above, below) = self.depths.split_at_mut(usize::from(depth) + 1);
         let (Some(rows), Some(children)) = (above.last(), below.first_mut()) else { return };
         let rows = &rows[rows.partition_point(|row| row.node.cell.z < layer)..];
@@ -122,7 +115,8 @@ mod tests {
             shape.nodes(depth).filter(move |node| node.cell.z == z).map(|node| (node, value(node)))
         };
         for (depth, z) in [(2, 0), (2, 1), (1, 0), (2, 2), (2, 3), (1, 1), (0, 0)] {
-            tree.put_layer(layer(depth, z));
+            layer(depth, z).for_each(|(node, entry)| tree.put(node, entry));
+            tree.end_layer(depth, z);
         }
         tree
     }

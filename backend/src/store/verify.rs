@@ -2,7 +2,7 @@
 
 use super::entry::Entry;
 use super::table::Table;
-use super::{BrickSource, CellRanges, NodeKey, OctreeShape, Store, StoreError};
+use super::{BrickSource, CellRanges, NodeKey, Store, StoreError};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -88,8 +88,8 @@ fn dense_nodes(store: &Store, found: &mut Verification) -> Vec<Listed> {
     let mut listed = Vec::new();
     for (place, node) in all.enumerate().map(|(place, node)| (place as u64, node)) {
         match store.entry(place) {
-            Some(entry) => listed.push(Listed { place, node: Some(node), entry }),
-            None => found.note(format!("entry {place} of the table, of brick {node}, is damaged")),
+            Ok(entry) => listed.push(Listed { place, node: Some(node), entry }),
+            Err(_) => found.note(format!("entry {place} of the table, of brick {node}, is damaged")),
         }
     }
     listed
@@ -105,11 +105,11 @@ fn tree_nodes(store: &Store, found: &mut Verification) -> Vec<Listed> {
     for place in 0..count {
         let node = keys[place as usize];
         match store.entry(place) {
-            Some(entry) => {
-                pass_on(&entry, place, node, store.shape(), &mut keys);
+            Ok(entry) if node.is_none_or(|node| store.rules.fits(node, &entry)) => {
+                pass_on(&entry, place, node, &mut keys, found);
                 listed.push(Listed { place, node, entry });
             }
-            None => {
+            Ok(_) | Err(_) => {
                 let of = node.map_or_else(String::new, |node| format!(", of brick {node},"));
                 found.note(format!("entry {place} of the table{of} is damaged"));
             }
@@ -129,16 +129,16 @@ fn pass_on(
     entry: &Entry,
     place: u64,
     node: Option<NodeKey>,
-    shape: OctreeShape,
     keys: &mut [Option<NodeKey>],
+    found: &mut Verification,
 ) {
     let octants = (0..8u32).filter(|octant| entry.children >> octant & 1 == 1);
-    for (octant, child_place) in octants.zip(entry.first_child..) {
-        let slot = usize::try_from(child_place).ok().and_then(|place| keys.get_mut(place));
-        let child = node.map(|node| node.child(octant)).filter(|&child| shape.contains(child));
-        if let (Some(slot), true) = (slot, child_place > place) {
-            *slot = child;
+    // The table lets no entry pass whose children lie outside it.
+    for (octant, slot) in octants.zip(&mut keys[entry.first_child as usize..]) {
+        if slot.is_some() {
+            found.note(format!("entry {place} of the table has a child that another has too"));
         }
+        *slot = node.map(|node| node.child(octant));
     }
 }
 

@@ -1,39 +1,43 @@
 //! A file that is being written: beside the one that it will be, locked, and gone when the work is given up.
 
+use super::bytes::checksum;
+use std::ffi::{OsStr, OsString};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// How often a file is opened anew that another process renamed between opening and locking.
 const ATTEMPTS: usize = 10;
+/// With what is put around them, longer names exceed the 255 bytes of most file systems.
+const LONGEST_NAME_BYTES: usize = 240;
 
 /// `.NAME.part` in the folder of NAME. One process writes it at a time; what a killed process left there is taken over.
 pub(super) struct WorkingFile {
     path: PathBuf,
     is_renamed: bool,
+    /// Keeps the lock until the file is renamed or removed.
+    _lock: File,
 }
 
 impl WorkingFile {
     /// Starts the file for `target`, empty.
     pub fn create(target: &Path) -> io::Result<(Self, File)> {
-        let name = target.file_name().ok_or(io::ErrorKind::IsADirectory)?;
         if target.is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
         }
-        let path = target.with_file_name(format!(".{}.part", name.to_string_lossy()));
+        let path =
+            target.with_file_name(working_name(target.file_name().ok_or(io::ErrorKind::InvalidInput)?));
         for _ in 0..ATTEMPTS {
-            let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
-            match file.try_lock() {
-                Ok(()) => {}
-                Err(TryLockError::WouldBlock) => {
-                    let what = "another program is writing it: wait for that, or choose another name";
-                    return Err(io::Error::new(io::ErrorKind::ResourceBusy, what));
-                }
-                Err(TryLockError::Error(error)) => return Err(error),
+            if std::fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
+                let what = format!("{} is in the way, and no file", path.display());
+                return Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
             }
+            let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
+            lock(&file)?;
             if is_at(&file, &path) {
                 file.set_len(0)?;
-                return Ok((Self { path, is_renamed: false }, file));
+                let working = Self { path, is_renamed: false, _lock: file.try_clone()? };
+                return Ok((working, file));
             }
         }
         Err(io::ErrorKind::ResourceBusy.into())
@@ -56,13 +60,39 @@ impl Drop for WorkingFile {
     }
 }
 
+/// `.NAME.part`, or something shorter where that is too long for a file system.
+fn working_name(name: &OsStr) -> OsString {
+    let mut working = OsString::from(".");
+    match name.len() > LONGEST_NAME_BYTES {
+        true => working.push(format!("{:08x}", checksum(name.as_encoded_bytes()))),
+        false => working.push(name),
+    }
+    working.push(".part");
+    working
+}
+
+/// Takes a file for this process. Where a file system knows no locks, nobody else is kept from it.
+fn lock(file: &File) -> io::Result<()> {
+    match file.try_lock() {
+        Ok(()) => Ok(()),
+        Err(TryLockError::WouldBlock) => {
+            let what = "another program is writing it: wait for that, or choose another name";
+            Err(io::Error::new(io::ErrorKind::ResourceBusy, what))
+        }
+        Err(TryLockError::Error(error)) => {
+            tracing::warn!(%error, "files cannot be locked here: see that no other program writes the same store");
+            Ok(())
+        }
+    }
+}
+
 /// Whether a path still leads to an open file: another process may have given it its name meanwhile.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let place =
         |metadata: io::Result<std::fs::Metadata>| metadata.ok().map(|found| (found.dev(), found.ino()));
-    place(file.metadata()).is_some_and(|open| Some(open) == place(std::fs::metadata(path)))
+    place(file.metadata()).is_some_and(|open| Some(open) == place(std::fs::symlink_metadata(path)))
 }
 
 /// An open file cannot be renamed here, so it is where it was.
