@@ -9,7 +9,7 @@ use std::path::Path;
 
 const SEED: u64 = 0x6c6c_6f6f_6d02;
 /// Spoiled stores of each kind.
-const STORES: usize = 600;
+const STORES: usize = 2000;
 /// Nodes read of each depth: few entries can be those of an octree of any size.
 const NODES_PER_DEPTH: usize = 6;
 

@@ -42,11 +42,9 @@ const COMPANIONS: [(&str, &[u8]); 8] = [
     ("float32_ascii.txt", include_bytes!("../../data/float32_ascii.txt")),
 ];
 
-/// A folder in memory where the system has one.
+/// The folder of this process; it stays when the process ends, and `run` removes it.
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
-    let memory = Path::new("/dev/shm");
-    let place = if memory.is_dir() { memory.into() } else { std::env::temp_dir() };
-    let folder = tempfile::Builder::new().prefix("lightloom-fuzz-").tempdir_in(place).expect("a folder");
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
     for (number, (_, form)) in FORMATS.into_iter().enumerate() {
         let folder = folder.path().join(number.to_string());
         fs::create_dir(&folder).expect("the folder takes folders");
