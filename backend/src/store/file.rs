@@ -268,7 +268,8 @@ impl BrickSource for Store {
             Found::Within(entry) => NodeSummary { min: entry.low, max: entry.low },
             Found::Lost { above: None, .. } => {
                 let (low, high) = self.header.value_range;
-                NodeSummary { min: (low as f32).next_down(), max: (high as f32).next_up() }
+                let (min, max) = ((low as f32).next_down(), (high as f32).next_up());
+                NodeSummary { min: min.max(f32::MIN), max: max.min(f32::MAX) }
             }
         }
     }
@@ -317,7 +318,9 @@ fn check_header(header: &Header) -> Result<(), String> {
     if !header.levels.iter().all(|level| is_error(level.rms) && is_error(level.max)) {
         return Err("the errors of its levels are no numbers that make sense".into());
     }
-    if !range.0.is_finite() || !range.1.is_finite() || range.0 > range.1 {
+    // Beyond f32 lies no stored value.
+    let is_value = |value: f64| value.abs() <= f64::from(f32::MAX);
+    if !is_value(range.0) || !is_value(range.1) || range.0 > range.1 {
         return Err(format!("the values are said to range from {} to {}", range.0, range.1));
     }
     Ok(())

@@ -17,6 +17,8 @@ mod format_v1;
 mod halve;
 #[cfg(test)]
 mod hard_tests;
+#[cfg(test)]
+mod hostile_tests;
 mod import;
 mod intake;
 mod level;
@@ -26,6 +28,8 @@ mod options;
 mod pack;
 mod quantise;
 mod read_at;
+#[cfg(test)]
+mod resign;
 mod ring;
 mod sink;
 mod source;

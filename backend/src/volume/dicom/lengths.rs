@@ -7,8 +7,9 @@ use super::decode::BIG_ENDIAN;
 use super::header::{MAGIC, PREAMBLE_BYTES};
 use crate::volume::VolumeError;
 use dicom_dictionary_std::uids;
+use flate2::read::DeflateDecoder;
 use std::fs::File;
-use std::io::{BufReader, ErrorKind, Read, Result, Seek, SeekFrom};
+use std::io::{BufReader, Cursor, ErrorKind, Read, Result, Seek, SeekFrom};
 use std::path::Path;
 
 /// Length of an element that ends with a delimiter (PS3.5, 7.1.1).
@@ -19,9 +20,12 @@ const SHORT: [&[u8; 2]; 21] = [
     b"SS", b"ST", b"TM", b"UI", b"UL", b"US",
 ];
 const META_GROUP: u16 = 0x0002;
+const META_LENGTH: u16 = 0x0000;
 const TRANSFER_SYNTAX: u16 = 0x0010;
 const ITEM_GROUP: u16 = 0xFFFE;
 const PIXEL_GROUP: u16 = 0x7FE0;
+/// Bytes of a deflated data set that are believed: it is unpacked whole to be looked at.
+const MOST_UNPACKED_BYTES: u64 = 1 << 30;
 /// First bytes of an item, lowest byte first.
 const ITEM_START: [u8; 4] = [0xfe, 0xff, 0x00, 0xe0];
 
@@ -40,9 +44,8 @@ struct Header {
     length: u32,
 }
 
-struct Walk<'a> {
-    path: &'a Path,
-    file: BufReader<File>,
+struct Walk<F> {
+    file: F,
     coding: Coding,
     end: u64,
     /// Whether items are pixels, and not lists of elements.
@@ -55,52 +58,75 @@ pub(super) fn check(path: &Path, has_preamble: bool) -> std::result::Result<(), 
     let end = file.metadata().map_err(VolumeError::open(path))?.len();
     let preamble = if has_preamble { PREAMBLE_BYTES } else { 0 };
     let coding = Coding { is_explicit: true, is_big_endian: false };
-    let mut walk = Walk { path, file: BufReader::new(file), coding, end, in_pixels: false };
-    let checked = walk.run((preamble + MAGIC.len()) as u64);
-    match checked {
+    let mut walk = Walk { file: BufReader::new(file), coding, end, in_pixels: false };
+    match walk.run((preamble + MAGIC.len()) as u64, true) {
         // A header that is cut off is for the parser to complain of.
         Err(cause) if cause.kind() == ErrorKind::UnexpectedEof => Ok(()),
-        Err(cause) => Err(VolumeError::Read { path: walk.path.into(), cause }),
+        Err(cause) => Err(VolumeError::read(path)(cause)),
         Ok(None) => Ok(()),
         Ok(Some(what)) => Err(VolumeError::header(path, what)),
     }
 }
 
-/// How the data set is coded; None where its lengths are packed with the rest.
-fn coding(syntax: &str) -> Option<Coding> {
+fn coding(syntax: &str) -> Coding {
     let is_explicit = syntax != uids::IMPLICIT_VR_LITTLE_ENDIAN;
-    let coding = Coding { is_explicit, is_big_endian: syntax == BIG_ENDIAN };
-    (syntax != uids::DEFLATED_EXPLICIT_VR_LITTLE_ENDIAN).then_some(coding)
+    Coding { is_explicit, is_big_endian: syntax == BIG_ENDIAN }
 }
 
-impl Walk<'_> {
-    /// What is wrong, if anything is.
-    fn run(&mut self, start: u64) -> Result<Option<String>> {
+impl<F: Read + Seek> Walk<F> {
+    /// What is wrong with the elements from a place on, if anything is; `in_meta` where the meta group comes first.
+    fn run(&mut self, start: u64, mut in_meta: bool) -> Result<Option<String>> {
         self.file.seek(SeekFrom::Start(start))?;
-        // The meta group is always coded in the same way, and says how the rest is.
-        let mut after_meta = None;
+        // The meta group is always coded in the same way, and says how long it is and how the rest is coded.
+        let (mut meta_end, mut syntax) = (None, String::new());
         while self.file.stream_position()? < self.end {
-            if self.peek()?[..2] != META_GROUP.to_le_bytes()
-                && let Some(coding) = after_meta.take()
-            {
-                self.coding = coding;
+            if in_meta && self.is_after_meta(meta_end)? {
+                in_meta = false;
+                if syntax == uids::DEFLATED_EXPLICIT_VR_LITTLE_ENDIAN {
+                    return self.run_deflated();
+                }
+                self.coding = coding(&syntax);
             }
             let header = self.header()?;
             if let Some(what) = self.too_long(&header)? {
                 return Ok(Some(what));
             }
-            if (header.group, header.element) == (META_GROUP, TRANSFER_SYNTAX) {
-                let mut syntax = vec![0; header.length as usize];
-                self.file.read_exact(&mut syntax)?;
-                after_meta = coding(String::from_utf8_lossy(&syntax).trim_end_matches(['\0', ' ']));
-                if after_meta.is_none() {
-                    return Ok(None);
+            match (header.group, header.element) {
+                (META_GROUP, META_LENGTH) if in_meta && header.length == 4 => {
+                    let length = self.number::<4>()?;
+                    meta_end = Some(self.file.stream_position()? + u64::from(length));
                 }
-            } else if !self.go_into(&header)? {
-                return Ok(None);
+                (META_GROUP, TRANSFER_SYNTAX) if in_meta && header.length != UNDEFINED => {
+                    let mut text = vec![0; header.length as usize];
+                    self.file.read_exact(&mut text)?;
+                    syntax = String::from_utf8_lossy(&text).trim_end_matches(['\0', ' ']).to_owned();
+                }
+                _ if !self.go_into(&header)? => return Ok(None),
+                _ => (),
             }
         }
         Ok(None)
+    }
+
+    fn is_after_meta(&mut self, meta_end: Option<u64>) -> Result<bool> {
+        match meta_end {
+            Some(end) => Ok(self.file.stream_position()? >= end),
+            None => Ok(self.peek()?[..2] != META_GROUP.to_le_bytes()),
+        }
+    }
+
+    /// What is wrong with the elements that the rest of the file unpacks to.
+    fn run_deflated(&mut self) -> Result<Option<String>> {
+        let mut unpacked = Vec::new();
+        // What comes before damage can still be wrong; the damage itself is for the parser to complain of.
+        let _ = DeflateDecoder::new(&mut self.file).take(MOST_UNPACKED_BYTES + 1).read_to_end(&mut unpacked);
+        let end = unpacked.len() as u64;
+        if end > MOST_UNPACKED_BYTES {
+            let what = "its deflated elements unpack to more than 1 GiB: unpack it first, for instance with gdcmconv --raw";
+            return Ok(Some(what.into()));
+        }
+        let coding = Coding { is_explicit: true, is_big_endian: false };
+        Walk { file: Cursor::new(unpacked), coding, end, in_pixels: false }.run(0, false)
     }
 
     fn too_long(&mut self, header: &Header) -> Result<Option<String>> {

@@ -231,8 +231,7 @@ fn files_cut_short_at_any_place_are_an_error() {
 #[test]
 fn a_wrong_byte_anywhere_is_survived() {
     let folder = tempfile::tempdir().unwrap();
-    // The lengths in deflated data are not looked at beforehand: each wrong one takes memory, and thus time.
-    for name in DAMAGED.into_iter().filter(|&name| name != "deflated.dcm") {
+    for name in DAMAGED {
         let bytes = std::fs::read(file(name)).unwrap();
         for at in (128..bytes.len()).step_by(5) {
             for wrong in [0x00, 0x7f, 0xff] {

@@ -34,18 +34,26 @@ struct Kind {
 impl Relabelled {
     /// Walks through the pages of a file; gives their number, too.
     pub fn open(path: &Path) -> Result<(Self, usize)> {
-        let mut file = BufReader::new(File::open(path)?);
+        let file = File::open(path)?;
+        let length = file.metadata()?.len();
+        let mut file = BufReader::new(file);
         let mut start = [0; 8];
         file.read_exact(&mut start)?;
         let kind = Kind { is_big_tiff: start.contains(&43), is_big_endian: start.starts_with(b"MM") };
         let mut next = if kind.is_big_tiff { kind.number(&mut file, 8)? } else { kind.value(&start[4..]) };
         let mut seen = HashSet::new();
         let mut replaced = Vec::new();
+        // Bytes that the tags of further pages can take: they do not overlap.
+        let mut left = length;
         while next != 0 {
             if !seen.insert(next) {
-                return Err(Error::new(ErrorKind::InvalidData, "its list of pages runs in a circle"));
+                return Err(wrong("its list of pages runs in a circle"));
             }
-            next = walk_page(&mut file, &kind, next, &mut replaced)?;
+            let page = Page::read(&mut file, &kind, next)?;
+            page.check(&kind, length)?;
+            left = left.checked_sub(page.tags.len() as u64).ok_or_else(|| wrong("its pages overlap"))?;
+            replaced.extend(page.replaced(&kind));
+            next = page.next;
         }
         replaced.sort_unstable();
         file.rewind()?;
@@ -53,28 +61,74 @@ impl Relabelled {
     }
 }
 
-/// Notes the byte to replace in the page at `start`; gives the place of the next page.
-fn walk_page(file: &mut BufReader<File>, kind: &Kind, start: u64, replaced: &mut Vec<u64>) -> Result<u64> {
-    let (count_bytes, word_bytes) = if kind.is_big_tiff { (8, 8) } else { (2, 4) };
-    file.seek(SeekFrom::Start(start))?;
-    let tags = kind.number(file, count_bytes)?;
-    if tags > MOST_TAGS {
-        return Err(Error::new(ErrorKind::InvalidData, format!("a page of {tags} tags")));
-    }
-    let mut page = vec![0; tags as usize * (4 + 2 * word_bytes)];
-    file.read_exact(&mut page)?;
-    for (i, tag) in page.chunks_exact(4 + 2 * word_bytes).enumerate() {
-        let value = &tag[4 + word_bytes..][..2];
-        let is_grey = matches!(kind.value(value), WHITE_IS_ZERO | PALETTE);
-        if kind.value(&tag[..2]) == PHOTOMETRIC_TAG && is_grey {
-            let before = count_bytes + i * tag.len() + 4 + word_bytes;
-            replaced.push(start + before as u64 + u64::from(kind.is_big_endian));
+/// What a page says of itself.
+struct Page {
+    start: u64,
+    /// So many bytes each: number, type, count of values, and the values or their place.
+    tags: Vec<u8>,
+    /// Place of the next page; 0 where there is none.
+    next: u64,
+}
+
+impl Page {
+    fn read(file: &mut BufReader<File>, kind: &Kind, start: u64) -> Result<Self> {
+        file.seek(SeekFrom::Start(start))?;
+        let count = kind.number(file, kind.count_bytes())?;
+        if count > MOST_TAGS {
+            return Err(wrong(format!("a page of {count} tags")));
         }
+        let mut tags = vec![0; count as usize * kind.tag_bytes()];
+        file.read_exact(&mut tags)?;
+        Ok(Self { start, tags, next: kind.number(file, kind.word_bytes())? })
     }
-    kind.number(file, word_bytes)
+
+    /// The decoder takes memory for the values of a tag before it looks for them.
+    fn check(&self, kind: &Kind, length: u64) -> Result<()> {
+        for tag in self.tags.chunks_exact(kind.tag_bytes()) {
+            let values = kind.value(&tag[4..][..kind.word_bytes()]);
+            if values > length {
+                let number = kind.value(&tag[..2]);
+                return Err(wrong(format!("tag {number} has {values} values, and the file {length} bytes")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Places of the bytes to replace.
+    fn replaced(&self, kind: &Kind) -> impl Iterator<Item = u64> {
+        let value_at = 4 + kind.word_bytes();
+        let is_replaced = move |tag: &[u8]| {
+            let is_grey = matches!(kind.value(&tag[value_at..][..2]), WHITE_IS_ZERO | PALETTE);
+            kind.value(&tag[..2]) == PHOTOMETRIC_TAG && is_grey
+        };
+        let tags = self.tags.chunks_exact(kind.tag_bytes()).enumerate();
+        let found = tags.filter(move |(_, tag)| is_replaced(tag));
+        found.map(move |(i, tag)| {
+            let before = kind.count_bytes() + i * tag.len() + value_at;
+            self.start + before as u64 + u64::from(kind.is_big_endian)
+        })
+    }
+}
+
+fn wrong(what: impl Into<String>) -> Error {
+    Error::new(ErrorKind::InvalidData, what.into())
 }
 
 impl Kind {
+    /// Bytes of the number of tags.
+    fn count_bytes(&self) -> usize {
+        if self.is_big_tiff { 8 } else { 2 }
+    }
+
+    /// Bytes of a place in the file, and of a count of values.
+    fn word_bytes(&self) -> usize {
+        if self.is_big_tiff { 8 } else { 4 }
+    }
+
+    fn tag_bytes(&self) -> usize {
+        4 + 2 * self.word_bytes()
+    }
+
     fn value(&self, bytes: &[u8]) -> u64 {
         let push = |value: u64, &byte: &u8| value << 8 | u64::from(byte);
         match self.is_big_endian {

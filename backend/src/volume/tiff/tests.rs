@@ -210,3 +210,21 @@ fn a_wrong_byte_anywhere_is_survived() {
         }
     }
 }
+
+#[test]
+fn memory_is_not_taken_for_what_the_file_cannot_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bytes = std::fs::read(file("uint16_plain.tif")).unwrap();
+    // The count of the values of the first tag.
+    let page = u32::from_le_bytes([4, 5, 6, 7].map(|at| bytes[at])) as usize;
+    bytes[page + 6..page + 10].copy_from_slice(&0x7fff_ffffu32.to_le_bytes());
+    let said = read_bytes(folder.path(), &bytes).unwrap_err();
+    assert!(said.contains("has 2147483647 values"), "{said}");
+    // A second page that starts within the tags of the first.
+    let mut bytes = [0; 80];
+    for (at, value) in [(0, *b"II*\0"), (4, [8, 0, 0, 0]), (8, [4, 0, 4, 0]), (58, [10, 0, 0, 0])] {
+        bytes[at..at + 4].copy_from_slice(&value);
+    }
+    let said = read_bytes(folder.path(), &bytes).unwrap_err();
+    assert!(said.contains("its pages overlap"), "{said}");
+}
