@@ -4,8 +4,7 @@
 //! parts count by the voxels of the source that each holds. Squares add up by the law of total variance: what a
 //! coarse voxel's parts vary within themselves, and what their means vary about its own.
 
-use super::level::{Level, Spread, SpreadRow};
-use super::quantise::range;
+use super::level::{Level, Spread, SpreadRow, copy_row};
 use super::ring::{Ring, TILE};
 use rayon::prelude::*;
 
@@ -163,7 +162,7 @@ fn rows_of(fine: &Level, ring: &Ring, tile: usize, under: &Under, of_uniform: im
             let out = &mut out[half * TILE..half * TILE + count];
             let uniform = fine.uniform(z, fine_tile, y / TILE);
             match uniform.is_nan() {
-                true => out.copy_from_slice(&ring.tile(z, fine_tile, y / TILE)[start..start + count]),
+                true => copy_row(&ring.tile(z, fine_tile, y / TILE)[start..start + count], out),
                 false => out.fill(of_uniform(uniform)),
             }
             filled = half * TILE + count;
@@ -217,8 +216,19 @@ fn squared(rows: &Rows, coarse: &[f32; TILE], unit: f32) -> Rows {
 
 /// A power of two near the range of some numbers; within what f32 and its inverse have.
 fn unit(low: &[f32; TILE], high: &[f32; TILE]) -> f32 {
-    let range = f64::from(range(high).1) - f64::from(range(low).0);
-    f32::from_bits(((range.log2().floor().clamp(-100.0, 120.0) as i32 + 127) as u32) << 23)
+    const LANES: usize = 4;
+    let (mut lowest, mut highest) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+    for (low, high) in low.as_chunks::<LANES>().0.iter().zip(high.as_chunks::<LANES>().0) {
+        for i in 0..LANES {
+            lowest[i] = smaller(low[i], lowest[i]);
+            highest[i] = larger(high[i], highest[i]);
+        }
+    }
+    let lowest = lowest.into_iter().fold(f32::INFINITY, smaller);
+    let range = f64::from(highest.into_iter().fold(f32::NEG_INFINITY, larger)) - f64::from(lowest);
+    // The exponent of an f64, which is 0 for 0.
+    let exponent = ((range.to_bits() >> 52) as i32 - 1023).clamp(-100, 120);
+    f32::from_bits(((exponent + 127) as u32) << 23)
 }
 
 fn coarse_row(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32; 2])>) -> CoarseRow {

@@ -199,12 +199,16 @@ fn copy_tile(tile: &[f32], width: usize, x: &Segment, y: &Segment, plane: &mut [
     let out = plane.chunks_exact_mut(BRICK_EDGE).skip(y.first_sample).take(y.count);
     for (out, row) in out.zip(rows) {
         let (out, row) = (&mut out[x.first_sample..][..x.count], &row[x.first_voxel..][..x.count]);
-        match x.count {
-            // Lengths that the compiler knows need no call.
-            OWN_EDGE => out[..OWN_EDGE].copy_from_slice(&row[..OWN_EDGE]),
-            OVERLAP => out[..OVERLAP].copy_from_slice(&row[..OVERLAP]),
-            _ => out.copy_from_slice(row),
-        }
+        copy_row(row, out);
+    }
+}
+
+/// Copies a row; lengths that the compiler knows need no call.
+pub(super) fn copy_row(row: &[f32], out: &mut [f32]) {
+    match out.len() {
+        OWN_EDGE => out[..OWN_EDGE].copy_from_slice(&row[..OWN_EDGE]),
+        OVERLAP => out[..OVERLAP].copy_from_slice(&row[..OVERLAP]),
+        _ => out.copy_from_slice(row),
     }
 }
 

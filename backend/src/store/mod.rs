@@ -39,6 +39,7 @@ mod tally;
 mod tree;
 mod verify;
 mod working_file;
+mod writer;
 
 pub use brick::{BRICK_EDGE, BRICK_VOXELS, Brick, Codes, Deviation, OVERLAP, OWN_EDGE};
 pub use build::build;

@@ -4,20 +4,18 @@ use super::format::{Header, MAGIC};
 use super::pack::PackedBrick;
 use super::tree::Tree;
 use super::working_file::WorkingFile;
+use super::writer::Writer;
 use super::{OctreeShape, StoreError};
 use std::fs::File;
-use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-
-/// Bytes collected before they are written.
-const WRITE_BUFFER_BYTES: usize = 1 << 20;
 
 /// The file being written. It has its name only when it is complete, and until then no header either.
 pub(super) struct Sink {
     path: PathBuf,
     // Dropped in this order: the name goes before the lock does.
     working: WorkingFile,
-    file: BufWriter<File>,
+    file: Writer,
     tree: Tree,
     position: u64,
     stored_bricks: u64,
@@ -30,9 +28,9 @@ impl Sink {
         // Without a slash at the end, which a path of a file may have until something is to be written there.
         let path = path.components().as_path();
         check_replaceable(path)?;
-        let (working, file) = WorkingFile::create(path).map_err(&failed)?;
-        let mut file = BufWriter::with_capacity(WRITE_BUFFER_BYTES, file);
+        let (working, mut file) = WorkingFile::create(path).map_err(&failed)?;
         file.seek(SeekFrom::Start(header_bytes)).map_err(&failed)?;
+        let file = Writer::new(file);
         let tree = Tree::new(shape);
         Ok(Self { path: path.into(), working, file, tree, position: header_bytes, stored_bricks: 0 })
     }
@@ -63,12 +61,12 @@ impl Sink {
     pub fn finish(mut self, header: Header) -> Result<u64, StoreError> {
         let failed = StoreError::write(&self.path);
         let nodes = self.tree.write(&mut self.file).map_err(&failed)?;
-        let bytes = self.file.stream_position().map_err(&failed)?;
+        let mut file = self.file.finish().map_err(&failed)?;
+        let bytes = file.stream_position().map_err(&failed)?;
         let stored_bricks = Some(self.stored_bricks);
         let header = Header { nodes, table_offset: self.position, stored_bricks, ..header };
-        self.file.seek(SeekFrom::Start(0)).map_err(&failed)?;
-        self.file.write_all(&header.to_bytes()).map_err(&failed)?;
-        let file = self.file.into_inner().map_err(|error| failed(error.into_error()))?;
+        file.seek(SeekFrom::Start(0)).map_err(&failed)?;
+        file.write_all(&header.to_bytes()).map_err(&failed)?;
         file.sync_all().map_err(&failed)?;
         self.working.rename(&self.path).map_err(&failed)?;
         sync_folder(&self.path);
