@@ -135,7 +135,7 @@ fn raw_files_of_another_size() {
 fn files_that_are_no_volumes() {
     let bench = Bench::new();
     let text = bench.write("letter.txt", "Dear reader,\n");
-    bench.import_refused(&text, &[&text, "not known", "give a .nrrd"]);
+    bench.import_refused(&text, &[&text, "not known", "give a DICOM, TIFF, NRRD"]);
     bench.import_refused(&bench.path(""), &[&bench.path("")]);
 }
 

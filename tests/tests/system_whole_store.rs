@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Moments at which a build is killed.
+/// Builds that are killed before their end.
 const KILLS: u32 = 20;
 /// Bytes of a store that are changed, one at a time.
 const CHANGES: usize = 1000;
@@ -31,6 +31,15 @@ fn import_vessels(out: &Path) -> Command {
     lightloom(&["import", "procedural:sparse-vessels@384", "-o", &out.to_string_lossy(), "--quiet"])
 }
 
+/// Kills a program as the system does that is out of memory, or a power cut: nothing can be tidied up.
+fn kill_after(wait: Duration, command: &mut Command) {
+    let running = start(command);
+    std::thread::sleep(wait);
+    let sent = Command::new("kill").args(["-9", &running.process().to_string()]).status();
+    assert!(sent.is_ok(), "kill is part of every Unix");
+    drop(running.finish(Duration::from_secs(60)));
+}
+
 /// Killed at any moment, a build leaves no store, or a whole one; and the next build is not hindered.
 #[test]
 fn a_killed_build_leaves_no_store_that_is_wrong() {
@@ -38,23 +47,21 @@ fn a_killed_build_leaves_no_store_that_is_wrong() {
     let out = folder.path().join("vessels.lloom");
     let started = Instant::now();
     run(&mut import_vessels(&out)).succeeded();
-    let whole_ms = started.elapsed().as_millis() as u64;
+    let mut span_ms = started.elapsed().as_millis() as u64;
     let whole = fs::read(&out).unwrap();
     let mut random = Random(20);
-    let (mut killed, mut finished) = (0, 0);
-    for moment in 0..KILLS {
+    let (mut killed, mut attempts) = (0, 0);
+    while killed < KILLS {
+        attempts += 1;
+        assert!(attempts <= 5 * KILLS, "only {killed} of {attempts} builds were killed before their end");
         fs::remove_file(&out).unwrap_or(());
-        let wait = Duration::from_millis(random.below(whole_ms * 21 / 20));
-        let running = start(&mut import_vessels(&out));
-        std::thread::sleep(wait);
-        // As the system's out-of-memory killer, or a power cut: nothing can be tidied up.
-        let sent = Command::new("kill").args(["-9", &running.process().to_string()]).status();
-        assert!(sent.is_ok(), "kill is part of every Unix");
-        drop(running.finish(Duration::from_secs(60)));
+        let wait = Duration::from_millis(random.below(span_ms));
+        kill_after(wait, &mut import_vessels(&out));
         match fs::read(&out) {
             Ok(bytes) => {
-                assert!(bytes == whole, "kill {moment} after {wait:?} left another store");
-                finished += 1;
+                assert!(bytes == whole, "killed after {wait:?}, it left another store");
+                // It was over before: the machine is faster than at first.
+                span_ms = (span_ms * 3 / 4).max(20);
             }
             Err(_) => killed += 1,
         }
@@ -66,10 +73,7 @@ fn a_killed_build_leaves_no_store_that_is_wrong() {
             );
         }
     }
-    println!(
-        "{killed} of {KILLS} builds were killed before their end, {finished} after it; a whole one takes {whole_ms} ms"
-    );
-    assert!(killed >= KILLS / 2, "the builds were killed too late");
+    println!("{killed} of {attempts} builds were killed before their end, the others after it");
     run(&mut import_vessels(&out)).succeeded();
     assert!(fs::read(&out).unwrap() == whole, "what a killed build left changes nothing");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
