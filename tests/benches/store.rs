@@ -11,6 +11,7 @@ use backend::store::{
 use backend::volume::{ByteOrder, Element, RawLayout, Selection};
 use glam::{DVec3, UVec3};
 use lightloom_tests::head::head;
+use lightloom_tests::random::Random;
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{BufWriter, Read, Write};
@@ -217,11 +218,8 @@ fn read_rates(path: &Path) {
 fn stored_nodes(store: &Store) -> Vec<NodeKey> {
     let depth = store.shape().finest_depth();
     let bricks = store.shape().level_bricks(depth);
-    let mut state = 7u64;
-    let mut random = |below: u32| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 33) % u64::from(below)) as u32
-    };
+    let mut random = Random(7);
+    let mut random = |below: u32| random.below(u64::from(below)) as u32;
     let mut nodes = Vec::new();
     while nodes.len() < READS {
         let cell = UVec3::new(random(bricks.x), random(bricks.y), random(bricks.z));

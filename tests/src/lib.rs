@@ -7,5 +7,6 @@ pub mod draw;
 pub mod head;
 #[cfg(unix)]
 pub mod program;
+pub mod random;
 pub mod scenes;
 pub mod twin_scene;

@@ -4,6 +4,7 @@
 use backend::store::{BrickSource, NodeKey, Store, verify};
 use lightloom_tests::data::{cranium, cranium_raw};
 use lightloom_tests::program::{lightloom, run, start};
+use lightloom_tests::random::Random;
 use rayon::prelude::*;
 use std::fs;
 use std::path::Path;
@@ -16,16 +17,6 @@ const KILLS: u32 = 20;
 const CHANGES: usize = 1000;
 /// Programs that read one store at once.
 const READERS: usize = 6;
-
-/// A generator with a fixed seed (Knuth's MMIX numbers): the same moments and bytes in every run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, end: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % end
-    }
-}
 
 fn import_vessels(out: &Path) -> Command {
     lightloom(&["import", "procedural:sparse-vessels@384", "-o", &out.to_string_lossy(), "--quiet"])

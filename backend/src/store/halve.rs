@@ -4,7 +4,7 @@
 //! parts count by the voxels of the source that each holds. Squares add up by the law of total variance: what a
 //! coarse voxel's parts vary within themselves, and what their means vary about its own.
 
-use super::level::{Level, Spread, SpreadRow, copy_row};
+use super::level::{Level, Spread, SpreadRow, copy_row, covered};
 use super::ring::{Ring, TILE};
 use rayon::prelude::*;
 
@@ -76,14 +76,8 @@ fn fine_uniform(fine: &Level, tile_x: usize, tile_y: usize, z: u32) -> f32 {
 fn under(fine: &Level, row: usize, z: u32, source: [u32; 2]) -> Under {
     let ys = [2 * row as u32, (2 * row as u32 + 1).min(fine.dims.y - 1)];
     let zs = [z & !1, z];
-    // Voxels of the source that a fine voxel covers along an axis; none for a voxel that does not exist.
-    let covered = |i: u32, fine_voxels: u32, source: u32| {
-        let start = u64::from(i) * u64::from(fine.edge);
-        let end = (start + u64::from(fine.edge)).min(u64::from(source));
-        if i < fine_voxels { end.saturating_sub(start) as f64 } else { 0.0 }
-    };
-    let along_y = [0, 1].map(|i| covered(2 * row as u32 + i, fine.dims.y, source[0]));
-    let along_z = [0, 1].map(|i| covered((z & !1) + i, fine.dims.z, source[1]));
+    let pair = |first: u32, source: u32| [0, 1].map(|i| f64::from(covered(first + i, fine.edge, source)));
+    let (along_y, along_z) = (pair(2 * row as u32, source[0]), pair(z & !1, source[1]));
     let source_voxels = (along_y[0] + along_y[1]) * (along_z[0] + along_z[1]);
     let place = |i: usize| (i & 1, i >> 1);
     Under {
@@ -103,10 +97,7 @@ struct Columns {
 impl Columns {
     /// Voxels of the source that the two halves of a coarse column cover.
     fn halves(&self, column: usize) -> [f64; 2] {
-        let start = column as u64 * u64::from(self.edge);
-        let middle = (start + u64::from(self.edge / 2)).min(u64::from(self.source));
-        let end = (start + u64::from(self.edge)).min(u64::from(self.source));
-        [(middle - start) as f64, (end - middle) as f64]
+        [0, 1].map(|half| f64::from(covered(2 * column as u32 + half, self.edge / 2, self.source)))
     }
 }
 

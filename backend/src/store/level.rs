@@ -185,12 +185,16 @@ impl Level {
     /// Voxels of the source that the voxels of a cell stand for along an axis that has so many of them.
     pub fn source_voxels(&self, cell: u32, source: u32) -> [f32; OWN_EDGE] {
         let first = cell * OWN_EDGE as u32;
-        std::array::from_fn(|i| {
-            let start = u64::from(first + i as u32) * u64::from(self.edge);
-            let end = (start + u64::from(self.edge)).min(u64::from(source));
-            end.saturating_sub(start) as f32
-        })
+        std::array::from_fn(|i| covered(first + i as u32, self.edge, source) as f32)
     }
+}
+
+/// Voxels of the source that voxel `i` of a level, of so many of them along an edge, covers along an axis; none where
+/// the source has ended before.
+pub(super) fn covered(i: u32, edge: u32, source: u32) -> u32 {
+    let start = u64::from(i) * u64::from(edge);
+    let end = (start + u64::from(edge)).min(u64::from(source));
+    end.saturating_sub(start) as u32
 }
 
 /// Copies what a brick has of a tile into a plane of its samples.
