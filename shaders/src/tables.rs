@@ -172,6 +172,9 @@ mod tests {
             extinction_unit: ExtinctionUnit::PerMetre,
             colour: Curve::constant(DVec3::new(1.0, 0.5, 0.25)),
             mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
         }
     }
 

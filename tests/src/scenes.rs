@@ -38,6 +38,9 @@ pub fn optics(domain: (f64, f64), extinction: &Points, colour: &Colours) -> Opti
         extinction_unit: ExtinctionUnit::PerVoxel,
         colour: Curve::new(colour).expect("the points of a test scene make a curve"),
         mimda: None,
+        refraction: None,
+        materials: None,
+        enhancers: Vec::new(),
     }
 }
 

@@ -6,7 +6,9 @@ use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DMat3, DVec3, UVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use shaders::optics::{Curve, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality};
+use shaders::optics::{
+    BandPicker, Curve, Enhancer, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality, Ramp, Trapezoid,
+};
 use std::time::Instant;
 
 prop_compose! {
@@ -21,10 +23,22 @@ prop_compose! {
 }
 
 prop_compose! {
-    fn optics()(extinction in curve(), importance in proptest::option::of(curve()), gamma in 0.0..1.0) -> Optics {
+    fn picker()(a in 0.0..0.4, width in 0.0..0.5, strength in 0.0..1.0) -> Enhancer {
+        let band = Trapezoid::new([a, a, a + width, a + width]).unwrap();
+        let facing = Ramp { low: a, high: 1.0 };
+        Enhancer::BandPicker(BandPicker { band, axis_in_display: DVec3::NEG_Z, facing, strength })
+    }
+}
+
+prop_compose! {
+    fn optics()(
+        extinction in curve(), importance in proptest::option::of(curve()), gamma in 0.0..1.0,
+        refraction in proptest::option::of(curve()), enhancers in vec(picker(), 0..4), lit in any::<bool>(),
+    ) -> Optics {
+        let materials = lit.then(|| Curve::constant(Light::default().material()));
         let mimda = importance.map(|importance| Mimda { importance, gamma, form: MimdaForm::Paper });
         let colour = Curve::constant(DVec3::new(gamma, 0.5, 1.0));
-        Optics { domain: (0.0, 255.0), extinction, extinction_unit: ExtinctionUnit::PerVoxel, colour, mimda }
+        Optics { domain: (0.0, 255.0), extinction, extinction_unit: ExtinctionUnit::PerVoxel, colour, mimda, refraction, materials, enhancers }
     }
 }
 

@@ -80,7 +80,16 @@ impl BrickSource for FormulaSource {
 
 /// An optical model over the domain [0, 1], per voxel.
 pub fn optics(extinction: Curve<f64>, colour: Curve<DVec3>) -> Optics {
-    Optics { domain: (0.0, 1.0), extinction, extinction_unit: ExtinctionUnit::PerVoxel, colour, mimda: None }
+    Optics {
+        domain: (0.0, 1.0),
+        extinction,
+        extinction_unit: ExtinctionUnit::PerVoxel,
+        colour,
+        mimda: None,
+        refraction: None,
+        materials: None,
+        enhancers: Vec::new(),
+    }
 }
 
 /// The same with importance.

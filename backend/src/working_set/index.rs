@@ -119,6 +119,9 @@ mod tests {
             extinction_unit: ExtinctionUnit::PerVoxel,
             colour: Curve::constant(glam::DVec3::ONE),
             mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
         }
     }
 

@@ -47,6 +47,9 @@ impl Look {
                     extinction_unit: ExtinctionUnit::PerMetre,
                     colour: colour.clone(),
                     mimda: None,
+                    refraction: None,
+                    materials: None,
+                    enhancers: Vec::new(),
                 })
             }
         };
@@ -86,6 +89,9 @@ impl DataLook {
             extinction_unit: self.extinction_unit,
             colour: normalised(&self.colour, domain).map_err(|e| format!("colour: {e}"))?,
             mimda,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
         })
     }
 }

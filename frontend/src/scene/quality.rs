@@ -27,12 +27,14 @@ impl QualityPreset {
                 tolerance: 16.0 * default.tolerance,
                 termination: 8.0 * default.termination,
                 lod_scale: 2.0 * default.lod_scale,
+                ..default
             },
             QualityPreset::Fine => Quality {
                 step_voxels: 0.5 * default.step_voxels,
                 tolerance: default.tolerance / 16.0,
                 termination: default.termination / 8.0,
                 lod_scale: 0.5 * default.lod_scale,
+                ..default
             },
         }
     }

@@ -217,6 +217,7 @@ impl SceneText {
                 .gradient_half
                 .as_ref()
                 .map_or(Ok(default.gradient_half), |n| self.above_zero(n))?,
+            detail: default.detail,
         })
     }
 
@@ -230,6 +231,7 @@ impl SceneText {
             tolerance: table.tolerance.as_ref().map_or(Ok(preset.tolerance), |n| self.above_zero(n))?,
             termination: or(&table.termination, preset.termination, 0.0..=1.0)?,
             lod_scale: or(&table.lod_scale, preset.lod_scale, 0.0..=f64::MAX)?,
+            quadrilinear: preset.quadrilinear,
         })
     }
 

@@ -117,6 +117,14 @@ impl<V: CurveValue> Curve<V> {
 }
 
 impl Curve<f64> {
+    /// Whether it has one value on the closed interval [lo, hi].
+    pub fn is_constant_on(&self, lo: f64, hi: f64) -> bool {
+        let value = self.at(lo);
+        let ends = [self.just_below(lo), self.at(hi), self.just_below(hi)];
+        let inside = self.points.iter().filter(|p| p.0 >= lo && p.0 <= hi).map(|p| p.1);
+        ends.into_iter().chain(inside).all(|other| other == value)
+    }
+
     /// The largest value on the closed interval [lo, hi].
     pub fn max_on(&self, lo: f64, hi: f64) -> f64 {
         let ends = self.at(lo).max(self.at(hi)).max(self.just_below(lo)).max(self.just_below(hi));

@@ -1,5 +1,6 @@
 //! The one directional light of a scene, with the material's answer to it.
 
+use super::Material;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +28,45 @@ pub struct Light {
     pub shininess: f64,
     /// Gradient (change of s per finest voxel) at which shading has half its strength, above 0.
     pub gradient_half: f64,
+    /// What is made of fine detail.
+    pub detail: Detail,
+}
+
+impl Light {
+    /// The material of a scene that has no factors per scalar.
+    pub fn material(&self) -> Material {
+        let Self { ambient, diffuse, specular, shininess, .. } = *self;
+        Material { ambient, diffuse, specular, shininess }
+    }
+}
+
+/// How shading brings out detail, by the gradients of coarser levels: G(f) is the gradient at the fractional level f
+/// above the node, linear between those of node (0), parent (1) and grandparent (2), constant beyond, where a node has
+/// no such ancestor too; f is the level that the sample itself is filtered at, 0 without quadrilinear filtering.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Detail {
+    /// Nothing: g = G(f).
+    #[default]
+    None,
+    /// Normal unsharp masking (Cignoni, Scopigno, Tarini 2005): the shading law takes
+    /// g = G(f) + strength · (G(f) − G(f + 1)).
+    Unsharp {
+        /// At least 0; 0 is no masking.
+        strength: f64,
+    },
+    /// Exaggerated shading (Rusinkiewicz, Burns, DeCarlo 2006): in the shading law, |n·l| becomes
+    ///
+    /// ```text
+    /// E = clamp(1/2 + 1/2 (0.5 c₀ + 0.3 c₁ + 0.2 n₂·l), 0, 1)
+    /// cᵢ = clamp(contrast · nᵢ·lᵢ₊₁, −1, 1),   lᵢ = p / sqrt(|p|² + 0.01),   p = l − nᵢ (nᵢ·l)
+    /// ```
+    ///
+    /// with nᵢ = −G(f + i) / |G(f + i)|, toward lower values; a term with an nᵢ of no length is 0.
+    Exaggerated {
+        /// At least 0.
+        contrast: f64,
+    },
 }
 
 impl Default for Light {
@@ -38,6 +78,7 @@ impl Default for Light {
             specular: 0.2,
             shininess: 24.0,
             gradient_half: 0.02,
+            detail: Detail::None,
         }
     }
 }

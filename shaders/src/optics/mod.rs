@@ -1,11 +1,19 @@
 //! The optical model of a scene: what a scalar value looks like.
 
 mod curve;
+mod enhancer;
 mod light;
+mod material;
 mod model;
 mod quality;
+mod trapezoid;
 
 pub use curve::{Curve, CurveError, CurveValue};
-pub use light::Light;
+pub use enhancer::{
+    BandPicker, ClipPlane, Enhancer, EnhancerError, LayerOpacity, MOST_ENHANCERS, Probe, Ramp,
+};
+pub use light::{Detail, Light};
+pub use material::Material;
 pub use model::{ExtinctionUnit, Mimda, MimdaForm, Optics, OpticsError};
 pub use quality::Quality;
+pub use trapezoid::{Trapezoid, TrapezoidError};

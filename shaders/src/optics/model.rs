@@ -1,6 +1,6 @@
 //! Everything that turns a scalar into light: transfer functions, importance, accumulation.
 
-use super::Curve;
+use super::{Curve, Enhancer, EnhancerError, MOST_ENHANCERS, Material};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +53,16 @@ pub struct Optics {
     pub colour: Curve<DVec3>,
     /// Importance accumulation; None is ordinary compositing.
     pub mimda: Option<Mimda>,
+    /// Refraction index ν(s) > 0; None leaves rays straight.
+    ///
+    /// Light follows the ray equation d(ν v)/dt = ∇ν along the way of length t, with ∇ν = dν/ds · g and g the gradient
+    /// that shades (central differences). Where ν jumps, Snell's law holds with g / |g| as normal, and beyond the
+    /// critical angle the surface is a mirror. The faces of the volume do not refract.
+    pub refraction: Option<Curve<f64>>,
+    /// Factors of the shading law over s, in place of the light's own.
+    pub materials: Option<Curve<Material>>,
+    /// The chain, in order; at most [`MOST_ENHANCERS`].
+    pub enhancers: Vec<Enhancer>,
 }
 
 /// What is wrong with an optical model.
@@ -72,6 +82,31 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
+    /// A refraction index is zero.
+    #[error("refraction control point {index} is 0; refraction indices are above 0")]
+    Refraction {
+        /// Which control point, from 0.
+        index: usize,
+    },
+    /// A material's highlight has an exponent below 1.
+    #[error("material control point {index} has a shininess of {value}; it must be at least 1")]
+    Shininess {
+        /// Which control point, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Too many enhancers.
+    #[error("the scene chains {0} enhancers; at most {MOST_ENHANCERS} can be chained")]
+    TooManyEnhancers(usize),
+    /// An enhancer is not valid.
+    #[error("enhancer {number}: {error}")]
+    Enhancer {
+        /// Which one, from 1.
+        number: usize,
+        /// What is wrong with it.
+        error: EnhancerError,
+    },
 }
 
 impl Optics {
@@ -89,6 +124,26 @@ impl Optics {
             if let Some(index) = too_large {
                 return Err(OpticsError::Importance { index, value: mimda.importance.points()[index].1 });
             }
+        }
+        self.check_illustration()
+    }
+
+    /// Checks refraction, materials and enhancers.
+    fn check_illustration(&self) -> Result<(), OpticsError> {
+        let zero = |curve: &Curve<f64>| curve.points().iter().position(|p| p.1 <= 0.0);
+        if let Some(index) = self.refraction.as_ref().and_then(zero) {
+            return Err(OpticsError::Refraction { index });
+        }
+        for (index, (_, material)) in self.materials.iter().flat_map(|m| m.points()).enumerate() {
+            if material.shininess < 1.0 {
+                return Err(OpticsError::Shininess { index, value: material.shininess });
+            }
+        }
+        if self.enhancers.len() > MOST_ENHANCERS {
+            return Err(OpticsError::TooManyEnhancers(self.enhancers.len()));
+        }
+        for (index, enhancer) in self.enhancers.iter().enumerate() {
+            enhancer.check().map_err(|error| OpticsError::Enhancer { number: index + 1, error })?;
         }
         Ok(())
     }
@@ -108,13 +163,22 @@ impl Optics {
     }
 
     /// Whether data values in [min, max] leave a picture as it is: no extinction, nor any importance, which acts
-    /// on what lies before it even where there is nothing to see.
+    /// on what lies before it even where there is nothing to see, nor any change of the refraction index.
     pub fn is_empty_on(&self, min: f64, max: f64) -> bool {
         let (lo, hi) = (self.normalise(min), self.normalise(max));
-        let importance = match &self.mimda {
-            Some(mimda) if mimda.gamma > 0.0 => mimda.importance.max_on(lo, hi),
-            Some(_) | None => 0.0,
-        };
-        self.extinction.max_on(lo, hi) == 0.0 && importance == 0.0
+        let bends = self.refraction.as_ref().is_some_and(|index| !index.is_constant_on(lo, hi));
+        self.extinction.max_on(lo, hi) == 0.0 && self.most_importance_on(lo, hi) == 0.0 && !bends
+    }
+
+    /// The largest importance that acts for scalars in [lo, hi]; 0 where importance does nothing.
+    pub fn most_importance_on(&self, lo: f64, hi: f64) -> f64 {
+        let Some(mimda) = self.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0) else { return 0.0 };
+        let given = self.enhancers.iter().map(|enhancer| enhancer.most_importance(lo, hi));
+        given.fold(mimda.importance.max_on(lo, hi), f64::max)
+    }
+
+    /// The largest factor that the chain may multiply an extinction by, at least 1.
+    pub fn most_factor(&self) -> f64 {
+        self.enhancers.iter().map(Enhancer::most_factor).product()
     }
 }

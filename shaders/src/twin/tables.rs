@@ -94,6 +94,9 @@ mod tests {
             extinction_unit: ExtinctionUnit::PerMetre,
             colour: Curve::constant(DVec3::ONE),
             mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
         })
     }
 
