@@ -1,12 +1,17 @@
 //! What a segment's colour becomes under the light.
 
+mod exaggerated;
+mod law;
 mod phong;
 mod plain;
+mod unsharp;
 
 pub use phong::Phong;
 pub use plain::Plain;
 
-use super::{Real, View, ray::Ray, scene::BRICK_VOXELS, vector::Vec3};
+use super::gradient::Gradients;
+use super::{Real, Scene, ray::Ray};
+use crate::compose::Shading;
 
 /// A module for the shading slot.
 pub trait Shade {
@@ -14,15 +19,15 @@ pub trait Shade {
     const SPREAD: f64;
     /// Steps may grow while the optical depth of one stays below this.
     const SAFE_DEPTH: f64;
+    /// Whether it looks at gradients.
+    const READS_GRADIENTS: bool;
 
-    /// The light at `place`, in texels of the brick; `gradient_scale` turns a difference over two texels into a change
-    /// of the scalar per finest voxel.
+    /// The light on a segment of `material`: ambient, diffuse, specular, shininess.
     fn lighting<F: Real>(
-        view: &View<F>,
-        brick: &[u16; BRICK_VOXELS],
-        place: Vec3<F>,
-        gradient_scale: F,
+        scene: &Scene<F>,
+        gradients: &Gradients<F>,
         ray: &Ray<F>,
+        material: [F; 4],
     ) -> Lighting<F>;
 }
 
@@ -38,10 +43,27 @@ pub struct Lighting<F> {
 impl<F: Real> Lighting<F> {
     /// Plain colours.
     pub const NONE: Self = Self { body: F::ONE, highlight: F::ZERO };
+}
 
-    /// Lit τ c of a mean of (τ c, τ).
+/// Whichever shading with gradients a scene needs.
+pub struct Shaded;
+
+impl Shade for Shaded {
+    const SPREAD: f64 = Phong::SPREAD;
+    const SAFE_DEPTH: f64 = Phong::SAFE_DEPTH;
+    const READS_GRADIENTS: bool = true;
+
     #[inline(always)]
-    pub fn on(self, k: [F; 4]) -> Vec3<F> {
-        Vec3([k[0], k[1], k[2]]) * self.body + Vec3::splat(k[3] * self.highlight)
+    fn lighting<F: Real>(
+        scene: &Scene<F>,
+        gradients: &Gradients<F>,
+        ray: &Ray<F>,
+        material: [F; 4],
+    ) -> Lighting<F> {
+        match scene.needs.shading {
+            Shading::Plain | Shading::Phong => Phong::lighting(scene, gradients, ray, material),
+            Shading::Unsharp => unsharp::lighting(scene, gradients, ray, material),
+            Shading::Exaggerated => exaggerated::lighting(scene, gradients, ray, material),
+        }
     }
 }
