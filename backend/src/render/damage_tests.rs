@@ -93,7 +93,13 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let tables = Tables::new(&frame.optics, &needs);
     let lod = LodRule::new(&display, frame);
     let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics };
-    let frame_rules = FrameRules { lod, optics: &frame.optics, tables: &tables, can_pass_over: true };
+    let frame_rules = FrameRules {
+        lod,
+        optics: &frame.optics,
+        tables: &tables,
+        can_pass_over: true,
+        is_quadrilinear: false,
+    };
     let mut cut = limited_cut(&*source, &rules, broken);
     let leaves: Vec<u32> = cut.walk().filter(|&p| !rules.is_empty(cut.node(p))).collect();
     let mut device = Device::Cpu(CpuDevice::new(leaves.len() as u32));
@@ -104,7 +110,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         device.write_brick(slot, &samples);
         let brick = ResidentBrick { slot, low: f64::from(brick.low), span: f64::from(brick.step) * 65535.0 };
         cut.set_brick(place, brick);
-        cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick));
+        cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick, &[]));
     }
     device.write_tables(tables.clone());
     device.write_index(&build_index(&cut, &rules), &cells);

@@ -90,6 +90,7 @@ impl<'a> Drawing<'a> {
                 optics: &frame.optics,
                 tables,
                 can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
+                is_quadrilinear: frame.quality.quadrilinear,
             },
             needs,
             stages: Stages::default(),

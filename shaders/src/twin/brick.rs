@@ -148,7 +148,7 @@ fn add_parts<F: Real, K: Kernel>(
 /// Whether shading or an enhancer looks at gradients.
 #[inline(always)]
 fn reads_gradients<F: Real, K: Kernel>(scene: &Scene<F>) -> bool {
-    K::Shade::READS_GRADIENTS || chain_needs_gradient::<F, K>(scene)
+    K::Shade::reads_gradients(scene.needs) || chain_needs_gradient::<F, K>(scene)
 }
 
 #[inline(always)]
@@ -180,7 +180,7 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     pair.both = chain.enhance::<K>(scene, pair.both, (first.ray, middle), (s0, s2), &gradients);
     pair.reach = chain.enhance::<K>(scene, pair.reach, (first.ray, middle), range, &gradients);
     let visible = K::Composite::still_to_come(scene, front);
-    let spread = F::of(K::Shade::SPREAD) + Chain::spread::<K>(scene);
+    let spread = F::of(K::Shade::spread(scene.needs)) + Chain::spread::<K>(scene);
     let parts = parts_of_step(&pair, thickness, visible, spread, view.tolerance)
         .most(K::Composite::parts_of_rise(scene, front, &pair.reach));
     if parts > F::ONE {
@@ -191,7 +191,7 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     }
     // The light in the middle of the pair serves both steps.
     let mut light = Lighting::NONE;
-    if K::Shade::READS_GRADIENTS && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
+    if K::Shade::reads_gradients(scene.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
         if !enhancers_look {
             gradients = Gradients::new::<K>(scene, first.brick, first.ray, middle);
         }

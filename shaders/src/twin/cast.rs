@@ -2,7 +2,7 @@
 
 use super::composite::{MimdaConsistent, MimdaPaper, Over};
 use super::kernel::{Full, Lean};
-use super::shade::{Phong, Plain, Shaded};
+use super::shade::{AnyShade, Phong, Plain};
 use super::way::cast_ray;
 use super::{Real, Scene, ray::Ray};
 use crate::compose::{Chain, Compositing, Levels, Needs, Shading, Way};
@@ -24,8 +24,8 @@ pub struct Cast<F> {
 pub fn cast_pixel<F: Real>(scene: &Scene<F>, x: u32, y: u32) -> Cast<F> {
     let half = F::of(0.5);
     let ray = Ray::of_pixel(scene.view, F::of_u32(x) + half, F::of_u32(y) + half);
-    let is_plain = scene.needs.shading == Shading::Plain;
     if is_lean(scene.needs) {
+        let is_plain = scene.needs.shading == Shading::Plain;
         return match (is_plain, scene.needs.compositing) {
             (true, Compositing::Over) => cast_ray::<F, Lean<Plain, Over>>(scene, &ray),
             (false, Compositing::Over) => cast_ray::<F, Lean<Phong, Over>>(scene, &ray),
@@ -43,16 +43,11 @@ pub fn cast_pixel<F: Real>(scene: &Scene<F>, x: u32, y: u32) -> Cast<F> {
             }
         };
     }
-    match (is_plain, scene.needs.compositing) {
-        (true, Compositing::Over) => cast_ray::<F, Full<Plain, Over>>(scene, &ray),
-        (false, Compositing::Over) => cast_ray::<F, Full<Shaded, Over>>(scene, &ray),
-        (true, Compositing::Mimda(MimdaForm::Paper)) => cast_ray::<F, Full<Plain, MimdaPaper>>(scene, &ray),
-        (false, Compositing::Mimda(MimdaForm::Paper)) => cast_ray::<F, Full<Shaded, MimdaPaper>>(scene, &ray),
-        (true, Compositing::Mimda(MimdaForm::Consistent)) => {
-            cast_ray::<F, Full<Plain, MimdaConsistent>>(scene, &ray)
-        }
-        (false, Compositing::Mimda(MimdaForm::Consistent)) => {
-            cast_ray::<F, Full<Shaded, MimdaConsistent>>(scene, &ray)
+    match scene.needs.compositing {
+        Compositing::Over => cast_ray::<F, Full<AnyShade, Over>>(scene, &ray),
+        Compositing::Mimda(MimdaForm::Paper) => cast_ray::<F, Full<AnyShade, MimdaPaper>>(scene, &ray),
+        Compositing::Mimda(MimdaForm::Consistent) => {
+            cast_ray::<F, Full<AnyShade, MimdaConsistent>>(scene, &ray)
         }
     }
 }

@@ -34,7 +34,7 @@ pub fn longest_step<F: Real, K: Kernel>(scene: &Scene<F>, node: &NodeRecord, ray
     let view = scene.view;
     let edge = voxel_edge::<F>(view.finest_depth, node.depth) / ray.speed;
     let depth = F::of_f32(node.most_extinction) * view.extinction_per_metre * edge;
-    step_voxels(view.step_voxels, depth, F::of(K::Shade::SAFE_DEPTH), view.tolerance) * edge
+    step_voxels(view.step_voxels, depth, F::of(K::Shade::safe_depth(scene.needs)), view.tolerance) * edge
 }
 
 /// What a pair of steps shows.

@@ -11,16 +11,16 @@ pub use plain::Plain;
 
 use super::gradient::Gradients;
 use super::{Real, Scene, ray::Ray};
-use crate::compose::Shading;
+use crate::compose::{Needs, Shading};
 
 /// A module for the shading slot.
 pub trait Shade {
     /// How much the shaded colour may vary within a step, for the estimate of a step's error.
-    const SPREAD: f64;
+    fn spread(needs: &Needs) -> f64;
     /// Steps may grow while the optical depth of one stays below this.
-    const SAFE_DEPTH: f64;
+    fn safe_depth(needs: &Needs) -> f64;
     /// Whether it looks at gradients.
-    const READS_GRADIENTS: bool;
+    fn reads_gradients(needs: &Needs) -> bool;
 
     /// The light on a segment of `material`: ambient, diffuse, specular, shininess.
     fn lighting<F: Real>(
@@ -45,13 +45,24 @@ impl<F: Real> Lighting<F> {
     pub const NONE: Self = Self { body: F::ONE, highlight: F::ZERO };
 }
 
-/// Whichever shading with gradients a scene needs.
-pub struct Shaded;
+/// Whichever shading a scene needs.
+pub struct AnyShade;
 
-impl Shade for Shaded {
-    const SPREAD: f64 = Phong::SPREAD;
-    const SAFE_DEPTH: f64 = Phong::SAFE_DEPTH;
-    const READS_GRADIENTS: bool = true;
+impl Shade for AnyShade {
+    #[inline(always)]
+    fn spread(needs: &Needs) -> f64 {
+        if Self::reads_gradients(needs) { Phong::spread(needs) } else { Plain::spread(needs) }
+    }
+
+    #[inline(always)]
+    fn safe_depth(needs: &Needs) -> f64 {
+        if Self::reads_gradients(needs) { Phong::safe_depth(needs) } else { Plain::safe_depth(needs) }
+    }
+
+    #[inline(always)]
+    fn reads_gradients(needs: &Needs) -> bool {
+        needs.shading != Shading::Plain
+    }
 
     #[inline(always)]
     fn lighting<F: Real>(
@@ -61,7 +72,8 @@ impl Shade for Shaded {
         material: [F; 4],
     ) -> Lighting<F> {
         match scene.needs.shading {
-            Shading::Plain | Shading::Phong => Phong::lighting(scene, gradients, ray, material),
+            Shading::Plain => Lighting::NONE,
+            Shading::Phong => Phong::lighting(scene, gradients, ray, material),
             Shading::Unsharp => unsharp::lighting(scene, gradients, ray, material),
             Shading::Exaggerated => exaggerated::lighting(scene, gradients, ray, material),
         }

@@ -2,6 +2,7 @@
 
 use super::law::lit_by;
 use super::{Lighting, Shade};
+use crate::compose::Needs;
 use crate::twin::gradient::{Gradients, LEAST_SQUARE};
 use crate::twin::{Real, Scene, ray::Ray};
 
@@ -9,9 +10,20 @@ use crate::twin::{Real, Scene, ray::Ray};
 pub struct Phong;
 
 impl Shade for Phong {
-    const SPREAD: f64 = 0.1;
-    const SAFE_DEPTH: f64 = 0.01;
-    const READS_GRADIENTS: bool = true;
+    #[inline(always)]
+    fn spread(_: &Needs) -> f64 {
+        0.1
+    }
+
+    #[inline(always)]
+    fn safe_depth(_: &Needs) -> f64 {
+        0.01
+    }
+
+    #[inline(always)]
+    fn reads_gradients(_: &Needs) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn lighting<F: Real>(

@@ -1,6 +1,7 @@
 //! No shading: a segment shows its own colour.
 
 use super::{Lighting, Shade};
+use crate::compose::Needs;
 use crate::twin::gradient::Gradients;
 use crate::twin::{Real, Scene, ray::Ray};
 
@@ -8,9 +9,20 @@ use crate::twin::{Real, Scene, ray::Ray};
 pub struct Plain;
 
 impl Shade for Plain {
-    const SPREAD: f64 = 0.0;
-    const SAFE_DEPTH: f64 = 0.04;
-    const READS_GRADIENTS: bool = false;
+    #[inline(always)]
+    fn spread(_: &Needs) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn safe_depth(_: &Needs) -> f64 {
+        0.04
+    }
+
+    #[inline(always)]
+    fn reads_gradients(_: &Needs) -> bool {
+        false
+    }
 
     #[inline(always)]
     fn lighting<F: Real>(_: &Scene<F>, _: &Gradients<F>, _: &Ray<F>, _: [F; 4]) -> Lighting<F> {
