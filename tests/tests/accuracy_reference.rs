@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
-use backend::store::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
+use backend::store::{BrickSource, EightBits};
 use display_config::Display;
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
@@ -27,31 +27,6 @@ fn stride(scene: &TestScene) -> u32 {
     if ["shells", "sparse-vessels"].contains(&scene.name) { 1 } else { 2 }
 }
 
-/// A source whose samples have lost their low 8 bits.
-struct EightBits(Arc<dyn BrickSource>);
-
-impl BrickSource for EightBits {
-    fn shape(&self) -> OctreeShape {
-        self.0.shape()
-    }
-    fn frame(&self) -> backend::volume::VolumeFrame {
-        self.0.frame()
-    }
-    fn value_range(&self) -> (f64, f64) {
-        self.0.value_range()
-    }
-    fn summary(&self, node: NodeKey) -> NodeSummary {
-        self.0.summary(node)
-    }
-    fn brick(&self, node: NodeKey) -> Result<Brick, BrickError> {
-        let mut brick = self.0.brick(node)?;
-        if let Codes::U16(codes) = &mut brick.codes {
-            codes.iter_mut().for_each(|code| *code = (*code >> 8) * 257);
-        }
-        Ok(brick)
-    }
-}
-
 /// A scene with one thing wrong.
 fn spoilt(scene: &TestScene) -> Vec<(&'static str, TestScene)> {
     let with = |change: &dyn Fn(&mut FrameState)| {
@@ -72,7 +47,7 @@ fn spoilt(scene: &TestScene) -> Vec<(&'static str, TestScene)> {
     }
     // Only a transfer function that is steep against the range of a brick shows the loss of low bits.
     if scene.name.starts_with("cranium") {
-        let source: Arc<dyn BrickSource> = Arc::new(EightBits(Arc::clone(&scene.source)));
+        let source: Arc<dyn BrickSource> = Arc::new(EightBits::new(Arc::clone(&scene.source)));
         all.push(("eight bits per brick", TestScene { source, ..scene.clone() }));
     }
     all
