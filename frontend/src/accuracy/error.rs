@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AccuracyError {
     /// The scene has no such frame.
-    #[error("--frame {frame} is not one of the scene's {count} frames; give a number from 0 to {}", count - 1)]
+    #[error("--frame {frame} lies outside the scene's frames 0..{count}; give one of them")]
     Frame {
         /// The frame asked for.
         frame: u32,
