@@ -27,8 +27,9 @@ use std::sync::Arc;
 
 /// Step lengths, voxels: halved from the length of the shortest wave's bend down to where f32 rounding takes over.
 const STEPS_VOXELS: [f64; 9] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015_625];
-/// The order is measured between these: below the bend of trilinear cells, above rounding.
-const ORDER_BETWEEN: (f64, f64) = (0.25, 0.03125);
+/// The order is measured between these: below the bend of trilinear cells, above the rounding of the tables, which hold
+/// f32 whatever the twin computes in.
+const ORDER_BETWEEN: (f64, f64) = (0.5, 0.0625);
 /// Well below any error of the table.
 const TOLERANCE: f64 = 1e-11;
 /// Pixels between those compared.

@@ -7,7 +7,7 @@ use crate::report::html::escape;
 
 const STYLE: &str = include_str!("plot.css");
 /// Width of the whole.
-const WIDTH: f64 = 960.0;
+const WIDTH: f64 = 1000.0;
 /// Left and right end of the axes' box.
 const SIDES: (f64, f64) = (84.0, 700.0);
 /// Top of the axes' box.
