@@ -1,5 +1,6 @@
 //! The command line.
 
+mod accuracy;
 mod export;
 mod import;
 mod info;
@@ -9,6 +10,7 @@ mod simulate;
 mod tests;
 mod verify;
 
+pub use accuracy::AccuracyArgs;
 pub use export::ExportArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
@@ -39,6 +41,8 @@ pub enum Command {
     Info(InfoArgs),
     /// Read and check every byte of a store.
     Verify(VerifyArgs),
+    /// Measure error and time of many settings against the reference, and draw them as plots.
+    Accuracy(AccuracyArgs),
     /// List the displays that come with the program.
     Displays,
 }
