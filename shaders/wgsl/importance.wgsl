@@ -2,8 +2,8 @@
 
 @group(0) @binding(9) var<storage, read> importance_table: array<ImportanceEntry>;
 
-// Parts of a step where all that lies in front may be erased within reach of it.
-const RISE: f32 = 64.0;
+// Parts of a step, times the error allowed per step, where all that lies in front may be erased within reach of it.
+const RISE: f32 = 0.0064;
 
 struct Importance {
     mean: f32,

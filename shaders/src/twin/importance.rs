@@ -9,8 +9,8 @@ fn importance_at<F: Real>(table: &[ImportanceEntry], u: F, cell: usize) -> F {
     a + (b - a) * (u - F::of_u32(cell as u32))
 }
 
-/// Parts of a step where all that lies in front may be erased within reach of it.
-pub const RISE: f64 = 64.0;
+/// Parts of a step, times the error allowed per step, where all that lies in front may be erased within reach of it.
+pub const RISE: f64 = 0.0064;
 
 /// The importance of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,6 +26,6 @@ fn composite(front: Accumulated, light: vec4<f32>, sample: Sample) -> Accumulate
 // Parts of each step of a pair, by what a rise of importance within reach may have erased unseen. Its error falls with
 // the parts, not with their square.
 fn parts_of_rise(front: Accumulated, reach: Sample) -> f32 {
-    let unseen = (1.0 - kept(front.importance, at_ends(reach.importance))) * front.alpha * RISE;
+    let unseen = (1.0 - kept(front.importance, at_ends(reach.importance))) * front.alpha * (RISE / params.quality.w);
     return clamp(ceil(unseen), 1.0, MOST_PARTS);
 }

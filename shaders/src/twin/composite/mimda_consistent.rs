@@ -50,7 +50,7 @@ impl Composite for MimdaConsistent {
     #[inline(always)]
     fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
         let beyond = kept(scene.view.gamma, front.importance, reach.importance.at_ends());
-        let unseen = (F::ONE - beyond) * front.alpha * F::of(RISE);
+        let unseen = (F::ONE - beyond) * front.alpha * (F::of(RISE) / scene.view.tolerance);
         unseen.ceil().most(F::ONE).least(F::of(MOST_PARTS))
     }
 
