@@ -27,18 +27,31 @@
 mod accumulator;
 mod analytic;
 mod cell;
+mod cells;
+mod course;
 mod cubic;
 mod cut;
+mod enhanced;
+mod enhancer;
 mod field;
+mod fit;
+mod ladder;
 #[cfg(test)]
 mod laws;
+#[cfg(test)]
+mod laws_enhancers;
+mod level;
 mod medium;
+mod passage;
 mod quadrature;
 mod radiance;
 mod ray;
+mod refraction;
 mod rise;
 mod segmentation;
+mod setting;
 mod shading;
+mod slopes;
 mod span;
 mod stored;
 #[cfg(test)]
@@ -48,7 +61,7 @@ mod tracer;
 pub use accumulator::Integrator;
 pub use analytic::AnalyticField;
 pub use cubic::Cubic;
-pub use field::{Field, Piece, Visitor};
+pub use field::{Field, Levels, Piece, Visitor};
 pub use radiance::Radiance;
 pub use ray::{Line, Ray};
 pub use segmentation::{Segmentation, SegmentationError};

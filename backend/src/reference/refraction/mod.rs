@@ -1,0 +1,11 @@
+//! Light along a way that the refraction index bends.
+
+mod bending;
+mod bent_light;
+mod follower;
+mod index;
+mod interface;
+mod runge_kutta;
+
+pub use bent_light::BentLight;
+pub use index::Index;
