@@ -77,7 +77,13 @@ impl<'a> Accumulator<'a> {
 
     /// The light `progress` so far, going on along `course`.
     pub fn resuming(scene: Scene<'a>, course: &'a Course, progress: Progress) -> Self {
-        Self { scene, course, erasure: scene.medium.erasure, state: progress.state, importance: progress.importance }
+        Self {
+            scene,
+            course,
+            erasure: scene.medium.erasure,
+            state: progress.state,
+            importance: progress.importance,
+        }
     }
 
     /// What another accumulator needs to go on.
@@ -182,7 +188,8 @@ impl<'a> Accumulator<'a> {
     /// A monotone stretch in one band, with the scalar at its ends.
     fn leg(&mut self, stretch: &Stretch, (from, to): (f64, f64), (s0, s1): (f64, f64)) {
         let medium = self.scene.medium;
-        let band = if s0 == s1 { medium.band_at(s0) } else { medium.band(medium.band_number(0.5 * (s0 + s1))) };
+        let band =
+            if s0 == s1 { medium.band_at(s0) } else { medium.band(medium.band_number(0.5 * (s0 + s1))) };
         let (i0, i1) = (band.importance_at(s0), band.importance_at(s1));
         let Some(erasure) = self.erasure.filter(|_| i1 > i0 && i1 > self.importance) else {
             self.raise(i0);

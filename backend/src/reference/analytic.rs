@@ -87,11 +87,7 @@ where
         Ok((self.gradient)(point))
     }
 
-    fn sample(
-        &self,
-        point: DVec3,
-        _wants: &dyn Fn(f64, f64) -> bool,
-    ) -> Result<(f64, DVec3), BrickError> {
+    fn sample(&self, point: DVec3, _wants: &dyn Fn(f64, f64) -> bool) -> Result<(f64, DVec3), BrickError> {
         let point = point.clamp(DVec3::ZERO, self.extent);
         Ok(((self.value)(point), (self.gradient)(point)))
     }

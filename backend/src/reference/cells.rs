@@ -71,6 +71,11 @@ impl<'a> Cells<'a> {
         let within_cell = |t: f64| self.line.at(t) / edge - 0.5 - self.cell.as_dvec3();
         let low = self.cell - self.grid.first_sample;
         let cell = Cell::new(voxels, low, within_cell(self.t), within_cell(exit));
-        visitor.piece(&Piece { t0: self.t, t1: exit, value: cell.value(), gradient: &|_| cell.gradient(edge) })
+        visitor.piece(&Piece {
+            t0: self.t,
+            t1: exit,
+            value: cell.value(),
+            gradient: &|_| cell.gradient(edge),
+        })
     }
 }

@@ -183,7 +183,9 @@ mod tests {
 
     #[test]
     fn finds_changes_of_sign() {
-        let thrice = Cubic::through_thirds([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|u| (u - 0.2) * (u - 0.3) * (u - 0.9)));
+        let thrice = Cubic::through_thirds(
+            [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|u| (u - 0.2) * (u - 0.3) * (u - 0.9)),
+        );
         let changes: Vec<f64> = thrice.sign_changes().collect();
         assert!(changes.len() == 3 && (changes[1] - 0.3).abs() < 1e-12, "{changes:?}");
         assert_eq!(Cubic([1.0, -0.1, -0.1, 1.0]).sign_changes().count(), 0);

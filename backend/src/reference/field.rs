@@ -58,11 +58,7 @@ pub trait Field: Send + Sync {
     fn gradient(&self, point: DVec3) -> Result<DVec3, BrickError>;
     /// The data value and its gradient at a point, which is moved into the box where it lies outside. In a node of whose
     /// values, all in [low, high], `wants` says no: its lowest value, and no gradient.
-    fn sample(
-        &self,
-        point: DVec3,
-        wants: &dyn Fn(f64, f64) -> bool,
-    ) -> Result<(f64, DVec3), BrickError>;
+    fn sample(&self, point: DVec3, wants: &dyn Fn(f64, f64) -> bool) -> Result<(f64, DVec3), BrickError>;
     /// Shows `visitor` the pieces of `line` between the two t of `within`, in rising t, split at every t where the
     /// field is not smooth. `within` must lie in the box. A field that is not made of cubics fits them to `accuracy`
     /// (data value).

@@ -135,8 +135,7 @@ impl Way<'_> {
 
     /// Shows a stretch that lies in one cell of each of the `used` rungs.
     fn show(&self, used: &[Rung], part: (f64, f64), visitor: &mut dyn Visitor) -> ControlFlow<()> {
-        let [enter, leave, middle] =
-            [part.0, part.1, 0.5 * (part.0 + part.1)].map(|t| self.line.at(t));
+        let [enter, leave, middle] = [part.0, part.1, 0.5 * (part.0 + part.1)].map(|t| self.line.at(t));
         let cells: Vec<Cell> = used.iter().map(|rung| rung.cell(middle, enter, leave)).collect();
         let values: Vec<Cubic> = cells.iter().map(Cell::value).collect();
         let gradients: Vec<[Cubic; 3]> = match self.levels {

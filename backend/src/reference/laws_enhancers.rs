@@ -108,7 +108,8 @@ fn oblique() -> Ray {
 
 /// All four in the middle of a volume of 40 voxels, three at a time.
 fn chains() -> [[Enhancer; 3]; 2] {
-    let sliced = ClipPlane { thickness_m: 0.07, boost: 3.0, context: Ramp { low: 0.0, high: 1.5 }, ..plane(0.15) };
+    let sliced =
+        ClipPlane { thickness_m: 0.07, boost: 3.0, context: Ramp { low: 0.0, high: 1.5 }, ..plane(0.15) };
     let probe = Enhancer::Probe(probe(DVec3::splat(0.2), 0.15));
     let (picker, layer) = (picker([0.2, 0.4, 0.4, 0.6], 0.8), layer([0.3, 0.5, 0.6, 0.6], 2.0));
     [[Enhancer::ClipPlane(sliced), picker, probe], [layer, probe, picker]]
@@ -169,7 +170,8 @@ fn a_triangular_layer_on_a_ramp_has_its_closed_form() {
 
 #[test]
 fn order_matters_to_a_probe_after_a_picker_alone() {
-    let sloped = AnalyticField::new(DVec3::splat(10.0), |p: DVec3| p.x / 10.0, |_| DVec3::new(0.01, 0.1, 0.0));
+    let sloped =
+        AnalyticField::new(DVec3::splat(10.0), |p: DVec3| p.x / 10.0, |_| DVec3::new(0.01, 0.1, 0.0));
     let probe = Enhancer::Probe(probe(DVec3::splat(0.05), 0.04));
     let picker = picker([0.0, 0.3, 0.5, 1.0], 0.5);
     let ramp = Curve::new(vec![(0.0, 0.2), (1.0, 1.0)]).unwrap();
@@ -185,7 +187,12 @@ fn a_probe_does_not_see_the_sign_of_a_gradient_and_opens_where_there_is_none() {
     let sphere = probe(DVec3::splat(0.05), 0.03);
     let model = with(fog(0.2), &[Enhancer::Probe(sphere)]);
     let see = |gradient: DVec3| {
-        seen(model.clone(), TIGHT, &AnalyticField::new(DVec3::splat(10.0), |_| 0.5, move |_| gradient), &x_ray())
+        seen(
+            model.clone(),
+            TIGHT,
+            &AnalyticField::new(DVec3::splat(10.0), |_| 0.5, move |_| gradient),
+            &x_ray(),
+        )
     };
     let gradient = DVec3::new(0.02, 0.1, -0.07);
     assert_eq!(see(gradient), see(-gradient));
@@ -231,7 +238,10 @@ fn the_error_stays_below_the_tolerance() {
                 let seen = at(tolerance);
                 let error = difference(&seen, &truth);
                 assert!(seen.reached && error <= tolerance, "{tolerance:e}: {error:e} {seen:?}");
-                println!("γ {gamma}, tolerance {tolerance:e}: error {error:e}, estimate {:e}", seen.error_estimate);
+                println!(
+                    "γ {gamma}, tolerance {tolerance:e}: error {error:e}, estimate {:e}",
+                    seen.error_estimate
+                );
             }
         }
     }
@@ -241,7 +251,8 @@ fn the_error_stays_below_the_tolerance() {
 fn opaque_and_empty_media_stay_numbers() {
     for chain in chains() {
         for per_voxel in [0.0, 1e-6, 1.0, 1e6] {
-            let extinction = Curve::new(vec![(0.3, 0.0), (0.31, per_voxel), (0.6, per_voxel), (0.6, 0.0)]).unwrap();
+            let extinction =
+                Curve::new(vec![(0.3, 0.0), (0.31, per_voxel), (0.6, per_voxel), (0.6, 0.0)]).unwrap();
             let model = Optics { extinction, ..busy_with_importance(1.0) };
             let frame = frame(with(model, &chain), Some(Light::default()));
             let tracer = Tracer::new(&frame, Integrator::default()).unwrap();

@@ -40,6 +40,10 @@ mod ladder;
 mod laws;
 #[cfg(test)]
 mod laws_enhancers;
+#[cfg(test)]
+mod laws_levels;
+#[cfg(test)]
+mod laws_refraction;
 mod level;
 mod medium;
 mod passage;

@@ -95,9 +95,9 @@ impl<'a, E: Emitter> Rise<'a, E> {
     /// How much of the light is exchanged on [a, b]: 1 − exp(−depth − P).
     fn turnover(&self, a: f64, b: f64, seen_depth: f64) -> f64 {
         let depth = self.emitter.depth_between(a, b).unwrap_or(seen_depth);
-        let kept = self.erasure.map_or(1.0, |erasure| {
-            erasure.kept(self.emitter.importance(a), self.emitter.importance(b))
-        });
+        let kept = self
+            .erasure
+            .map_or(1.0, |erasure| erasure.kept(self.emitter.importance(a), self.emitter.importance(b)));
         1.0 - kept * (-depth).exp()
     }
 

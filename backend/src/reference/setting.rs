@@ -61,8 +61,7 @@ impl Setting {
     /// For a ray that leaves the eye.
     pub fn view(&self, ray: &Ray) -> View<'_> {
         let chain = Chain::new(self.medium.optics(), ray.direction_in_display);
-        let medium =
-            (!chain.is_empty()).then(|| Medium::new(self.medium.optics(), self.voxel_m, &chain));
+        let medium = (!chain.is_empty()).then(|| Medium::new(self.medium.optics(), self.voxel_m, &chain));
         View { setting: self, medium, chain }
     }
 

@@ -16,11 +16,7 @@ pub struct Slopes([[Cubic; 3]; 3]);
 
 impl Slopes {
     /// Of the piece's own gradients (data value, volume frame) at `levels`.
-    pub fn new(
-        matrix: &DMat3,
-        levels: Levels,
-        gradient: impl Fn(usize) -> [Cubic; 3],
-    ) -> Self {
+    pub fn new(matrix: &DMat3, levels: Levels, gradient: impl Fn(usize) -> [Cubic; 3]) -> Self {
         let mut slopes = [[Cubic::constant(0.0); 3]; 3];
         for (above, slope) in slopes.iter_mut().enumerate().take(levels.count()) {
             *slope = Cubic::transformed(matrix, &gradient(above));

@@ -85,11 +85,7 @@ impl Field for StoredField {
         Ok(self.sample(point, &|_, _| true)?.1)
     }
 
-    fn sample(
-        &self,
-        point: DVec3,
-        wants: &dyn Fn(f64, f64) -> bool,
-    ) -> Result<(f64, DVec3), BrickError> {
+    fn sample(&self, point: DVec3, wants: &dyn Fn(f64, f64) -> bool) -> Result<(f64, DVec3), BrickError> {
         let point = point.clamp(DVec3::ZERO, self.extent());
         let leaf = self.cut.leaf_at(point);
         if !wants(leaf.bounds.0, leaf.bounds.1) {

@@ -37,7 +37,8 @@ impl Bending<'_> {
     pub fn local(&self, point: DVec3) -> Result<Local, BrickError> {
         let (low, high) = self.optics.domain;
         let shown = |min: f64, max: f64| !self.optics.is_empty_on(min, max);
-        let (value, gradient) = self.field.sample(self.volume_from_display.transform_point3(point), &shown)?;
+        let (value, gradient) =
+            self.field.sample(self.volume_from_display.transform_point3(point), &shown)?;
         let per_metre = self.volume_from_display.matrix3.transpose();
         Ok(Local { scalar: self.optics.normalise(value), gradient: per_metre * gradient / (high - low) })
     }

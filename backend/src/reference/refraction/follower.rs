@@ -206,7 +206,8 @@ impl<'a> Follower<'a> {
         let way = Ray::new(self.pose.point, self.chord.0.direction);
         let exit_m = self.exit_m(&way);
         self.chord.1 += offset.length().min(exit_m);
-        self.meetings = if offset.length() > SHORTEST_STEP_VOXELS * self.limits.voxel_m { 0 } else { self.meetings };
+        self.meetings =
+            if offset.length() > SHORTEST_STEP_VOXELS * self.limits.voxel_m { 0 } else { self.meetings };
         if exit_m <= offset.length() {
             return Ok(ControlFlow::Break(()));
         }

@@ -68,7 +68,10 @@ mod tests {
         let curve = Curve::new(vec![(0.2, 1.0), (0.5, 1.3), (0.5, 1.5), (1.0, 1.5), (1.0, 2.0)]).unwrap();
         let index = Index::new(&curve);
         assert_eq!([0.1, 0.5, 0.9, 1.0].map(|s| index.phase(s)), [0, 1, 1, 2]);
-        assert_eq!((index.at(0, 0.1), index.at(0, 0.9), index.at(1, 0.1)), ((1.0, 0.0), (1.3, 0.0), (1.5, 0.0)));
+        assert_eq!(
+            (index.at(0, 0.1), index.at(0, 0.9), index.at(1, 0.1)),
+            ((1.0, 0.0), (1.3, 0.0), (1.5, 0.0))
+        );
         let (value, slope) = index.at(0, 0.35);
         assert!((value - 1.15).abs() < 1e-15 && (slope - 1.0).abs() < 1e-15);
         assert_eq!(index.at(2, 1.0), (2.0, 0.0));

@@ -40,7 +40,9 @@ mod tests {
         let Passed::Through(back) = pass(-inside, normal, glass, 1.0) else { panic!("it leaves again") };
         assert!((back + direction).length() < 1e-15);
         let grazing = DVec3::new(0.8, 0.05, -0.6).normalize();
-        assert!(matches!(pass(grazing, normal, glass, 1.0), Passed::Mirrored(v) if (v.dot(normal) + grazing.dot(normal)).abs() < 1e-15));
+        assert!(
+            matches!(pass(grazing, normal, glass, 1.0), Passed::Mirrored(v) if (v.dot(normal) + grazing.dot(normal)).abs() < 1e-15)
+        );
         assert_eq!(pass(direction, DVec3::ZERO, 1.0, glass), Passed::Through(direction));
     }
 }

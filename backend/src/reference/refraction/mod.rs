@@ -5,6 +5,8 @@ mod bent_light;
 mod follower;
 mod index;
 mod interface;
+#[cfg(test)]
+mod laws;
 mod runge_kutta;
 
 pub use bent_light::BentLight;

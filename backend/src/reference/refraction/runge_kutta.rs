@@ -29,22 +29,11 @@ const MATRIX: [[f64; 6]; 6] = [
     [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
 /// The weights of order 5 less those of order 4.
-const DIFFERENCE: [f64; 7] = [
-    71.0 / 57600.0,
-    0.0,
-    -71.0 / 16695.0,
-    71.0 / 1920.0,
-    -17253.0 / 339200.0,
-    22.0 / 525.0,
-    -1.0 / 40.0,
-];
+const DIFFERENCE: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 
 /// A step of `length` metres of dx/dt = v, dv/dt = `turning`(x, v).
-pub fn step<E>(
-    start: Pose,
-    length: f64,
-    turning: &impl Fn(Pose) -> Result<DVec3, E>,
-) -> Result<Stepped, E> {
+pub fn step<E>(start: Pose, length: f64, turning: &impl Fn(Pose) -> Result<DVec3, E>) -> Result<Stepped, E> {
     let mut velocities = [DVec3::ZERO; 7];
     let mut turnings = [DVec3::ZERO; 7];
     let mut at = start;
