@@ -138,10 +138,8 @@ impl Way<'_> {
         let [enter, leave, middle] = [part.0, part.1, 0.5 * (part.0 + part.1)].map(|t| self.line.at(t));
         let cells: Vec<Cell> = used.iter().map(|rung| rung.cell(middle, enter, leave)).collect();
         let values: Vec<Cubic> = cells.iter().map(Cell::value).collect();
-        let gradients: Vec<[Cubic; 3]> = match self.levels {
-            Levels::Zero => Vec::new(),
-            _ => cells.iter().zip(used).map(|(cell, rung)| cell.gradient(rung.grid.voxel_edge)).collect(),
-        };
+        let sloped = cells.iter().zip(used).filter(|_| self.levels > Levels::Zero);
+        let gradients = sloped.map(|(cell, rung)| cell.gradient(rung.grid.voxel_edge)).collect();
         let blend = Blend { way: self, values, gradients, part };
         match self.filter {
             None => blend.show_fixed(visitor),

@@ -28,7 +28,7 @@ fn source(edge: u32) -> Arc<FormulaSource> {
 }
 
 fn busy() -> Optics {
-    let extinction = vec![(0.2, 0.0), (0.3, 0.5), (0.5, 0.02), (0.6, 0.02), (0.6, 0.9), (0.8, 0.0)];
+    let extinction = vec![(0.2, 0.0), (0.3, 0.05), (0.5, 0.02), (0.6, 0.02), (0.6, 0.09), (0.8, 0.0)];
     let colours = vec![(0.0, DVec3::X), (0.4, DVec3::Y), (0.7, DVec3::Z), (1.0, DVec3::ONE)];
     optics(Curve::new(extinction).unwrap(), Curve::new(colours).unwrap())
 }

@@ -26,7 +26,7 @@ pub struct Bending<'a> {
 /// The scalar and its gradient at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Local {
-    /// Scalar, clamped to [0, 1].
+    /// Scalar, not clamped: beyond [0, 1] the index does not change.
     pub scalar: f64,
     /// Per metre, display frame.
     pub gradient: DVec3,
@@ -40,7 +40,9 @@ impl Bending<'_> {
         let (value, gradient) =
             self.field.sample(self.volume_from_display.transform_point3(point), &shown)?;
         let per_metre = self.volume_from_display.matrix3.transpose();
-        Ok(Local { scalar: self.optics.normalise(value), gradient: per_metre * gradient / (high - low) })
+        let scalar = (value - low) / (high - low);
+        let scalar = if scalar.is_nan() { 0.0 } else { scalar };
+        Ok(Local { scalar, gradient: per_metre * gradient / (high - low) })
     }
 
     /// The phase of the index at a point.

@@ -64,7 +64,7 @@ impl BentLight<'_> {
             let fine = self.lay(&start, within_m, next_m)?;
             let per_metre = distance(&fine.light, &coarse.light) / (coarse.deviation_m - fine.deviation_m);
             let error = fine.light.error_estimate + 2.0 * per_metre * fine.deviation_m;
-            let reached = fine.light.reached && fine.is_followed && error <= tolerance;
+            let reached = fine.is_followed && error <= tolerance;
             seen = Radiance { error_estimate: error, reached, ..fine.light };
             if reached || next_m <= LEAST_DEVIATION_VOXELS * voxel_m {
                 break;
@@ -91,6 +91,9 @@ impl BentLight<'_> {
         let mut take = |way: Ray, length_m: f64| {
             let within = (within_m.0 - gone_m, (within_m.1 - gone_m).min(length_m));
             gone_m += length_m;
+            if within.1 <= 0.0 {
+                return Ok(ControlFlow::Break(()));
+            }
             self.gather(scene, &way, within, &mut progress)
         };
         let end = Follower::new(&bending, limits, start)?.follow(&mut take)?;

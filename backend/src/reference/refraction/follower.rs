@@ -13,12 +13,16 @@ pub const LONGEST_WAY_DIAGONALS: f64 = 4.0;
 /// Longest step, finest voxels: no feature of stored samples hides between its points.
 const LONGEST_STEP_VOXELS: f64 = 1.0;
 /// Shortest step, finest voxels: where one is not enough, the way is not known.
-const SHORTEST_STEP_VOXELS: f64 = 1e-9;
-/// Places on a step at which the scalar's phase is looked at.
+const SHORTEST_STEP_VOXELS: f64 = 1e-12;
+/// Places on a step at which the scalar's phase is looked at: what lies between two of them is missed.
 const LOOKS: u32 = 4;
 /// Share of the deviation that a single step may always have, so that the kinks of the gradient between voxels do not
 /// drive steps to nothing.
 const SHARE_OF_A_STEP: f64 = 1e-3;
+/// Indices closer than this share of them are one: light goes on as it was.
+const ROUNDING: f64 = 1e-14;
+/// Way that light must make for it to have left a surface, finest voxels.
+const LEAVING_VOXELS: f64 = 1e-9;
 /// Light that meets a surface so often without leaving it is not known to pass.
 const MOST_MEETINGS: u32 = 8;
 /// Steps at most.
@@ -153,7 +157,7 @@ impl<'a> Follower<'a> {
 
     /// The first surface on a step.
     fn meeting(&self, whole: &Stepped, length_m: f64) -> Result<Option<Meeting>, BrickError> {
-        if !self.bending.index.jumps() {
+        if !self.bending.index.has_knots() {
             return Ok(None);
         }
         let mut before = 0.0;
@@ -184,6 +188,10 @@ impl<'a> Follower<'a> {
         let local = self.bending.local(behind.point)?;
         let next = self.bending.index.phase(local.scalar);
         let [from, to] = [self.phase, next].map(|phase| self.bending.index.at(phase, local.scalar).0);
+        if (from - to).abs() <= ROUNDING * from {
+            self.phase = next;
+            return Ok((behind, length_m));
+        }
         Ok(match pass(behind.direction, local.gradient, from, to) {
             Passed::Through(direction) => {
                 self.phase = next;
@@ -206,8 +214,9 @@ impl<'a> Follower<'a> {
         let way = Ray::new(self.pose.point, self.chord.0.direction);
         let exit_m = self.exit_m(&way);
         self.chord.1 += offset.length().min(exit_m);
-        self.meetings =
-            if offset.length() > SHORTEST_STEP_VOXELS * self.limits.voxel_m { 0 } else { self.meetings };
+        if offset.length() > LEAVING_VOXELS * self.limits.voxel_m {
+            self.meetings = 0;
+        }
         if exit_m <= offset.length() {
             return Ok(ControlFlow::Break(()));
         }
