@@ -4,7 +4,7 @@ use super::test_scene::*;
 use super::{AnalyticField, Field, Integrator, Radiance, Ray, Reference, Segmentation, StoredField, Tracer};
 use crate::working_set::LodRule;
 use glam::{DVec3, UVec3};
-use shaders::optics::{Curve, Light, Optics, Quality};
+use shaders::optics::{ClipPlane, Curve, Enhancer, Light, Optics, Quality, Ramp};
 
 fn refracting(index: &[(f64, f64)], optics: Optics) -> Optics {
     Optics { refraction: Some(Curve::new(index.to_vec()).unwrap()), ..optics }
@@ -53,6 +53,37 @@ fn one_index_shows_the_straight_picture() {
     let straight = see(busy(), Some(Light::default()), 1e-7, &field, &slanted());
     let bent = see(refracting(&[(0.0, 1.5)], busy()), Some(Light::default()), 1e-7, &field, &slanted());
     assert!(bent.reached && difference(&straight, &bent) < 1e-7, "{straight:?} {bent:?}");
+}
+
+#[test]
+fn enhancers_know_the_direction_in_which_a_bent_ray_left_the_eye() {
+    // What lies beyond the surface at x = 5 is clipped; its context depends on n·v, and v is not that of the chord.
+    let plane = ClipPlane {
+        point_in_display: DVec3::X * 0.05,
+        normal_in_display: DVec3::X,
+        context: Ramp { low: -1.0, high: 3.0 },
+        thickness_m: 0.0,
+        boost: 1.0,
+        strength: 1.0,
+    };
+    let clipped = |optics: Optics| Optics { enhancers: vec![Enhancer::ClipPlane(plane)], ..optics };
+    let seen = see(clipped(refracting(&[(0.5, 1.0), (0.5, 1.5)], fog(0.1))), None, 1e-9, &slab(), &slanted());
+    let v = slanted().direction_in_display;
+    let across = DVec3::new(0.0, v.y, v.z) / 1.5;
+    // n·v > 0, so 1 − max(0, −n·v) is 1: half way up the ramp.
+    let length = 5.0 / v.x + 0.5 * 5.0 / (1.0 - across.length_squared()).sqrt();
+    assert!(seen.reached && (seen.opacity + (-0.1 * length).exp_m1()).abs() < 1e-9, "{seen:?}");
+    let back = ClipPlane { normal_in_display: DVec3::NEG_X, ..plane };
+    let clipped = |optics: Optics| Optics { enhancers: vec![Enhancer::ClipPlane(back)], ..optics };
+    let seen = see(clipped(refracting(&[(0.5, 1.0), (0.5, 1.5)], fog(0.1))), None, 1e-9, &slab(), &slanted());
+    let context = back.context.at(1.0 - v.x);
+    let length = context * 5.0 / v.x + 5.0 / (1.0 - across.length_squared()).sqrt();
+    assert!(seen.reached && (seen.opacity + (-0.1 * length).exp_m1()).abs() < 1e-9, "{seen:?}");
+    // One index, and all the same.
+    let straight = see(clipped(busy()), Some(Light::default()), 1e-7, &smooth(), &slanted());
+    let bent =
+        see(clipped(refracting(&[(0.0, 1.5)], busy())), Some(Light::default()), 1e-7, &smooth(), &slanted());
+    assert!(difference(&straight, &bent) < 1e-7, "{straight:?} {bent:?}");
 }
 
 #[test]

@@ -141,10 +141,9 @@ impl<'a> Follower<'a> {
         let Limits { diagonal_m, deviation_m, voxel_m } = self.limits;
         let error = stepped.error.0 + stepped.error.1 * diagonal_m;
         let allowed = deviation_m * (length_m / diagonal_m + SHARE_OF_A_STEP);
-        let by_error = (allowed / error).powf(0.2);
+        let by_error = if error.is_finite() { (allowed / error).powf(0.2) } else { 0.0 };
         let scale = by_error.min(self.scale_by_chord(stepped, length_m));
         self.step_m = (length_m * (0.9 * scale).clamp(0.1, 4.0)).min(LONGEST_STEP_VOXELS * voxel_m);
-        // What is not a number is too long as well: it ends as light that is lost.
         if scale >= 1.0 { Trial::Reaches(stepped.end, length_m) } else { Trial::TooLong }
     }
 
