@@ -1,10 +1,12 @@
 //! The accumulation of light along one ray.
 
+use super::course::Course;
+use super::enhancer::Chain;
+use super::field::Levels;
 use super::medium::{Band, Erasure, Medium};
-use super::rise::{Rise, State};
-use super::shading::{Shader, Shading};
-use super::span::Span;
-use super::{Cubic, Piece, Radiance, Visitor};
+use super::passage::{Passage, Shown, Stretch};
+use super::rise::{Emitter, Rise, State};
+use super::{Piece, Radiance, Visitor};
 use glam::DVec3;
 use std::ops::ControlFlow;
 
@@ -26,30 +28,67 @@ impl Default for Integrator {
     }
 }
 
+/// What light is gathered from.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// How closely the model is followed.
+    pub integrator: Integrator,
+    /// The optics, as the chain leaves them.
+    pub medium: &'a Medium,
+    /// The chain of enhancers, told of the ray.
+    pub chain: &'a Chain,
+    /// Bounds every shaded colour component.
+    pub brightest: f64,
+    /// Of how many levels gradients are wanted.
+    pub levels: Levels,
+}
+
+/// How far the light of a ray has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    state: State,
+    /// ι_max.
+    importance: f64,
+}
+
+impl Progress {
+    /// Before anything was met.
+    pub const START: Self =
+        Self { state: State { rgb: DVec3::ZERO, opacity: 0.0, error: 0.0 }, importance: 0.0 };
+}
+
 /// A ray on its way: takes pieces, composites their spans exactly one after the other.
 ///
 /// Each span's colour is wanted to `tolerance` per unit of its own opacity. Errors are hidden and erased as the light
 /// is, so they add up to no more than `tolerance` times the ray's opacity.
 pub struct Accumulator<'a> {
-    integrator: Integrator,
-    medium: &'a Medium,
-    shading: Option<&'a Shading>,
+    scene: Scene<'a>,
+    course: &'a Course,
     erasure: Option<Erasure>,
-    brightest: f64,
     state: State,
     importance: f64,
 }
 
 impl<'a> Accumulator<'a> {
-    /// At the start of a ray. `brightest` bounds every shaded colour component.
-    pub fn new(
-        integrator: Integrator,
-        medium: &'a Medium,
-        shading: Option<&'a Shading>,
-        brightest: f64,
-    ) -> Self {
-        let state = State { rgb: DVec3::ZERO, opacity: 0.0, error: 0.0 };
-        Self { integrator, medium, shading, erasure: medium.erasure, brightest, state, importance: 0.0 }
+    /// At the start of a ray, which sets out on `course`.
+    pub fn new(scene: Scene<'a>, course: &'a Course) -> Self {
+        Self::resuming(scene, course, Progress::START)
+    }
+
+    /// The light `progress` so far, going on along `course`.
+    pub fn resuming(scene: Scene<'a>, course: &'a Course, progress: Progress) -> Self {
+        Self {
+            scene,
+            course,
+            erasure: scene.medium.erasure,
+            state: progress.state,
+            importance: progress.importance,
+        }
+    }
+
+    /// What another accumulator needs to go on.
+    pub fn progress(&self) -> Progress {
+        Progress { state: self.state, importance: self.importance }
     }
 
     /// The same, without importance.
@@ -60,8 +99,13 @@ impl<'a> Accumulator<'a> {
     /// What was seen so far.
     pub fn radiance(&self) -> Radiance {
         let State { rgb, opacity, error } = self.state;
-        let reached = error <= self.integrator.tolerance;
+        let reached = error <= self.scene.integrator.tolerance;
         Radiance { rgb, opacity: opacity.clamp(0.0, 1.0), error_estimate: error, reached }
+    }
+
+    /// Whether the rest of the ray changes too little to be looked at.
+    pub fn is_finished(&self) -> bool {
+        self.may_still_change() < EXIT_SHARE * self.scene.integrator.tolerance
     }
 
     /// A bound of what the rest of the ray may change.
@@ -72,7 +116,7 @@ impl<'a> Accumulator<'a> {
             .map_or(1.0, |e| e.kept(self.importance, e.largest));
         let open = 1.0 - kept * self.state.opacity;
         // What is erased of the past, and what is seen of the future.
-        (open + (1.0 - kept)) * self.brightest.max(1.0)
+        (open + (1.0 - kept)) * self.scene.brightest.max(1.0)
     }
 
     /// Lets importance jump or rise to `importance` at a place without extinction.
@@ -87,14 +131,17 @@ impl<'a> Accumulator<'a> {
     }
 
     /// Ordinary compositing of a span.
-    fn pass(&mut self, span: &Span) {
-        let depth = span.depth(1.0);
+    fn pass(&mut self, shown: &Shown) {
+        let Integrator { tolerance, max_depth } = self.scene.integrator;
+        let depth = shown.span.depth(1.0);
         if depth <= 0.0 {
             return;
         }
+        if let Some(enhanced) = shown.enhanced() {
+            return self.advance(&enhanced, None, 1.0);
+        }
         let opacity = -(-depth).exp_m1();
-        let tolerance = 0.5 * self.integrator.tolerance * opacity;
-        let emission = span.emission(opacity, tolerance, self.integrator.max_depth);
+        let emission = shown.span.whole_emission(opacity, 0.5 * tolerance * opacity, max_depth);
         let through = 1.0 - self.state.opacity;
         self.state.rgb += through * emission.value;
         self.state.opacity += through * opacity;
@@ -102,98 +149,119 @@ impl<'a> Accumulator<'a> {
     }
 
     /// A span on which importance rises from ι_max to `importance`.
-    fn rise(&mut self, span: &Span, importance: f64, erasure: Erasure) {
-        if span.depth(1.0) <= 0.0 || erasure.kept(self.importance, importance) <= 0.0 {
+    fn rise(&mut self, shown: &Shown, importance: f64, erasure: Erasure) {
+        let kept = erasure.kept(self.importance, importance);
+        if shown.span.depth(1.0) <= 0.0 || kept <= 0.0 {
             // Nothing is added, or all that is added is erased before the end.
             self.raise(importance);
             return;
         }
-        let rise = Rise::new(span, erasure, 0.25 * self.integrator.tolerance);
-        let kept = erasure.kept(self.importance, importance);
-        let before = State { error: 0.0, ..self.state };
-        let after = rise.advance(before, 0.0, 1.0, self.integrator.max_depth);
-        self.state = State { error: after.error + kept * self.state.error, ..after };
+        match shown.enhanced() {
+            Some(enhanced) => self.advance(&enhanced, Some(erasure), kept),
+            None => self.advance(&shown.span, Some(erasure), kept),
+        }
         self.importance = importance;
     }
-}
 
-/// A piece on its way through the accumulator.
-struct Passage<'p> {
-    scalar: Cubic,
-    length_m: f64,
-    shader: Option<Shader<'p>>,
-}
-
-impl<'p> Passage<'p> {
-    fn span(&self, part: (f64, f64), band: &'p Band) -> Span<'p> {
-        Span::new(&self.scalar, part, self.length_m, band, self.shader)
+    /// Integrates a span step by step; `kept` of the light before it stays.
+    fn advance(&mut self, emitter: &impl Emitter, erasure: Option<Erasure>, kept: f64) {
+        let Integrator { tolerance, max_depth } = self.scene.integrator;
+        let rise = Rise::new(emitter, erasure, 0.25 * tolerance);
+        let before = State { error: 0.0, ..self.state };
+        let after = rise.advance(before, 0.0, 1.0, max_depth);
+        self.state = State { error: after.error + kept * self.state.error, ..after };
     }
-}
 
-impl<'a> Accumulator<'a> {
     /// A stretch on which the scalar is monotone: it is cut at every knot.
-    fn monotone(&mut self, passage: &Passage<'a>, from: f64, to: f64) {
-        let medium = self.medium;
-        let end = passage.scalar.at(to);
-        let (mut u, mut s) = (from, passage.scalar.at(from));
+    fn monotone(&mut self, stretch: &Stretch, from: f64, to: f64) {
+        let (medium, scalar) = (self.scene.medium, &stretch.passage.scalar);
+        let end = scalar.at(to);
+        let (mut u, mut s) = (from, scalar.at(from));
         for knot in medium.knots_between(s, end) {
-            let next = passage.scalar.crossing(u, to, knot).clamp(u, to);
-            self.leg(passage, (u, next), (s, knot));
+            let next = scalar.crossing(u, to, knot).clamp(u, to);
+            self.leg(stretch, (u, next), (s, knot));
             (u, s) = (next, knot);
         }
-        self.leg(passage, (u, to), (s, end));
+        self.leg(stretch, (u, to), (s, end));
     }
 
     /// A monotone stretch in one band, with the scalar at its ends.
-    fn leg(&mut self, passage: &Passage<'a>, (from, to): (f64, f64), (s0, s1): (f64, f64)) {
-        let band = self.medium.band(self.medium.band_number(0.5 * (s0 + s1)));
+    fn leg(&mut self, stretch: &Stretch, (from, to): (f64, f64), (s0, s1): (f64, f64)) {
+        let medium = self.scene.medium;
+        let band =
+            if s0 == s1 { medium.band_at(s0) } else { medium.band(medium.band_number(0.5 * (s0 + s1))) };
         let (i0, i1) = (band.importance_at(s0), band.importance_at(s1));
         let Some(erasure) = self.erasure.filter(|_| i1 > i0 && i1 > self.importance) else {
             self.raise(i0);
-            return self.pass(&passage.span((from, to), band));
+            return self.pass(&stretch.part((from, to), band));
         };
         let mut start = from;
         if i0 < self.importance {
-            start = passage.scalar.crossing(from, to, band.scalar_where(self.importance)).clamp(from, to);
-            self.pass(&passage.span((from, start), band));
+            let level = band.scalar_where(self.importance);
+            start = stretch.passage.scalar.crossing(from, to, level).clamp(from, to);
+            self.pass(&stretch.part((from, start), band));
         }
         self.raise(i0);
-        self.rise(&passage.span((start, to), band), i1, erasure);
+        self.rise(&stretch.part((start, to), band), i1, erasure);
+    }
+
+    /// Composites a piece on which the scalar crosses no knot and raises no importance: all of it lies in `band`.
+    fn pass_whole(&mut self, passage: &Passage, band: &Band) {
+        self.stretches(passage, std::iter::empty(), |light, stretch, from, to| {
+            light.pass(&stretch.part((from, to), band));
+        });
+    }
+
+    /// Shows `take` the parts of a piece between the `cuts` and the chain's breaks.
+    fn stretches(
+        &mut self,
+        passage: &Passage,
+        cuts: impl Iterator<Item = f64>,
+        take: impl Fn(&mut Self, &Stretch, f64, f64),
+    ) {
+        let (chain, shader) = (self.scene.chain, passage.shader());
+        let mut ends: Vec<f64> = cuts.chain(passage.breaks(chain)).chain([1.0]).collect();
+        ends.sort_by(f64::total_cmp);
+        let mut from = 0.0;
+        for to in ends {
+            let zones = passage.zones(chain, from, to);
+            take(self, &Stretch { passage, shader: shader.as_ref(), chain, zones }, from, to);
+            from = to;
+        }
     }
 }
 
 impl Visitor for Accumulator<'_> {
     fn wants(&self, low: f64, high: f64) -> bool {
         let importance = if self.erasure.is_some() { self.importance } else { f64::INFINITY };
-        !self.medium.is_idle_on(low, high, importance)
+        !self.scene.medium.is_idle_on(low, high, importance)
+    }
+
+    fn levels(&self) -> Levels {
+        self.scene.levels
     }
 
     fn piece(&mut self, piece: &Piece) -> ControlFlow<()> {
-        let medium = self.medium;
+        let medium = self.scene.medium;
         let scalar = medium.scalar(&piece.value);
         let (low, high) = scalar.bounds();
         let (first, last) = (medium.band_number(low), medium.band_number(high));
-        let band = medium.band(first);
+        let band = if low == high { medium.band_at(low) } else { medium.band(first) };
         let in_one_band = first == last;
         let is_plain = self.erasure.is_none()
             || in_one_band && band.importance_at(low).max(band.importance_at(high)) <= self.importance;
         if in_one_band && is_plain && band.is_empty() {
             return ControlFlow::Continue(());
         }
-        let shader = self.shading.map(|shading| Shader { shading, gradient: (piece.gradient)() });
-        let passage = Passage { scalar, length_m: piece.t1 - piece.t0, shader };
+        let passage = Passage::new(piece, scalar, self.course, self.scene.levels);
         if in_one_band && is_plain {
-            self.pass(&passage.span((0.0, 1.0), band));
+            self.pass_whole(&passage, band);
         } else {
-            let mut from = 0.0;
-            for to in scalar.turning_points().chain([1.0]) {
-                self.monotone(&passage, from, to);
-                from = to;
-            }
+            let turns = passage.scalar.turning_points();
+            self.stretches(&passage, turns, |light, stretch, from, to| light.monotone(stretch, from, to));
         }
-        let remaining = self.may_still_change();
-        if remaining < EXIT_SHARE * self.integrator.tolerance {
-            self.state.error += remaining;
+        if self.is_finished() {
+            self.state.error += self.may_still_change();
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())

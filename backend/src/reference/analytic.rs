@@ -1,16 +1,13 @@
 //! The field of a closed formula.
 
-use super::{Cubic, Field, Line, Piece, Visitor};
+use super::fit::{Fit, GRADIENT_SLACK, MOST_BISECTIONS};
+use super::{Field, Line, Piece, Visitor};
 use crate::store::BrickError;
 use glam::DVec3;
 use std::ops::ControlFlow;
 
-/// A piece is bisected at most this often: a jump is then 2⁻³² of the stretch wide.
-const MOST_BISECTIONS: u32 = 32;
 /// Stretches of a line that are looked at separately where no scale is given.
 const DEFAULT_STRETCHES: f64 = 32.0;
-/// How much looser the gradient is fitted than the value: it only shades.
-const GRADIENT_SLACK: f64 = 100.0;
 
 /// A field given by its value and its gradient, over the box [0, extent] of the volume frame. Along a line it is
 /// fitted by cubics.
@@ -65,7 +62,7 @@ where
         let middle = 0.5 * (part.0 + part.1);
         if is_good || left == 0 || middle <= part.0 || middle >= part.1 {
             let piece =
-                Piece { t0: part.0, t1: part.1, value: value.cubics[0], gradient: &|| gradient.cubics };
+                Piece { t0: part.0, t1: part.1, value: value.cubics[0], gradient: &|_| gradient.cubics };
             return visitor.piece(&piece);
         }
         self.visit(line, (part.0, middle), accuracy, left - 1, visitor)?;
@@ -90,6 +87,11 @@ where
         Ok((self.gradient)(point))
     }
 
+    fn sample(&self, point: DVec3, _wants: &dyn Fn(f64, f64) -> bool) -> Result<(f64, DVec3), BrickError> {
+        let point = point.clamp(DVec3::ZERO, self.extent);
+        Ok(((self.value)(point), (self.gradient)(point)))
+    }
+
     fn walk(
         &self,
         line: &Line,
@@ -107,27 +109,5 @@ where
             }
         }
         Ok(())
-    }
-}
-
-/// Cubics through N functions, with the largest miss between their points.
-struct Fit<const N: usize> {
-    cubics: [Cubic; N],
-    error: f64,
-}
-
-impl<const N: usize> Fit<N> {
-    fn new(f: impl Fn(f64) -> [f64; N]) -> Self {
-        let thirds = [f(0.0), f(1.0 / 3.0), f(2.0 / 3.0), f(1.0)];
-        let cubics: [Cubic; N] =
-            std::array::from_fn(|i| Cubic::through_thirds(thirds.map(|values| values[i])));
-        let mut error: f64 = 0.0;
-        for u in [1.0 / 8.0, 0.45, 7.0 / 8.0] {
-            let exact = f(u);
-            for (cubic, exact) in cubics.iter().zip(exact) {
-                error = error.max((cubic.at(u) - exact).abs());
-            }
-        }
-        Self { cubics, error }
     }
 }

@@ -1,5 +1,7 @@
 //! A cubic of u in [0, 1], in Bernstein form: its values stay within its coefficients.
 
+use glam::{DMat3, DVec3};
+
 /// b0 (1−u)³ + 3 b1 (1−u)² u + 3 b2 (1−u) u² + b3 u³.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cubic(pub [f64; 4]);
@@ -61,6 +63,18 @@ impl Cubic {
         Self(self.0.map(|b| offset + scale * b))
     }
 
+    /// The vector-valued cubic `matrix · vector`.
+    pub fn transformed(matrix: &DMat3, vector: &[Self; 3]) -> [Self; 3] {
+        let columns: [DVec3; 4] =
+            std::array::from_fn(|i| *matrix * DVec3::from_array(vector.map(|cubic| cubic.0[i])));
+        std::array::from_fn(|axis| Self(columns.map(|column| column[axis])))
+    }
+
+    /// `self + (other − self) t`.
+    pub fn lerp(&self, other: &Self, t: f64) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] + (other.0[i] - self.0[i]) * t))
+    }
+
     /// The same cubic on [a, b], as a cubic on [0, 1] (its blossom at the mixed arguments of a and b).
     pub fn part(&self, a: f64, b: f64) -> Self {
         if a == 0.0 && b == 1.0 {
@@ -70,7 +84,7 @@ impl Cubic {
     }
 
     /// Where its slope changes sign in (0, 1), in rising order.
-    pub fn turning_points(&self) -> impl Iterator<Item = f64> {
+    pub fn turning_points(&self) -> impl Iterator<Item = f64> + use<> {
         let [b0, b1, b2, b3] = self.0;
         let (first, middle, last) = (b1 - b0, b2 - b1, b3 - b2);
         let one_way = first.min(middle).min(last) >= 0.0 || first.max(middle).max(last) <= 0.0;
@@ -112,6 +126,21 @@ impl Cubic {
         u
     }
 
+    /// Where it changes sign in (0, 1), in rising order.
+    pub fn sign_changes(&self) -> impl Iterator<Item = f64> + use<> {
+        let (low, high) = self.bounds();
+        let may_change = low < 0.0 && high > 0.0;
+        let ends = self.turning_points().chain([1.0]).filter(move |_| may_change);
+        let cubic = *self;
+        let mut from = 0.0;
+        ends.filter_map(move |to| {
+            let start = std::mem::replace(&mut from, to);
+            let changes = (cubic.at(start) < 0.0) != (cubic.at(to) < 0.0);
+            changes.then(|| cubic.crossing(start, to, 0.0))
+        })
+        .filter(|&u| u > 0.0 && u < 1.0)
+    }
+
     /// The symmetric trilinear form that equals the cubic on its diagonal.
     fn blossom(&self, x: f64, y: f64, z: f64) -> f64 {
         let lerp = |a: f64, b: f64, t: f64| (1.0 - t) * a + t * b;
@@ -150,6 +179,16 @@ mod tests {
         assert!(turns.iter().all(|&u| cubic().slope(u).abs() < 1e-12));
         let u = cubic().crossing(turns[0], turns[1], 0.7);
         assert!(u > turns[0] && u < turns[1] && (CUBIC(u) - 0.7).abs() < 1e-14);
+    }
+
+    #[test]
+    fn finds_changes_of_sign() {
+        let thrice = Cubic::through_thirds(
+            [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|u| (u - 0.2) * (u - 0.3) * (u - 0.9)),
+        );
+        let changes: Vec<f64> = thrice.sign_changes().collect();
+        assert!(changes.len() == 3 && (changes[1] - 0.3).abs() < 1e-12, "{changes:?}");
+        assert_eq!(Cubic([1.0, -0.1, -0.1, 1.0]).sign_changes().count(), 0);
     }
 
     #[test]

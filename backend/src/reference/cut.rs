@@ -17,27 +17,40 @@ pub struct Voxels {
     pub step: f64,
 }
 
-/// A leaf of the cut.
-pub struct Leaf {
+/// The samples of a node. Its brick is read when a ray first meets it, and kept.
+pub struct Grid {
     key: NodeKey,
-    /// Its region in the volume frame.
-    pub region: (DVec3, DVec3),
     /// Edge of its voxels, finest voxels.
     pub voxel_edge: f64,
-    /// Bounds of its data values.
-    pub bounds: (f64, f64),
     /// Level index of its stored sample (0, 0, 0).
     pub first_sample: IVec3,
     voxels: OnceLock<Result<Voxels, BrickError>>,
 }
 
-enum Node {
+/// A leaf of the cut.
+pub struct Leaf {
+    node: u32,
+    /// Its region in the volume frame.
+    pub region: (DVec3, DVec3),
+    /// Bounds of its data values.
+    pub bounds: (f64, f64),
+    /// Levels above the finest.
+    pub level: u8,
+}
+
+enum Branch {
     Leaf(Box<Leaf>),
     /// Where the children's region splits, and the children that hold something.
     Inner(DVec3, [Option<u32>; 8]),
 }
 
-/// The tree above the leaves. Bricks are read when a ray first meets them, and kept.
+struct Node {
+    branch: Branch,
+    grid: Grid,
+    parent: Option<u32>,
+}
+
+/// The tree above the leaves.
 pub struct Cut {
     source: Arc<dyn BrickSource>,
     shape: OctreeShape,
@@ -67,7 +80,7 @@ impl Cut {
     ) -> Self {
         let shape = source.shape();
         let mut cut = Self { source: Arc::clone(&source), shape, nodes: Vec::new() };
-        cut.grow(&|key| splits(&shape, source.as_ref(), key), NodeKey::ROOT);
+        cut.grow(&|key| splits(&shape, source.as_ref(), key), NodeKey::ROOT, None);
         cut
     }
 
@@ -87,18 +100,29 @@ impl Cut {
         self.leaf_where(|axis, coordinate| point[axis] >= coordinate)
     }
 
-    /// The leaf's voxels.
-    pub fn voxels<'a>(&self, leaf: &'a Leaf) -> Result<&'a Voxels, BrickError> {
-        leaf.voxels.get_or_init(|| read(self.source.as_ref(), leaf.key)).as_ref().map_err(Clone::clone)
+    /// The samples of a leaf, and those of its ancestors one after the other.
+    pub fn ladder(&self, leaf: &Leaf) -> impl Iterator<Item = &Grid> {
+        let parent = |&index: &u32| self.nodes[index as usize].parent;
+        std::iter::successors(Some(leaf.node), parent).map(|index| &self.nodes[index as usize].grid)
+    }
+
+    /// The samples of a leaf.
+    pub fn grid(&self, leaf: &Leaf) -> &Grid {
+        &self.nodes[leaf.node as usize].grid
+    }
+
+    /// A node's voxels.
+    pub fn voxels<'a>(&self, grid: &'a Grid) -> Result<&'a Voxels, BrickError> {
+        grid.voxels.get_or_init(|| read(self.source.as_ref(), grid.key)).as_ref().map_err(Clone::clone)
     }
 
     fn leaf_where(&self, is_beyond: impl Fn(usize, f64) -> bool) -> &Leaf {
         let extent = self.shape.dims().as_dvec3();
         let mut index = 0;
         loop {
-            match &self.nodes[index] {
-                Node::Leaf(leaf) => return leaf,
-                Node::Inner(split, children) => {
+            match &self.nodes[index].branch {
+                Branch::Leaf(leaf) => return leaf,
+                Branch::Inner(split, children) => {
                     let octant = (0..3).fold(0, |octant, axis| {
                         let is_upper = split[axis] < extent[axis] && is_beyond(axis, split[axis]);
                         octant | usize::from(is_upper) << axis
@@ -112,30 +136,37 @@ impl Cut {
     }
 
     /// Adds a node with all below it; returns its index.
-    fn grow(&mut self, splits: &dyn Fn(NodeKey) -> bool, key: NodeKey) -> u32 {
-        let index = self.nodes.len();
-        self.nodes.push(Node::Inner(DVec3::ZERO, [None; 8]));
-        self.nodes[index] = if !splits(key) {
-            Node::Leaf(Box::new(self.leaf(key)))
-        } else {
+    fn grow(&mut self, splits: &dyn Fn(NodeKey) -> bool, key: NodeKey, parent: Option<u32>) -> u32 {
+        let index = self.nodes.len() as u32;
+        let branch = Branch::Leaf(Box::new(self.leaf(key, index)));
+        self.nodes.push(Node { branch, grid: self.grid_of(key), parent });
+        if splits(key) {
             let split = self.shape.region(key).0 + self.voxel_edge(key) * (OWN_EDGE / 2) as f64;
             let mut children = [None; 8];
             for octant in 0..8u32 {
                 let child = key.child(octant);
-                children[octant as usize] = self.shape.contains(child).then(|| self.grow(splits, child));
+                let exists = self.shape.contains(child);
+                children[octant as usize] = exists.then(|| self.grow(splits, child, Some(index)));
             }
-            Node::Inner(split, children)
-        };
-        index as u32
+            self.nodes[index as usize].branch = Branch::Inner(split, children);
+        }
+        index
     }
 
-    fn leaf(&self, key: NodeKey) -> Leaf {
+    fn leaf(&self, key: NodeKey, node: u32) -> Leaf {
         let summary = self.source.summary(key);
         Leaf {
-            key,
+            node,
             region: self.shape.region(key),
-            voxel_edge: self.voxel_edge(key),
             bounds: (f64::from(summary.min), f64::from(summary.max)),
+            level: self.shape.level(key.depth),
+        }
+    }
+
+    fn grid_of(&self, key: NodeKey) -> Grid {
+        Grid {
+            key,
+            voxel_edge: self.voxel_edge(key),
             first_sample: key.cell.as_ivec3() * OWN_EDGE as i32 - OVERLAP as i32,
             voxels: OnceLock::new(),
         }

@@ -1,8 +1,9 @@
 //! The curves of an optical model, cut into bands on which all of them are linear.
 
 use super::Cubic;
-use glam::DVec3;
-use shaders::optics::{Curve, CurveValue, Mimda, MimdaForm, Optics};
+use super::enhancer::Chain;
+use glam::{DVec3, DVec4};
+use shaders::optics::{Curve, CurveValue, MOST_ENHANCERS, Material, Mimda, MimdaForm, Optics};
 
 /// A function that is linear over a band: its value at the band's start, and its change over the band.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +18,14 @@ pub struct Band {
     pub extinction: Linear<f64>,
     /// Colour, linear RGB.
     pub colour: Linear<DVec3>,
-    /// Importance; 0 where the medium has none.
+    /// Importance as the chain leaves it; 0 where the medium has none.
     pub importance: Linear<f64>,
+    /// Importance as the chain of enhancers is told it: the scene's own, 1 where none is accumulated.
+    pub told: Linear<f64>,
+    /// What each link of the chain has of the scalar: its own band's value, 0 for links without a band.
+    pub shares: [Linear<f64>; MOST_ENHANCERS],
+    /// Factors of the shading law, where they depend on the scalar.
+    pub material: Option<Linear<DVec4>>,
 }
 
 impl Band {
@@ -40,6 +47,13 @@ impl Band {
     /// The scalar at which the importance, which must change in this band, is `importance`.
     pub fn scalar_where(&self, importance: f64) -> f64 {
         self.start + self.width * ((importance - self.importance.0) / self.importance.1)
+    }
+
+    /// What the shading law is told at `place`: `light`'s factors where the scene has none per scalar.
+    pub fn material(&self, place: f64, light: Material) -> Material {
+        let Some(Linear(start, change)) = self.material else { return light };
+        let [ambient, diffuse, specular, shininess] = (start + change * place).to_array();
+        Material { ambient, diffuse, specular, shininess }
     }
 
     /// Whether nothing is visible anywhere in the band.
@@ -100,6 +114,8 @@ pub struct Medium {
     optics: Optics,
     knots: Vec<f64>,
     bands: Vec<Band>,
+    /// One band of no width per knot, for values that stay on it.
+    points: Vec<Band>,
     /// Importance accumulation, where it does anything.
     pub erasure: Option<Erasure>,
     /// The largest component of any colour.
@@ -107,19 +123,20 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// `optics`, which must have passed its check, for a finest voxel of edge `voxel_m`.
-    pub fn new(optics: &Optics, voxel_m: f64) -> Self {
-        let mimda = optics.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0);
-        let largest = |mimda: &Mimda| mimda.importance.max_on(0.0, 1.0);
-        let knots = knots(optics, mimda);
-        let band = |s0: f64, s1: f64| band(optics, mimda, voxel_m, s0, s1);
+    /// `optics`, which must have passed its check, for a finest voxel of edge `voxel_m`, as a `chain` of its enhancers
+    /// leaves it.
+    pub fn new(optics: &Optics, voxel_m: f64, chain: &Chain) -> Self {
+        let knots = knots(optics, chain);
+        let band = |s0: f64, s1: f64| band(optics, chain, voxel_m, s0, s1);
         let mut bands = vec![band(0.0, 0.0)];
         bands.extend(knots.windows(2).map(|pair| band(pair[0], pair[1])));
         bands.push(band(1.0, 1.0));
+        let largest = optics.most_importance_on(0.0, 1.0);
         Self {
+            points: knots.iter().map(|&knot| band(knot, knot)).collect(),
             knots,
             bands,
-            erasure: mimda.map(|m| Erasure { gamma: m.gamma, form: m.form, largest: largest(m) }),
+            erasure: acting(optics).map(|m| Erasure { gamma: m.gamma, form: m.form, largest }),
             brightest: optics.colour.points().iter().fold(0.0, |most, p| p.1.max_element().max(most)),
             optics: optics.clone(),
         }
@@ -150,6 +167,30 @@ impl Medium {
         &self.bands[number]
     }
 
+    /// The band for a stretch on which the scalar is `s` throughout: on a knot, what the curves are at that point.
+    pub fn band_at(&self, s: f64) -> &Band {
+        match self.knots.binary_search_by(|knot| knot.total_cmp(&s)) {
+            Ok(index) => &self.points[index],
+            Err(_) => self.band(self.band_number(s)),
+        }
+    }
+
+    /// The mean importance over the scalars between `a` and `b`, summed band by band so that nothing cancels; its
+    /// value at the point where they are equal.
+    pub fn mean_importance(&self, a: f64, b: f64) -> f64 {
+        let (low, high) = (a.min(b), a.max(b));
+        if low == high {
+            return self.band_at(low).importance_at(low);
+        }
+        let (mut sum, mut from) = (0.0, low);
+        for to in self.knots_between(low, high).chain([high]) {
+            let middle = 0.5 * (from + to);
+            sum += self.band(self.band_number(middle)).importance_at(middle) * (to - from);
+            from = to;
+        }
+        sum / (high - low)
+    }
+
     /// The knots strictly between `from` and `to`, in the order in which they are met.
     pub fn knots_between(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
         let is_rising = to > from;
@@ -161,40 +202,76 @@ impl Medium {
 
     /// Whether data values in [low, high] neither show nor, with ι_max already at `importance`, erase anything.
     pub fn is_idle_on(&self, low: f64, high: f64, importance: f64) -> bool {
-        let raises = |mimda: &Mimda| {
-            let (s0, s1) = (self.optics.normalise(low), self.optics.normalise(high));
-            mimda.importance.max_on(s0, s1) > importance
-        };
-        let may_erase = self.erasure.is_some() && self.optics.mimda.as_ref().is_some_and(raises);
+        let (s0, s1) = (self.optics.normalise(low), self.optics.normalise(high));
+        let may_erase = self.erasure.is_some() && self.optics.most_importance_on(s0, s1) > importance;
         self.optics.is_empty_on(low, high) && !may_erase
     }
 }
 
-/// All positions at which a curve may bend or jump, with the clamps of the scalar at 0 and 1.
-fn knots(optics: &Optics, mimda: Option<&Mimda>) -> Vec<f64> {
+/// Importance accumulation, where it does anything.
+fn acting(optics: &Optics) -> Option<&Mimda> {
+    optics.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0)
+}
+
+/// All positions at which a curve or a link of the chain may bend or jump, with the clamps of the scalar at 0 and 1.
+fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
     let mut knots = vec![0.0, 1.0];
     knots.extend(optics.extinction.knots_between(0.0, 1.0));
     knots.extend(optics.colour.knots_between(0.0, 1.0));
-    knots.extend(mimda.iter().flat_map(|m| m.importance.knots_between(0.0, 1.0)));
+    knots.extend(optics.materials.iter().flat_map(|curve| curve.knots_between(0.0, 1.0)));
+    // Without a chain, importance that does not erase does nothing.
+    let told = acting(optics);
+    knots.extend(told.iter().flat_map(|m| m.importance.knots_between(0.0, 1.0)));
+    knots.extend(chain.knots().filter(|&s| s > 0.0 && s < 1.0));
     knots.sort_by(f64::total_cmp);
     knots.dedup();
     knots
 }
 
-fn band(optics: &Optics, mimda: Option<&Mimda>, voxel_m: f64, s0: f64, s1: f64) -> Band {
+fn band(optics: &Optics, chain: &Chain, voxel_m: f64, s0: f64, s1: f64) -> Band {
     let per_metre = optics.extinction_per_metre(voxel_m);
     let Linear(extinction, change) = linear(&optics.extinction, s0, s1);
+    let told = acting(optics).map_or(Linear(1.0, 0.0), |m| linear(&m.importance, s0, s1));
+    let shares = chain.shares(s0, s1);
     Band {
         start: s0,
         width: if s1 > s0 { s1 - s0 } else { 1.0 },
         extinction: Linear(extinction * per_metre, change * per_metre),
         colour: linear(&optics.colour, s0, s1),
-        importance: mimda.map_or(Linear(0.0, 0.0), |m| linear(&m.importance, s0, s1)),
+        importance: acting(optics).map_or(Linear(0.0, 0.0), |_| chain.importance(told, &shares)),
+        told,
+        shares,
+        material: optics.materials.as_ref().map(|curve| materials(curve, s0, s1)),
     }
 }
 
-fn linear<V: CurveValue + std::ops::Sub<Output = V>>(curve: &Curve<V>, s0: f64, s1: f64) -> Linear<V> {
+fn materials(curve: &Curve<Material>, s0: f64, s1: f64) -> Linear<DVec4> {
+    let start = DVec4::from_array(curve.at(s0).to_array());
+    let end = if s1 > s0 { DVec4::from_array(curve.just_below(s1).to_array()) } else { start };
+    Linear(start, end - start)
+}
+
+/// A curve over [s0, s1]; at its point where they are equal.
+pub fn linear<V: CurveValue + std::ops::Sub<Output = V>>(curve: &Curve<V>, s0: f64, s1: f64) -> Linear<V> {
     let start = curve.at(s0);
     let end = if s1 > s0 { curve.just_below(s1) } else { start };
     Linear(start, end - start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_scene::{optics, with_importance};
+    use super::*;
+
+    #[test]
+    fn the_mean_of_a_curve_with_a_jump_is_its_integral_over_the_width() {
+        let curve = Curve::new(vec![(0.2, 0.0), (0.4, 1.0), (0.4, 0.5), (1.0, 0.5)]).unwrap();
+        let plain = optics(Curve::constant(1.0), Curve::constant(DVec3::ONE));
+        let model = with_importance(plain, curve, 1.0, MimdaForm::Paper);
+        let medium = Medium::new(&model, 1.0, &Chain::default());
+        let exact = (0.1 + 0.5 * 0.2) / 0.6;
+        assert!((medium.mean_importance(0.0, 0.6) - exact).abs() < 1e-15);
+        assert!((medium.mean_importance(0.6, 0.0) - exact).abs() < 1e-15);
+        assert_eq!(medium.mean_importance(0.4, 0.4), 0.5);
+    }
 }

@@ -10,17 +10,34 @@
 //!
 //! γ = 0 is plain emission and absorption. A *piece* is a part of the ray on which the data value is one cubic of t; a
 //! *span* is a part of a piece on which all curves of the optics are linear in the scalar. So optical depth is known
-//! in closed form on a span, and only colour is integrated numerically.
+//! in closed form on a span, and only colour is integrated numerically. Where a chain of enhancers acts, depth depends
+//! on place and gradient too: such a span is cut wherever a law of the chain is not smooth, and integrated as a
+//! differential equation. Where a refraction index bends light, t is the length of the bent way, which is laid as chords;
+//! enhancers still know the direction in which the ray left the eye, and the light sees the direction of the chord.
+//!
+//! How errors keep to the tolerance ε, of which [`Radiance::error_estimate`] is the sum:
+//!
+//! | what | its error |
+//! | --- | --- |
+//! | colour of a span | ε/2 per unit of the span's opacity, by Gauss–Kronrod's estimate |
+//! | a span with a rise or a chain | ε/4 per unit of light exchanged on each step, by halving the step |
+//! | the rest of an opaque ray | ε/10, bounded |
+//! | a bent way | by laying it twice: see `refraction::bent_light` |
+//! | cubics fitted to a field that is none | 1e-10 of the domain; not in the estimate |
 //!
 //! | file | what it is |
 //! | --- | --- |
 //! | `ray` | the ray, and a straight line through the volume |
-//! | `cubic` | a cubic of one variable in Bernstein form |
+//! | `cubic`, `fit` | a cubic of one variable in Bernstein form; cubics fitted to a function |
 //! | `field` | what a field of data values must answer |
-//! | `cut`, `cell`, `stored` | the field of a brick source, on the ideal cut |
+//! | `cut`, `cell`, `cells`, `stored` | the field of a brick source, on the ideal cut |
+//! | `level`, `ladder` | its samples filtered over node, parent and grandparent |
 //! | `analytic` | the field of a closed formula |
-//! | `medium`, `shading`, `span` | the optical model, made ready |
+//! | `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
+//! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
+//! | `setting`, `course`, `passage` | what rays of a frame, a straight way and a piece have of it |
 //! | `quadrature`, `rise`, `accumulator` | the integration |
+//! | `refraction` | bent ways, and the light along them |
 //! | `segmentation` | the published, step-dependent compositing over given segments |
 //! | `tracer` | one call per ray |
 //! | `errors` | how far pictures are from the truth |
@@ -28,19 +45,36 @@
 mod accumulator;
 mod analytic;
 mod cell;
+mod cells;
+mod course;
 mod cubic;
 mod cut;
+mod enhanced;
+mod enhancer;
 mod errors;
 mod field;
+mod fit;
+mod ladder;
 #[cfg(test)]
 mod laws;
+#[cfg(test)]
+mod laws_enhancers;
+#[cfg(test)]
+mod laws_levels;
+#[cfg(test)]
+mod laws_refraction;
+mod level;
 mod medium;
+mod passage;
 mod quadrature;
 mod radiance;
 mod ray;
+mod refraction;
 mod rise;
 mod segmentation;
+mod setting;
 mod shading;
+mod slopes;
 mod span;
 mod stored;
 #[cfg(test)]
@@ -51,7 +85,7 @@ pub use accumulator::Integrator;
 pub use analytic::AnalyticField;
 pub use cubic::Cubic;
 pub use errors::Errors;
-pub use field::{Field, Piece, Visitor};
+pub use field::{Field, Levels, Piece, Visitor};
 pub use radiance::Radiance;
 pub use ray::{Line, Ray};
 pub use segmentation::{Segmentation, SegmentationError};

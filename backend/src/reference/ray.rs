@@ -17,6 +17,11 @@ impl Ray {
         Self { origin_in_display, direction_in_display: direction_in_display.normalize_or_zero() }
     }
 
+    /// The point at `t` metres.
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin_in_display + self.direction_in_display * t
+    }
+
     /// The same points in the volume frame, at the same t.
     pub fn line(&self, volume_from_display: &DAffine3) -> Line {
         Line {

@@ -1,7 +1,6 @@
-//! The integration of a span on which importance rises.
+//! The integration of a span that has no closed form: importance rises on it, or a chain of enhancers acts.
 
 use super::medium::Erasure;
-use super::span::Span;
 use glam::{DMat3, DVec3};
 use std::cell::Cell;
 
@@ -30,35 +29,58 @@ const COLUMNS: DMat3 = DMat3::from_cols(
 const ROUNDING: f64 = 1e-13;
 /// Step pairs that one span may cost; a span that wants more is left as it is, and its error says so.
 const MOST_STEPS: u32 = 20_000;
-/// Two half steps of a method of order 5 are 2⁵ times closer than one step.
-const GAIN_OF_HALVING: f64 = 32.0;
+/// Two half steps of a method of order 5 are 2⁵ times closer than one step where the emitter is smooth.
+pub const GAIN_WHERE_SMOOTH: f64 = 32.0;
+/// They are 2² times closer where it has a kink.
+pub const GAIN_AT_KINKS: f64 = 4.0;
 
-/// A span on which importance rises without a fall: dA = −A p + (1 − A) τ, dC = −C p + (1 − A) e, with p = dP/dx.
-pub struct Rise<'a> {
-    /// The span.
-    span: &'a Span<'a>,
-    /// How importance erases.
-    erasure: Erasure,
+/// What is integrated over x in [0, 1].
+pub trait Emitter {
+    /// How much closer two half steps are than one: [`GAIN_WHERE_SMOOTH`] or [`GAIN_AT_KINKS`].
+    const GAIN_OF_HALVING: f64;
+    /// Optical depth per unit of x, and the light emitted per unit of it.
+    fn emission(&self, x: f64) -> (f64, DVec3);
+    /// Importance.
+    fn importance(&self, x: f64) -> f64;
+    /// Rise of importance per unit of x, at least 0.
+    fn importance_slope(&self, x: f64) -> f64;
+    /// Optical depth from a to b, where it is known in closed form.
+    fn depth_between(&self, a: f64, b: f64) -> Option<f64>;
+}
+
+/// A span on which importance does not fall: dA = −A p + (1 − A) τ, dC = −C p + (1 − A) e, with p = dP/dx.
+pub struct Rise<'a, E> {
+    emitter: &'a E,
+    /// How importance erases; None where it does not.
+    erasure: Option<Erasure>,
     /// Error allowed per unit of what is added or erased. Errors are erased and covered as the light itself is, so the
     /// sum never exceeds a small multiple of it.
     tolerance: f64,
     steps: Cell<u32>,
 }
 
-impl<'a> Rise<'a> {
-    /// A rise over the whole of `span`.
-    pub fn new(span: &'a Span<'a>, erasure: Erasure, tolerance: f64) -> Self {
-        Self { span, erasure, tolerance, steps: Cell::new(0) }
+/// Where a step leads, and the optical depth that it saw.
+struct Step {
+    state: State,
+    depth: f64,
+}
+
+impl<'a, E: Emitter> Rise<'a, E> {
+    /// A rise over the whole of `emitter`.
+    pub fn new(emitter: &'a E, erasure: Option<Erasure>, tolerance: f64) -> Self {
+        Self { emitter, erasure, tolerance, steps: Cell::new(0) }
     }
 
     /// Carries `state` over [a, b] of the span, bisecting at most `max_depth` times.
     pub fn advance(&self, state: State, a: f64, b: f64, max_depth: u32) -> State {
         let middle = 0.5 * (a + b);
-        let once = self.step(state, a, b);
-        let twice = self.step(self.step(state, a, middle), middle, b);
+        let once = self.step(state, a, b).state;
+        let first = self.step(state, a, middle);
+        let Step { state: twice, depth } = self.step(first.state, middle, b);
         let change = (twice.rgb - once.rgb).abs().max_element().max((twice.opacity - once.opacity).abs());
-        let error = change / (GAIN_OF_HALVING - 1.0);
-        let allowed = (self.tolerance * self.turnover(a, b)).max(ROUNDING * twice.rgb.max_element().max(1.0));
+        let error = change / (E::GAIN_OF_HALVING - 1.0);
+        let turnover = self.turnover(a, b, first.depth + depth) * self.open(state);
+        let allowed = (self.tolerance * turnover).max(ROUNDING * twice.rgb.max_element().max(1.0));
         self.steps.set(self.steps.get() + 1);
         let is_spent = max_depth == 0 || self.steps.get() > MOST_STEPS;
         // Written so that what is not a number ends here too.
@@ -71,31 +93,42 @@ impl<'a> Rise<'a> {
     }
 
     /// How much of the light is exchanged on [a, b]: 1 − exp(−depth − P).
-    fn turnover(&self, a: f64, b: f64) -> f64 {
-        let kept = self.erasure.kept(self.span.importance(a), self.span.importance(b));
-        1.0 - kept * (-(self.span.depth(b) - self.span.depth(a))).exp()
+    fn turnover(&self, a: f64, b: f64, seen_depth: f64) -> f64 {
+        let depth = self.emitter.depth_between(a, b).unwrap_or(seen_depth);
+        let kept = self
+            .erasure
+            .map_or(1.0, |erasure| erasure.kept(self.emitter.importance(a), self.emitter.importance(b)));
+        1.0 - kept * (-depth).exp()
+    }
+
+    /// The share of errors that will be seen: without erasure, what is covered stays so, and the sum over all steps
+    /// of a ray is its opacity.
+    fn open(&self, state: State) -> f64 {
+        if self.erasure.is_some() { 1.0 } else { 1.0 - state.opacity }
     }
 
     /// One step of the Radau IIA method; the equations are linear, so its stages are solved for directly.
-    fn step(&self, state: State, a: f64, b: f64) -> State {
+    fn step(&self, state: State, a: f64, b: f64) -> Step {
         let h = b - a;
         let x = NODES.map(|node| a + h * node);
-        let extinction = DVec3::from_array(x.map(|x| self.span.extinction(x)));
+        let light = x.map(|x| self.emitter.emission(x));
+        let extinction = DVec3::from_array(light.map(|light| light.0));
         let erasing = DVec3::from_array(x.map(|x| self.erasing(x)));
-        let colours = x.map(|x| self.span.colour(x));
         let clear = stages(1.0 - state.opacity, h, extinction + erasing, erasing);
-        let erased = solver(h, erasing);
+        let erased = if erasing == DVec3::ZERO { DMat3::IDENTITY } else { solver(h, erasing) };
         let mut rgb = DVec3::ZERO;
         for channel in 0..3 {
-            let colour = DVec3::from_array(colours.map(|colour| colour[channel]));
+            let colour = DVec3::from_array(light.map(|light| light.1[channel]));
             let source = colour * extinction * clear;
             rgb[channel] = (erased * (DVec3::splat(state.rgb[channel]) + h * (COLUMNS * source))).z;
         }
-        State { rgb, opacity: 1.0 - clear.z, error: state.error }
+        let depth = h * (COLUMNS * extinction).z;
+        Step { state: State { rgb, opacity: 1.0 - clear.z, error: state.error }, depth }
     }
 
     fn erasing(&self, x: f64) -> f64 {
-        self.erasure.rate(self.span.importance(x)) * self.span.importance_slope(x)
+        let rate = |erasure: Erasure| erasure.rate(self.emitter.importance(x));
+        self.erasure.map_or(0.0, |erasure| rate(erasure) * self.emitter.importance_slope(x))
     }
 }
 

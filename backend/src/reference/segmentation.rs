@@ -1,10 +1,11 @@
 //! LFD eq. 3 as published, over segments that the caller gives.
 
 use super::accumulator::Accumulator;
+use super::field::Levels;
+use super::medium::Medium;
 use super::rise::State;
 use super::{Piece, Radiance, Visitor};
 use glam::DVec3;
-use shaders::optics::{Curve, Optics};
 use std::ops::ControlFlow;
 
 /// Boundaries of segments along a ray: t in metres, rising.
@@ -72,6 +73,10 @@ impl Visitor for Segment<'_> {
         true
     }
 
+    fn levels(&self) -> Levels {
+        self.light.levels()
+    }
+
     fn piece(&mut self, piece: &Piece) -> ControlFlow<()> {
         let start = self.ends.map_or(piece.value.0[0], |ends| ends.0);
         self.ends = Some((start, piece.value.0[3]));
@@ -83,7 +88,7 @@ impl Visitor for Segment<'_> {
 
 /// The ray so far, in LFD eq. 3.
 pub struct Published<'a> {
-    optics: &'a Optics,
+    medium: &'a Medium,
     state: State,
     importance: f64,
     reached: bool,
@@ -91,18 +96,18 @@ pub struct Published<'a> {
 
 impl<'a> Published<'a> {
     /// At the start of a ray.
-    pub fn new(optics: &'a Optics) -> Self {
+    pub fn new(medium: &'a Medium) -> Self {
         let state = State { rgb: DVec3::ZERO, opacity: 0.0, error: 0.0 };
-        Self { optics, state, importance: 0.0, reached: true }
+        Self { medium, state, importance: 0.0, reached: true }
     }
 
     /// [c* α*] ← β [c* α*] + (1 − β α*) [c α], with the importance of the segment the mean of ι over the scalars between
     /// its ends.
-    pub fn add(&mut self, segment: Radiance, ends: (f64, f64), erasure: Option<super::medium::Erasure>) {
+    pub fn add(&mut self, segment: Radiance, ends: (f64, f64)) {
         let mut beta = 1.0;
-        if let (Some(erasure), Some(mimda)) = (erasure, &self.optics.mimda) {
-            let (s0, s1) = (self.optics.normalise(ends.0), self.optics.normalise(ends.1));
-            let importance = mean(&mimda.importance, s0, s1);
+        if let Some(erasure) = self.medium.erasure {
+            let optics = self.medium.optics();
+            let importance = self.medium.mean_importance(optics.normalise(ends.0), optics.normalise(ends.1));
             if importance > self.importance {
                 beta = erasure.kept_by_one_step(self.importance, importance);
                 self.importance = importance;
@@ -122,33 +127,9 @@ impl<'a> Published<'a> {
     }
 }
 
-/// The mean of a curve between `a` and `b`, summed over its own pieces so that nothing cancels; its value at the point
-/// where they are equal.
-fn mean(curve: &Curve<f64>, a: f64, b: f64) -> f64 {
-    let (low, high) = (a.min(b), a.max(b));
-    if low == high {
-        return curve.at(low);
-    }
-    let (mut sum, mut from) = (0.0, low);
-    for to in curve.knots_between(low, high).chain([high]) {
-        sum += 0.5 * (curve.at(from) + curve.just_below(to)) * (to - from);
-        from = to;
-    }
-    sum / (high - low)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_mean_of_a_curve_with_a_jump_is_its_integral_over_the_width() {
-        let curve = Curve::new(vec![(0.2, 0.0), (0.4, 1.0), (0.4, 0.5), (1.0, 0.5)]).unwrap();
-        let exact = (0.1 + 0.5 * 0.2) / 0.6;
-        assert!((mean(&curve, 0.0, 0.6) - exact).abs() < 1e-15);
-        assert!((mean(&curve, 0.6, 0.0) - exact).abs() < 1e-15);
-        assert_eq!(mean(&curve, 0.4, 0.4), 0.5);
-    }
 
     #[test]
     fn boundaries_must_not_fall() {

@@ -3,7 +3,8 @@
 use super::Cubic;
 use super::medium::Band;
 use super::quadrature::{Estimate, integrate};
-use super::shading::Shader;
+use super::rise::{Emitter, GAIN_WHERE_SMOOTH};
+use super::shading::{Shader, Surface};
 use glam::DVec3;
 
 /// Beyond this optical depth nothing of a span's colour is seen: e⁻⁴⁰ is below the rounding of 1.
@@ -18,7 +19,7 @@ pub struct Span<'a> {
     band: &'a Band,
     /// The part of the piece, and the shading of the piece.
     part: (f64, f64),
-    shader: Option<Shader<'a>>,
+    shader: Option<&'a Shader<'a>>,
 }
 
 impl<'a> Span<'a> {
@@ -28,7 +29,7 @@ impl<'a> Span<'a> {
         part: (f64, f64),
         piece_m: f64,
         band: &'a Band,
-        shader: Option<Shader<'a>>,
+        shader: Option<&'a Shader<'a>>,
     ) -> Self {
         let places = band.places(&scalar.part(part.0, part.1));
         let length_m = piece_m * (part.1 - part.0);
@@ -46,31 +47,26 @@ impl<'a> Span<'a> {
         self.density.at(x).max(0.0)
     }
 
-    /// The colour shown at `x`.
-    pub fn colour(&self, x: f64) -> DVec3 {
-        let colour = self.band.colour.0 + self.band.colour.1 * self.places.at(x);
-        match &self.shader {
-            Some(shader) => shader.shade(colour, self.part.0 + x * (self.part.1 - self.part.0)),
-            None => colour,
-        }
+    /// The colour shown at `x`, with the shading weight scaled by `weight`.
+    pub fn colour(&self, x: f64, weight: f64) -> DVec3 {
+        let place = self.places.at(x);
+        let colour = self.band.colour.0 + self.band.colour.1 * place;
+        let Some(shader) = self.shader else { return colour };
+        let material = self.band.material(place, shader.material());
+        shader.shade(&Surface { colour, material, weight }, self.part.0 + x * (self.part.1 - self.part.0))
     }
 
-    /// Importance at `x`.
-    pub fn importance(&self, x: f64) -> f64 {
-        (self.band.importance.0 + self.band.importance.1 * self.places.at(x)).clamp(0.0, 1.0)
-    }
-
-    /// Rise of importance per unit of x, at least 0.
-    pub fn importance_slope(&self, x: f64) -> f64 {
-        (self.band.importance.1 * self.places.slope(x)).max(0.0)
+    /// The band, and the scalar's place in it at `x`.
+    pub fn place(&self, x: f64) -> (&'a Band, f64) {
+        (self.band, self.places.at(x))
     }
 
     /// The premultiplied colour of the span alone, ∫ e exp(−∫τ), to `tolerance`.
-    pub fn emission(&self, opacity: f64, tolerance: f64, max_depth: u32) -> Estimate {
+    pub fn whole_emission(&self, opacity: f64, tolerance: f64, max_depth: u32) -> Estimate {
         if self.shader.is_none() && self.band.colour.1 == DVec3::ZERO {
             return Estimate { value: self.band.colour.0 * opacity, error: 0.0 };
         }
-        let f = |x: f64| self.colour(x) * (self.extinction(x) * (-self.depth(x)).exp());
+        let f = |x: f64| self.colour(x, 1.0) * (self.extinction(x) * (-self.depth(x)).exp());
         integrate(&f, (0.0, self.visible_end()), tolerance, max_depth)
     }
 
@@ -86,5 +82,25 @@ impl<'a> Span<'a> {
             if self.depth(middle) < OPAQUE_DEPTH { low = middle } else { high = middle }
         }
         high
+    }
+}
+
+impl Emitter for Span<'_> {
+    const GAIN_OF_HALVING: f64 = GAIN_WHERE_SMOOTH;
+
+    fn emission(&self, x: f64) -> (f64, DVec3) {
+        (self.extinction(x), self.colour(x, 1.0))
+    }
+
+    fn importance(&self, x: f64) -> f64 {
+        (self.band.importance.0 + self.band.importance.1 * self.places.at(x)).clamp(0.0, 1.0)
+    }
+
+    fn importance_slope(&self, x: f64) -> f64 {
+        (self.band.importance.1 * self.places.slope(x)).max(0.0)
+    }
+
+    fn depth_between(&self, a: f64, b: f64) -> Option<f64> {
+        Some(self.depth(b) - self.depth(a))
     }
 }

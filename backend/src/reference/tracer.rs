@@ -1,19 +1,20 @@
 //! The integration of a ray through a frame's scene: one call per ray.
 
 use super::accumulator::{Accumulator, Integrator};
-use super::medium::Medium;
+use super::refraction::BentLight;
 use super::segmentation::{Published, Segment};
-use super::shading::Shading;
+use super::setting::Setting;
 use super::{Field, Radiance, Ray, Segmentation, StoredField};
 use crate::protocol::FrameState;
 use crate::store::{BrickError, BrickSource};
 use crate::working_set::LodRule;
-use glam::{DAffine3, DVec3};
-use shaders::optics::{Light, OpticsError};
+use glam::DVec3;
+use shaders::optics::OpticsError;
 use std::sync::Arc;
 
-/// How closely a field without cubics of its own is fitted, as a share of the transfer function's domain.
-const FIT_ACCURACY: f64 = 1e-10;
+/// What a scene with refraction answers to who asks for segments of it.
+const BENT_SEGMENTS: &str =
+    "segments are parts of a straight ray; take the refraction out of the scene, or ask for the whole ray";
 
 /// Why a frame has no reference picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -33,12 +34,7 @@ pub enum ReferenceError {
 
 /// The optical part of a frame, ready to be integrated over any field.
 pub struct Tracer {
-    integrator: Integrator,
-    medium: Medium,
-    light: Option<Light>,
-    brightest: f64,
-    volume_from_display: DAffine3,
-    voxel_m: f64,
+    setting: Setting,
 }
 
 impl Tracer {
@@ -49,15 +45,11 @@ impl Tracer {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(ReferenceError::Tolerance(tolerance));
         }
-        let volume_from_display = frame.display_from_volume.inverse();
-        let voxel_m = frame.voxel_m();
-        if !(volume_from_display.is_finite() && voxel_m > 0.0) {
+        let setting = Setting::new(frame, integrator);
+        if !(setting.volume_from_display.is_finite() && setting.voxel_m > 0.0) {
             return Err(ReferenceError::Placement);
         }
-        let medium = Medium::new(&frame.optics, voxel_m);
-        let light = frame.light_in_effect();
-        let brightest = light.map_or(medium.brightest, |light| Shading::brightest(&light, medium.brightest));
-        Ok(Self { integrator, medium, light, brightest, volume_from_display, voxel_m })
+        Ok(Self { setting })
     }
 
     /// What a ray sees of `field`, by the continuous model.
@@ -72,54 +64,47 @@ impl Tracer {
         ray: &Ray,
         within_m: (f64, f64),
     ) -> Result<Radiance, BrickError> {
-        let line = ray.line(&self.volume_from_display);
+        let view = self.setting.view(ray);
+        if let Some(index) = &self.setting.index {
+            return BentLight { view: &view, field, index }.radiance(ray, within_m);
+        }
+        let line = ray.line(&self.setting.volume_from_display);
         let Some(inside) = line.clip(field.extent(), within_m) else {
             return Ok(Radiance::NOTHING);
         };
-        let shading = self.shading(ray);
-        let mut light = self.accumulator(shading.as_ref());
-        field.walk(&line, inside, self.accuracy(), &mut light)?;
+        let course = view.course(ray);
+        let mut light = Accumulator::new(view.scene(), &course);
+        field.walk(&line, inside, self.setting.accuracy(), &mut light)?;
         Ok(light.radiance())
     }
 
     /// What a ray sees of `field` when LFD eq. 3 is applied to given segments, each composited alone beforehand to
     /// the tolerance. The published equation's picture depends on them; with no importance, or γ = 0, it does not.
+    /// Refused for a scene with refraction.
     pub fn segmented_on(
         &self,
         field: &dyn Field,
         ray: &Ray,
         segmentation: &Segmentation,
     ) -> Result<Radiance, BrickError> {
-        let line = ray.line(&self.volume_from_display);
-        let shading = self.shading(ray);
-        let mut published = Published::new(self.medium.optics());
+        if self.setting.index.is_some() {
+            return Err(BrickError(BENT_SEGMENTS.to_string()));
+        }
+        let line = ray.line(&self.setting.volume_from_display);
+        let view = self.setting.view(ray);
+        let (scene, course) = (view.scene(), view.course(ray));
+        let mut published = Published::new(scene.medium);
         for (start, end) in segmentation.segments() {
             let Some(inside) = line.clip(field.extent(), (start.max(0.0), end)) else {
                 continue;
             };
-            let mut segment = Segment::new(self.accumulator(shading.as_ref()));
-            field.walk(&line, inside, self.accuracy(), &mut segment)?;
+            let mut segment = Segment::new(Accumulator::new(scene, &course));
+            field.walk(&line, inside, self.setting.accuracy(), &mut segment)?;
             if let Some((light, ends)) = segment.seen() {
-                published.add(light, ends, self.medium.erasure);
+                published.add(light, ends);
             }
         }
         Ok(published.radiance())
-    }
-
-    fn accumulator<'a>(&'a self, shading: Option<&'a Shading>) -> Accumulator<'a> {
-        Accumulator::new(self.integrator, &self.medium, shading, self.brightest)
-    }
-
-    fn shading(&self, ray: &Ray) -> Option<Shading> {
-        let (low, high) = self.medium.optics().domain;
-        let linear = self.volume_from_display.matrix3;
-        self.light
-            .map(|light| Shading::new(light, ray.direction_in_display, linear, self.voxel_m, high - low))
-    }
-
-    fn accuracy(&self) -> f64 {
-        let (low, high) = self.medium.optics().domain;
-        FIT_ACCURACY * (high - low)
     }
 }
 
@@ -137,7 +122,8 @@ impl Reference {
         rule: &LodRule,
         integrator: Integrator,
     ) -> Result<Self, ReferenceError> {
-        Ok(Self { tracer: Tracer::new(frame, integrator)?, field: StoredField::new(source, rule) })
+        let field = filtered(StoredField::new(source, rule), frame, rule);
+        Ok(Self { tracer: Tracer::new(frame, integrator)?, field })
     }
 
     /// The same over a source of which some bricks cannot be read: see [`StoredField::around_damage`].
@@ -147,7 +133,7 @@ impl Reference {
         rule: &LodRule,
         integrator: Integrator,
     ) -> Result<Self, ReferenceError> {
-        let field = StoredField::around_damage(source, rule, &frame.optics);
+        let field = filtered(StoredField::around_damage(source, rule, &frame.optics), frame, rule);
         Ok(Self { tracer: Tracer::new(frame, integrator)?, field })
     }
 
@@ -174,4 +160,8 @@ impl Reference {
     pub fn field(&self) -> &StoredField {
         &self.field
     }
+}
+
+fn filtered(field: StoredField, frame: &FrameState, rule: &LodRule) -> StoredField {
+    if frame.quality.quadrilinear { field.filtered(rule) } else { field }
 }

@@ -63,12 +63,13 @@ pub struct ClipPlane {
 /// η = ω_a · smoothstep(ι |g| / gradient_most, edges) · (1 − |g·v| / |g|)⁴
 /// ```
 ///
-/// (ι = 1 where a scene has no importance), inside the sphere:
+/// (ι = 1 where a scene accumulates no importance: none is given, or γ = 0), inside the sphere, where the light that a
+/// sample emits, highlights included, is e:
 ///
 /// ```text
 /// q < 0:  μ = lerp(0, η, ω_d)          μ_c = 1 − η
 /// q ≥ 0:  μ = lerp(η, 1, 1 − ω_d)      μ_c = lerp(1 − η, 1, 1 − ω_d)
-/// τ ← lerp(1, μ, strength) · τ         k ← lerp(1, μ, strength) · lerp(1, μ_c, strength) · k
+/// τ ← lerp(1, μ, strength) · τ         e ← lerp(1, μ, strength) · lerp(1, μ_c, strength) · e
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
@@ -95,7 +96,7 @@ pub struct Probe {
 /// ι ← lerp(ι, b, w)          τ, k ← (1 − w (1 − b)) · (τ, k)
 /// ```
 ///
-/// Importance acts only in a scene that has importance accumulation.
+/// A scene that accumulates no importance (none is given, or γ = 0) has none to change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BandPicker {
     /// The band over the normalised scalar.

@@ -1,0 +1,53 @@
+//! The fractional level at which samples are filtered.
+
+use super::Line;
+use crate::working_set::LodRule;
+use glam::DVec3;
+
+/// λ of [`shaders::optics::Quality::quadrilinear`] over the volume: log2(lod_scale · s(z) / longest edge of the finest
+/// voxel) levels above the finest, with s(z) = s0 + 2 |z| tan(Φ/2).
+#[derive(Clone, Copy, Debug)]
+pub struct FilterLevel {
+    /// lod_scale over the longest edge of the finest voxel, 1/metre.
+    scale: f64,
+    /// s0, metres.
+    pixel_m: f64,
+    /// 2 tan(Φ/2).
+    spread: f64,
+    /// z in the display frame of a point p of the volume frame is `row · p + offset`.
+    row: DVec3,
+    offset: f64,
+}
+
+impl FilterLevel {
+    /// What `rule` asks for.
+    pub fn new(rule: &LodRule) -> Self {
+        let linear = rule.display_from_volume.matrix3;
+        let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
+        Self {
+            scale: rule.lod_scale / longest,
+            pixel_m: rule.pixel_size_m,
+            spread: 2.0 * (0.5 * rule.angular_accuracy).tan(),
+            row: linear.row(2),
+            offset: rule.display_from_volume.translation.z,
+        }
+    }
+
+    /// λ − ℓ at a point of the volume, for a node ℓ = `level` levels above the finest; −∞ where lod_scale is 0.
+    pub fn above(&self, point: DVec3, level: u8) -> f64 {
+        let z = self.row.dot(point) + self.offset;
+        (self.scale * (self.pixel_m + self.spread * z.abs())).log2() - f64::from(level)
+    }
+
+    /// The t of a line at which it is not smooth: where the line crosses the screen, and where λ − ℓ is 0, 1 or 2.
+    pub fn kinks(&self, line: &Line, level: u8) -> impl Iterator<Item = f64> {
+        let (start, speed) = (self.row.dot(line.origin) + self.offset, self.row.dot(line.direction));
+        let depth = |above: u8| {
+            let resolution_m = 2.0_f64.powi(i32::from(level + above)) / self.scale;
+            (resolution_m - self.pixel_m) / self.spread
+        };
+        let depths = [0, 1, 2].map(depth);
+        let both = depths.into_iter().flat_map(|z| [z, -z]);
+        both.chain([0.0]).map(move |z| (z - start) / speed)
+    }
+}

@@ -1,0 +1,13 @@
+//! Light along a way that the refraction index bends.
+
+mod bending;
+mod bent_light;
+mod follower;
+mod index;
+mod interface;
+#[cfg(test)]
+mod laws;
+mod runge_kutta;
+
+pub use bent_light::BentLight;
+pub use index::Index;
