@@ -8,5 +8,6 @@ pub mod head;
 #[cfg(unix)]
 pub mod program;
 pub mod random;
+pub mod random_scene;
 pub mod scenes;
 pub mod twin_scene;
