@@ -61,8 +61,13 @@ fn open_store(input: &Path, raw: Option<RawLayout>, bits: CodeBits, name: &str) 
 
 /// The cranium CT as a 16-bit store.
 pub fn cranium() -> Option<Store> {
+    cranium_of(CodeBits::Sixteen)
+}
+
+/// The cranium CT as a store of so many bits per voxel.
+pub fn cranium_of(bits: CodeBits) -> Option<Store> {
     let raw = cranium_raw(folder())?;
-    Some(open_store(&raw, Some(cranium_layout()), CodeBits::Sixteen, "cranium.lloom"))
+    Some(open_store(&raw, Some(cranium_layout()), bits, &format!("cranium-{}.lloom", bits.bits())))
 }
 
 /// The head MRI as an 8-bit store.

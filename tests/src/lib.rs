@@ -8,6 +8,7 @@ pub mod head;
 #[cfg(unix)]
 pub mod program;
 pub mod random;
+pub mod random_scene;
 pub mod scenes;
 pub mod techniques;
 pub mod twin_scene;

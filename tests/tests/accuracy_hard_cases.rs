@@ -12,6 +12,7 @@ use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{Points, frame, optics, placed, with_raster};
 use shaders::optics::{Curve, Light, Mimda, MimdaForm};
 use shaders::tables::TABLE_ENTRIES;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 /// What default quality promises on every scene.
@@ -105,8 +106,26 @@ fn along_axes() -> Vec<Case> {
         case.display.observer_in_display.z = 1e4;
         case.with(|f| f.observer_in_display.z = 1e4)
     };
+    // The middle ray enters at a corner of the volume, meets eight bricks in one, and leaves by the opposite corner.
+    let diagonal = |mut case: Case| {
+        let turn = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
+        let place = placed(&*case.source, 0.27, turn);
+        case.frame.display_from_volume = place;
+        case
+    };
+    // The same look along the volume's other axes, both ways.
+    let turned = |name: &str, axis: DVec3, angle: f64| {
+        let case = case(name, DVec3::ZERO);
+        let place = placed(&*case.source, 0.27, DQuat::from_axis_angle(axis, angle));
+        case.with(|f| f.display_from_volume = place)
+    };
     vec![
         case("along an octree edge", DVec3::ZERO),
+        turned("along an octree edge in x", DVec3::Y, FRAC_PI_2),
+        turned("along an octree edge in -x", DVec3::Y, -FRAC_PI_2),
+        turned("along an octree edge in y", DVec3::X, FRAC_PI_2),
+        turned("along an octree edge in -z", DVec3::Y, PI),
+        diagonal(case("through octree corners", DVec3::ZERO)),
         case("beside an octree edge by 1e-6", DVec3::new(1e-6, -1e-6, 0.0)),
         case("along voxel centres", DVec3::splat(0.5)),
         case("grazing a brick by 1e-6", DVec3::new(28.0 - 1e-6, 0.0, 0.0)),
@@ -190,6 +209,11 @@ fn other() -> Vec<Case> {
         let importance = Curve::new(vec![(0.6, 0.0), (0.6, 1.0)]).unwrap();
         Some(Mimda { importance, gamma, form: MimdaForm::Consistent })
     };
+    // Importance that reaches 1 step by step, and then falls: what lies before is gone altogether.
+    let rising = || {
+        let importance = Curve::new(vec![(0.3, 0.0), (0.7, 1.0), (0.9, 0.2)]).unwrap();
+        Some(Mimda { importance, gamma: 1.0, form: MimdaForm::Consistent })
+    };
     let case = |name: &str| Case::new(name, source([56, 40, 30], bumps), soft());
     let mut in_viewers_plane = case("projectors in the viewer's plane");
     for projector in &mut in_viewers_plane.display.projectors {
@@ -204,6 +228,9 @@ fn other() -> Vec<Case> {
         // On the outline of the jump a pixel loses all that lies before it or nothing.
         case("importance that jumps").with(|f| f.optics.mimda = mimda(0.8)).within(0.8, 4.0, ALL),
         case("importance that jumps, gamma 1").with(|f| f.optics.mimda = mimda(1.0)).within(0.8, 4.0, ALL),
+        // The kernel knows importance at the ends of its parts, not the peak between them: there it keeps a little of what
+        // the truth erases, and where the ray meets the peak once more it erases what the truth keeps.
+        case("importance that rises to 1, gamma 1").with(|f| f.optics.mimda = rising()).within(8.0, ALL, ALL),
         case("3e4 steps").with(|f| f.quality.step_voxels = 2.4e-3).within(0.05, 0.3, 1.0).few_pixels(),
         Case {
             is_beyond_llvmpipe: true,

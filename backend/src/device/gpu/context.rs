@@ -1,5 +1,6 @@
 //! The adapter and its queue, one for the whole process.
 
+use super::pipeline_cache::PipelineCache;
 use crate::device::DeviceError;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
@@ -13,6 +14,8 @@ pub(super) struct Context {
     pub(super) atlas_format: wgpu::TextureFormat,
     /// Whether the texture unit can interpolate `atlas_format` at all.
     pub(super) has_filter: bool,
+    /// What the driver compiled before; None where it does not tell, or the user does not want it kept.
+    pub(super) pipelines: Option<PipelineCache>,
     turn: Mutex<()>,
 }
 
@@ -47,7 +50,9 @@ impl Context {
         let info = adapter.get_info();
         let name = format!("gpu: {}, {:?}", info.name, info.backend);
         let features = adapter.features()
-            & (wgpu::Features::TEXTURE_FORMAT_16BIT_NORM | wgpu::Features::FLOAT32_FILTERABLE);
+            & (wgpu::Features::TEXTURE_FORMAT_16BIT_NORM
+                | wgpu::Features::FLOAT32_FILTERABLE
+                | PipelineCache::FEATURES);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("lightloom"),
             required_features: features,
@@ -62,7 +67,8 @@ impl Context {
         let has_filter = has_unorm16 || features.contains(wgpu::Features::FLOAT32_FILTERABLE);
         let atlas_format =
             if has_unorm16 { wgpu::TextureFormat::R16Unorm } else { wgpu::TextureFormat::R32Float };
-        Ok(Self { device, queue, name, atlas_format, has_filter, turn: Mutex::new(()) })
+        let pipelines = PipelineCache::open(&device, &info);
+        Ok(Self { device, queue, name, atlas_format, has_filter, pipelines, turn: Mutex::new(()) })
     }
 
     /// Waits for this thread's turn on the queue.

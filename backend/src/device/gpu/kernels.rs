@@ -1,6 +1,7 @@
 //! Compiled kernels, each made when a scene first needs it.
 
 use super::context::Context;
+use super::pipeline_cache::PipelineCache;
 use shaders::compose::KernelKey;
 use std::collections::HashMap;
 
@@ -8,14 +9,23 @@ use std::collections::HashMap;
 #[derive(Debug, Default)]
 pub(super) struct Kernels {
     compiled: HashMap<KernelKey, wgpu::ComputePipeline>,
+    substitute: Option<wgpu::ComputePipeline>,
 }
 
 impl Kernels {
     /// The kernel for a need.
     pub(super) fn get(&mut self, context: &Context, key: KernelKey) -> &wgpu::ComputePipeline {
+        if let Some(substitute) = &self.substitute {
+            return substitute;
+        }
         self.compiled
             .entry(key)
             .or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
+    }
+
+    /// From now on this kernel is run, whatever is needed: for measuring what the composed ones cost.
+    pub(super) fn substitute(&mut self, context: &Context, wgsl: &str) {
+        self.substitute = Some(compile(context, "substitute", wgsl, "cast_tile"));
     }
 }
 
@@ -30,12 +40,15 @@ pub(super) fn compile(
         label: Some(label),
         source: wgpu::ShaderSource::Wgsl(wgsl.into()),
     });
-    context.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+    let cache = context.pipelines.as_ref();
+    let pipeline = context.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: None,
         module: &module,
         entry_point: Some(entry_point),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    })
+        cache: cache.map(PipelineCache::cache),
+    });
+    cache.inspect(|cache| cache.keep());
+    pipeline
 }

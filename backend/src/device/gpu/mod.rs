@@ -1,9 +1,11 @@
 //! The wgpu device. The only folder that names wgpu.
 
 mod atlas;
+mod cache_file;
 mod context;
 mod device;
 mod kernels;
+mod pipeline_cache;
 mod precision;
 mod readback;
 

@@ -1,0 +1,182 @@
+//! A random scene drawn by every device: light in every pixel, the same light by all, and near the truth.
+
+use super::RandomScene;
+use super::difference::{Difference, Limit, difference};
+use crate::compare::{self, TruePixel};
+use crate::draw::{self, With};
+use crate::scenes::with_raster;
+use backend::protocol::{DeviceChoice, ProjectorImage};
+use display_config::Display;
+
+/// One projector from the side and one near the middle.
+const PROJECTORS: [u32; 2] = [1, 5];
+/// Odd, so that one column and one row look straight ahead.
+const RASTER: [u32; 2] = [17, 13];
+/// Mean of a picture, in parts of the brightest, from which on its canaries must be found out.
+const CANARY_LIGHT: f64 = 0.06;
+/// Opacities are composited in f32: a few hundred steps of 1e-7 each.
+const OPACITY_ROUNDING: f32 = 1e-5;
+
+/// What came of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// The GPU against the twin.
+    pub rounding: Option<Difference>,
+    /// The worst of the devices against the truth.
+    pub truth: Option<Difference>,
+    /// Pixels that show anything.
+    pub lit: usize,
+    /// What is wrong, a sentence each.
+    pub wrong: Vec<String>,
+}
+
+/// Kernel and twin. Both round to f32 and take the same steps: a thousand rounded additions. Where a length sits on a whole
+/// number of steps, or an estimate on a whole number of parts, one takes one more, and the pixel differs by a part of what
+/// the integration errs there. The texture unit is asked at points rounded to 1/4096 texel: a steep transfer function
+/// makes that visible, and where something opaque has an outline a pixel shows it or does not.
+fn limit_of_rounding(scene: &RandomScene) -> Limit {
+    if scene.is_tame() {
+        Limit { pixel: 1.0 / 255.0, share: 0.0, mean: 0.004 / 255.0 }
+    } else {
+        Limit { pixel: 4.0 / 255.0, share: 0.02, mean: 0.3 / 255.0 }
+    }
+}
+
+/// Device and truth. Where nothing is steep it is what default quality promises at the worst pixel, and half a code on
+/// average. Between two samples the kernel takes the scalar as straight, and importance as what it is at both ends. So
+/// where the scalar turns just beyond a sample, importance is met too low, and what lies before is erased too little: a
+/// pixel in two hundred. And where importance has a peak, the scalar jumps from voxel to voxel, or a transfer function has
+/// a jump or a spike or makes a skin thinner than a step, a pixel on an outline shows what is there or what lies behind.
+/// White noise under a spike has such outlines in every voxel, and a skin of 1e-5 voxels shows the mean colour of the part
+/// of a step that it begins in.
+fn limit_of_truth(scene: &RandomScene) -> Limit {
+    match (scene.is_tame(), scene.optics.mimda.is_some()) {
+        (true, false) => Limit { pixel: 4.0 / 255.0, share: 0.0, mean: 0.5 / 255.0 },
+        (true, true) => Limit { pixel: 4.0 / 255.0, share: 0.005, mean: 0.5 / 255.0 },
+        (false, _) => Limit { pixel: 4.0 / 255.0, share: 0.15, mean: 4.0 / 255.0 },
+    }
+}
+
+/// The display that random scenes are drawn on.
+pub fn display() -> Display {
+    with_raster(&Display::load("desk8").expect("a preset"), RASTER[0], RASTER[1])
+}
+
+/// Draws a scene on every device there is, and compares.
+pub fn check(display: &Display, scene: &RandomScene) -> Found {
+    let (source, frame) = (scene.volume.source(), scene.frame(display));
+    let mut found = Found::default();
+    let mut all: Vec<(DeviceChoice, Vec<ProjectorImage>)> = Vec::new();
+    for device in draw::devices() {
+        let drawn = draw::draw(display, &frame, &source, &PROJECTORS, With::device(device));
+        if !drawn.report.complete {
+            found.wrong.push(format!("{device:?}: {}", drawn.report.shortfall));
+        }
+        found.wrong.extend(what_is_no_light(&drawn.images).map(|what| format!("{device:?}: {what}")));
+        all.push((device, drawn.images));
+    }
+    // Where rays are bent much, those that differ by rounding part.
+    if let [(_, twin), (_, kernel)] = &all[..]
+        && scene.is_gentle
+    {
+        found.compare_kernel(scene, kernel, twin);
+    }
+    if scene.has_truth() {
+        let mut truth = compare::traced(display, &frame, &source, &PROJECTORS, 1);
+        truth.retain(|pixel| pixel.truth.reached);
+        found.lit = truth.iter().filter(|pixel| pixel.truth.opacity > 0.01).count();
+        all.iter().for_each(|(device, images)| found.compare_with_truth(scene, *device, images, &truth));
+    }
+    found
+}
+
+impl Found {
+    fn compare_kernel(&mut self, scene: &RandomScene, kernel: &[ProjectorImage], twin: &[ProjectorImage]) {
+        let (limit, scale) = (limit_of_rounding(scene), 1.0 / brightest(scene));
+        let kernel = || numbers(kernel);
+        let found = difference(kernel().zip(numbers(twin)), scale, limit.pixel);
+        if !limit.holds(&found) {
+            self.wrong.push(format!("kernel and twin differ: {found}"));
+        }
+        self.rounding = Some(found);
+        // The canary: a thousandth more light, where there is enough of it to show.
+        let brighter = difference(kernel().map(|p| p.map(|n| 1.001 * n)).zip(kernel()), scale, limit.pixel);
+        if 1e-3 * CANARY_LIGHT < brighter.mean && scene.is_tame() && limit.holds(&brighter) {
+            self.wrong.push("a picture brighter by a thousandth passes for the twin's".into());
+        }
+    }
+
+    fn compare_with_truth(
+        &mut self,
+        scene: &RandomScene,
+        device: DeviceChoice,
+        images: &[ProjectorImage],
+        truth: &[TruePixel],
+    ) {
+        let (limit, scale) = (limit_of_truth(scene), 1.0 / brightest(scene));
+        let pairs = || against(images, truth);
+        let found = difference(pairs(), scale, limit.pixel);
+        if !limit.holds(&found) {
+            self.wrong.push(format!("{device:?} is off the truth: {found}"));
+        }
+        // The canary: every other pixel dark, where there is enough to see.
+        let dark = |(i, (found, truth))| (if i % 2 == 0 { [0.0; 4] } else { found }, truth);
+        let half = difference(pairs().enumerate().map(dark), scale, limit.pixel);
+        if 0.5 * CANARY_LIGHT < half.mean && limit.holds(&half) {
+            self.wrong.push(format!("{device:?}: half a picture passes"));
+        }
+        if self.truth.is_none_or(|worst| worst.mean < found.mean) {
+            self.truth = Some(found);
+        }
+    }
+}
+
+/// The first number that is no light, if any.
+fn what_is_no_light(images: &[ProjectorImage]) -> Option<String> {
+    let numbers = || images.iter().flat_map(|image| &image.rgba);
+    let wrong = numbers().find(|n| !(n.is_finite() && **n >= 0.0)).map(|n| format!("{n} is no light"));
+    let opacity = numbers().skip(3).step_by(4).find(|opacity| **opacity > 1.0 + OPACITY_ROUNDING);
+    wrong.or(opacity.map(|opacity| format!("an opacity of {opacity}")))
+}
+
+/// The most that a number of a pixel may be, at least 1.
+fn brightest(scene: &RandomScene) -> f64 {
+    let colour = scene.optics.colour.points().iter().map(|p| p.1.max_element()).fold(1.0, f64::max);
+    let Some(light) = &scene.light else { return colour };
+    let materials = scene.optics.materials.iter().flat_map(|m| m.points()).map(|p| p.1);
+    let lit = |m: shaders::optics::Material| colour * (m.ambient + m.diffuse).max(1.0) + m.specular;
+    materials.map(lit).fold(lit(light.material()), f64::max)
+}
+
+fn numbers(images: &[ProjectorImage]) -> impl Iterator<Item = [f64; 4]> {
+    images
+        .iter()
+        .flat_map(|image| image.rgba.chunks_exact(4))
+        .map(|p| std::array::from_fn(|c| f64::from(p[c])))
+}
+
+/// Pairs (found, true).
+fn against(images: &[ProjectorImage], truth: &[TruePixel]) -> impl Iterator<Item = ([f64; 4], [f64; 4])> {
+    truth.iter().map(|pixel| {
+        let image = images.iter().find(|image| image.projector == pixel.projector);
+        let image = image.expect("every projector with truth has a picture");
+        let at = 4 * (pixel.y as usize * image.width as usize + pixel.x as usize);
+        let [r, g, b] = pixel.truth.rgb.to_array();
+        (std::array::from_fn(|c| f64::from(image.rgba[at + c])), [r, g, b, pixel.truth.opacity])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_has_no_numbers_below_zero_and_no_opacity_above_one() {
+        let picture =
+            |rgba: [f32; 4]| ProjectorImage { projector: 0, width: 1, height: 1, rgba: rgba.to_vec() };
+        assert_eq!(what_is_no_light(&[picture([3.0, 0.0, 1.0, 1.0])]), None);
+        for wrong in [[-1e-9, 0.0, 0.0, 0.5], [0.0, f32::INFINITY, 0.0, 0.5], [0.0, 0.0, 0.0, 1.001]] {
+            assert!(what_is_no_light(&[picture(wrong)]).is_some(), "{wrong:?}");
+        }
+    }
+}
