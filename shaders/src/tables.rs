@@ -15,6 +15,8 @@ pub struct Tables {
     pub optics: Vec<OpticsEntry>,
     /// ι; empty where importance plays no part.
     pub importance: Vec<ImportanceEntry>,
+    /// Rows of as many entries as that table: row j holds at i the largest importance of the 2^j nodes from node i on.
+    pub importance_most: Vec<f32>,
     /// ν, which is the integral of its own slope; empty where light is not bent. A jump becomes the slope of one cell.
     pub index: Vec<f32>,
     /// Ambient, diffuse, specular, shininess; empty where all scalars have the light's own.
@@ -45,7 +47,8 @@ impl Tables {
             let [lo, hi] = [cell, cell + 1].map(|node| node as f64 / (TABLE_ENTRIES - 1) as f64);
             bends || optics.most_importance_on(lo, hi) > 0.0
         });
-        Self { optics: optics_table(optics), importance, index, materials, occupied }
+        let importance_most = largest_of_spans(&importance);
+        Self { optics: optics_table(optics), importance, importance_most, index, materials, occupied }
     }
 
     /// Whether nothing within scalars [low, high] changes a picture. A scalar that rounds into the next cell is
@@ -105,6 +108,22 @@ pub fn occupancy(optics: &[OpticsEntry], acts: impl Fn(usize) -> bool) -> Vec<u3
         count
     });
     std::iter::once(0).chain(counts).collect()
+}
+
+/// See [`Tables::importance_most`].
+fn largest_of_spans(importance: &[ImportanceEntry]) -> Vec<f32> {
+    let mut rows: Vec<f32> = importance.iter().map(|entry| entry.value).collect();
+    let entries = rows.len();
+    let mut span = 1;
+    while 2 * span <= entries {
+        let row = rows.len() - entries;
+        for i in 0..entries {
+            let beyond = rows.get(row + i + span).filter(|_| i + span < entries).copied();
+            rows.push(beyond.map_or(rows[row + i], |other| other.max(rows[row + i])));
+        }
+        span *= 2;
+    }
+    rows
 }
 
 /// The scalars of a table's nodes.
@@ -221,6 +240,19 @@ mod tests {
         for entry in table {
             let sum = f64::from(entry.integral[3]) + f64::from(entry.integral_rest[3]);
             assert!(sum.is_finite() && entry.integral_rest[3].abs() <= entry.integral[3] * 6e-8 + 1e-30);
+        }
+    }
+
+    #[test]
+    fn spans_of_nodes_know_their_largest() {
+        let importance =
+            Curve::new(vec![(0.0, 0.1), (0.3, 0.8), (0.31, 0.2), (0.9, 0.4), (1.0, 0.0)]).unwrap();
+        let table = importance_table(&importance);
+        let rows = largest_of_spans(&table);
+        for (row, first) in [(0, 5), (3, 300), (7, 250), (9, 0), (9, 512)] {
+            let nodes = &table[first..(first + (1 << row)).min(TABLE_ENTRIES)];
+            let truth = nodes.iter().map(|entry| entry.value).fold(0.0, f32::max);
+            assert_eq!(rows[row * TABLE_ENTRIES + first], truth, "{row} {first}");
         }
     }
 

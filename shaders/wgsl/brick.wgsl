@@ -36,7 +36,7 @@ fn segment_light(sample: Sample, thickness: f32, light: Lighting) -> vec4<f32> {
     let mean = attenuation_mean(depth);
     let body = 1.0 - sample.lit + sample.lit * light.body;
     let lit = sample.k.xyz * body + vec3<f32>(sample.k.w * (sample.lit * light.highlight));
-    return vec4<f32>(lit * (thickness * mean), depth * mean);
+    return vec4<f32>(lit * (thickness * mean * sample.brightness), depth * mean);
 }
 
 // Adds one step, lit as given.

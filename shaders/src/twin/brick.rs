@@ -76,7 +76,7 @@ fn segment_light<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) 
     let body = F::ONE - sample.lit + sample.lit * light.body;
     let [r, g, b, extinction] = sample.k;
     let lit = Vec3([r, g, b]) * body + Vec3::splat(extinction * (sample.lit * light.highlight));
-    Light { rgb: lit * (thickness * mean), alpha: depth * mean }
+    Light { rgb: lit * (thickness * mean * sample.brightness), alpha: depth * mean }
 }
 
 /// Adds one step, lit as given.

@@ -17,35 +17,33 @@ pub const RISE: f64 = 0.0064;
 pub struct Importance<F> {
     /// Its mean.
     pub mean: F,
-    /// At its two ends, in the order of the ray.
-    pub ends: [F; 2],
+    /// The largest.
+    pub most: F,
 }
 
 impl<F: Real> Importance<F> {
     /// Where all is equally important.
-    pub const EQUAL: Self = Self { mean: F::ONE, ends: [F::ONE; 2] };
-
-    /// The larger of the values at the two ends.
-    #[inline(always)]
-    pub fn at_ends(&self) -> F {
-        self.ends[0].most(self.ends[1])
-    }
+    pub const EQUAL: Self = Self { mean: F::ONE, most: F::ONE };
 }
 
-/// ι over scalars [s0, s1].
+/// ι over scalars [s0, s1]; `most` as [`crate::tables::Tables`] tells it.
 #[inline(always)]
-pub fn importance_between<F: Real>(table: &[ImportanceEntry], s0: F, s1: F) -> Importance<F> {
+pub fn importance_between<F: Real>(table: &[ImportanceEntry], most: &[f32], s0: F, s1: F) -> Importance<F> {
     let (u0, u1, c0, c1) = span(table.len(), s0, s1);
     let half = F::of(0.5);
     let (first, last) = (importance_at(table, u0, c0), importance_at(table, u1, c1));
-    let ends = if s1 < s0 { [last, first] } else { [first, last] };
+    let at_ends = first.most(last);
     if c0 == c1 {
-        return Importance { mean: half * (first + last), ends };
+        return Importance { mean: half * (first + last), most: at_ends };
     }
+    // The nodes between are covered by two spans of a power of two.
+    let row = (c1 - c0).ilog2() as usize;
+    let start = row * table.len();
+    let inside = most[start + c0 + 1].max(most[start + c1 + 1 - (1 << row)]);
     let (after, before) = (&table[c0 + 1], &table[c1]);
     let left = (first + F::of_f32(after.value)) * (half * (F::of_u32(c0 as u32 + 1) - u0));
     let right = (F::of_f32(before.value) + last) * (half * (u1 - F::of_u32(c1 as u32)));
     let whole = (F::of_f32(before.integral) - F::of_f32(after.integral))
         + (F::of_f32(before.integral_rest) - F::of_f32(after.integral_rest));
-    Importance { mean: (left + whole + right) / (u1 - u0), ends }
+    Importance { mean: (left + whole + right) / (u1 - u0), most: at_ends.most(F::of_f32(inside)) }
 }

@@ -16,7 +16,7 @@ const ONCE_PER_STEP: bool = false;
 // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
 fn composite(front: Accumulated, light: vec4<f32>, sample: Sample) -> Accumulated {
     let middle = max(front.importance, sample.importance.mean);
-    let end = max(middle, at_ends(sample.importance));
+    let end = max(middle, sample.importance.most);
     let beta = kept(front.importance, middle);
     let rest = kept(middle, end);
     let through = 1.0 - beta * front.alpha;
@@ -26,6 +26,6 @@ fn composite(front: Accumulated, light: vec4<f32>, sample: Sample) -> Accumulate
 // Parts of each step of a pair, by what a rise of importance within reach may have erased unseen. Its error falls with
 // the parts, not with their square.
 fn parts_of_rise(front: Accumulated, reach: Sample) -> f32 {
-    let unseen = (1.0 - kept(front.importance, at_ends(reach.importance))) * front.alpha * (RISE / params.quality.w);
+    let unseen = (1.0 - kept(front.importance, reach.importance.most)) * front.alpha * (RISE / params.quality.w);
     return clamp(ceil(unseen), 1.0, MOST_PARTS);
 }

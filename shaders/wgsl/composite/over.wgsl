@@ -9,8 +9,9 @@ struct Accumulated {
 struct Sample {
     // Mean (τ c, τ).
     k: vec4<f32>,
-    // Share of the shading that acts on it.
+    // Share of the shading that acts on it, and factor of the light that it emits.
     lit: f32,
+    brightness: f32,
 }
 
 fn nothing_accumulated() -> Accumulated {
@@ -18,7 +19,7 @@ fn nothing_accumulated() -> Accumulated {
 }
 
 fn sample_between(a: Located, b: Located, s0: f32, s1: f32) -> Sample {
-    return Sample(optics_between(a, b), 1.0);
+    return Sample(optics_between(a, b), 1.0, 1.0);
 }
 
 // Whether a segment without extinction changes nothing.

@@ -33,3 +33,16 @@ fn band_between(corners: vec4<f32>, s0: f32, s1: f32) -> f32 {
     }
     return min(sum / (high - low), 1.0);
 }
+
+// Its largest value between two scalars.
+fn band_most(corners: vec4<f32>, s0: f32, s1: f32) -> f32 {
+    let low = min(s0, s1);
+    let high = max(s0, s1);
+    if high < corners.y {
+        return band_at(corners, high);
+    }
+    if low > corners.z {
+        return band_at(corners, low);
+    }
+    return 1.0;
+}

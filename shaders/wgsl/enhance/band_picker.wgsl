@@ -20,8 +20,8 @@ fn band_picker_breaks(link: Link, weights: vec4<f32>, ray: Ray) -> vec3<f32> {
 
 fn band_picker_at(link: Link, weights: vec4<f32>, sample: Sample, place: Place) -> Sample {
     let picked = band_between(link.a, place.s0, place.s1);
-    let ends = vec2<f32>(band_at(link.a, place.s0), band_at(link.a, place.s1));
-    return with_importance(scaled(sample, 1.0 - weights.x * (1.0 - picked)), picked, ends, weights.x);
+    let changed = scaled(sample, 1.0 - weights.x * (1.0 - picked));
+    return with_importance(changed, picked, band_most(link.a, place.s0, place.s1), weights.x);
 }
 
 fn band_picker_end(link: Link, weights: vec4<f32>, front: Accumulated) -> Accumulated {

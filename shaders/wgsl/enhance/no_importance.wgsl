@@ -4,6 +4,6 @@ fn mean_importance(sample: Sample) -> f32 {
     return 1.0;
 }
 
-fn with_importance(sample: Sample, mean: f32, ends: vec2<f32>, weight: f32) -> Sample {
+fn with_importance(sample: Sample, mean: f32, most: f32, weight: f32) -> Sample {
     return sample;
 }

@@ -42,7 +42,7 @@ fn probe_at(link: Link, weights: vec4<f32>, sample: Sample, place: Place) -> Sam
     }
     let factor = 1.0 + (opacity - 1.0) * link.b.w;
     var changed = scaled(sample, factor);
-    changed.k = vec4<f32>(changed.k.xyz * (1.0 + (intensity - 1.0) * link.b.w), changed.k.w);
+    changed.brightness *= 1.0 + (intensity - 1.0) * link.b.w;
     return changed;
 }
 

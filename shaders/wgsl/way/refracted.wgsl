@@ -55,7 +55,7 @@ fn direction_beyond(bent: ptr<function, Bent>, gradient: vec3<f32>, s0: f32, s2:
         return v;
     }
     if abs(n2 - n0) <= SURFACE {
-        return normalize(v * n0 + gradient * (index_slope(s0, s2) * length / params.volume.w));
+        return normalize(v * (0.5 * (n0 + n2)) + gradient * (index_slope(s0, s2) * length / params.volume.w));
     }
     var normal = gradient / sqrt(square);
     let towards = dot(normal, v);

@@ -35,6 +35,7 @@ pub struct GpuDevice {
     cells: Storage,
     optics: Storage,
     importance: Storage,
+    importance_most: Storage,
     index: Storage,
     materials: Storage,
     occupied: Storage,
@@ -137,6 +138,7 @@ impl GpuDevice {
             occupied: storage("occupied table cells"),
             optics: storage("optics table"),
             importance: storage("importance table"),
+            importance_most: storage("largest importances"),
             index: storage("refraction table"),
             materials: storage("material table"),
             tiles: storage("tiles"),
@@ -197,6 +199,7 @@ impl GpuDevice {
         self.optics.write(&self.context, &tables.optics);
         self.occupied.write(&self.context, &tables.occupied);
         self.importance.write_if_any(&self.context, &tables.importance);
+        self.importance_most.write_if_any(&self.context, &tables.importance_most);
         self.index.write_if_any(&self.context, &tables.index);
         self.materials.write_if_any(&self.context, &tables.materials);
     }
@@ -285,6 +288,7 @@ impl GpuDevice {
         }
         let tables = [
             (9, &self.importance, key.needs.reads_importance()),
+            (15, &self.importance_most, key.needs.reads_importance()),
             (13, &self.index, key.needs.way == Way::Refracted),
             (14, &self.materials, key.needs.has_materials),
         ];

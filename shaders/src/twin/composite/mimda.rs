@@ -15,6 +15,7 @@ pub(super) fn sample_between<F: Real>(
     Sample {
         k: optics_between(&scene.tables.optics, a, b),
         lit: F::ONE,
-        importance: importance_between(&scene.tables.importance, s0, s1),
+        brightness: F::ONE,
+        importance: importance_between(&scene.tables.importance, &scene.tables.importance_most, s0, s1),
     }
 }

@@ -40,7 +40,7 @@ impl Composite for MimdaConsistent {
     ) -> Accumulated<F> {
         // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
         let middle = front.importance.most(sample.importance.mean);
-        let end = middle.most(sample.importance.at_ends());
+        let end = middle.most(sample.importance.most);
         let beta = kept(scene.view.gamma, front.importance, middle);
         let rest = kept(scene.view.gamma, middle, end);
         let all = front.then(beta, light, end);
@@ -49,7 +49,7 @@ impl Composite for MimdaConsistent {
 
     #[inline(always)]
     fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
-        let beyond = kept(scene.view.gamma, front.importance, reach.importance.at_ends());
+        let beyond = kept(scene.view.gamma, front.importance, reach.importance.most);
         let unseen = (F::ONE - beyond) * front.alpha * (F::of(RISE) / scene.view.tolerance);
         unseen.ceil().most(F::ONE).least(F::of(MOST_PARTS))
     }

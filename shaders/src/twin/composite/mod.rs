@@ -67,6 +67,8 @@ pub struct Sample<F> {
     pub k: [F; 4],
     /// Share of the shading that acts on it.
     pub lit: F,
+    /// Factor of the light that it emits.
+    pub brightness: F,
     /// Its importance; [`Importance::EQUAL`] in ordinary compositing.
     pub importance: Importance<F>,
 }

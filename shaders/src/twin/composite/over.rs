@@ -15,7 +15,7 @@ impl Composite for Over {
     #[inline(always)]
     fn sample_between<F: Real>(scene: &Scene<F>, [a, b]: [&Located<F>; 2], _: (F, F)) -> Sample<F> {
         let k = optics_between(&scene.tables.optics, a, b);
-        Sample { k, lit: F::ONE, importance: Importance::EQUAL }
+        Sample { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
     }
 
     #[inline(always)]

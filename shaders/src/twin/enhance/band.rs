@@ -43,6 +43,19 @@ pub(super) fn band_between<F: Real>(corners: &[F; 4], (s0, s1): (F, F)) -> F {
     (sum / (high - low)).least(F::ONE)
 }
 
+/// Its largest value between two scalars.
+#[inline(always)]
+pub(super) fn band_most<F: Real>(corners: &[F; 4], (s0, s1): (F, F)) -> F {
+    let (low, high) = (s0.least(s1), s0.most(s1));
+    if high < corners[1] {
+        band_at(corners, high)
+    } else if low > corners[2] {
+        band_at(corners, low)
+    } else {
+        F::ONE
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -68,6 +81,7 @@ mod tests {
             let same = band_between(&rounded.map(f64::from), (f64::from(s0 as f32), f64::from(s1 as f32)));
             prop_assert!((f64::from(in_f32) - same).abs() < 1e-4);
             prop_assert_eq!(band_at(&corners, s0), band.at(s0));
+            prop_assert_eq!(band_most(&corners, (s0, s1)), band.max_on(s0.min(s1), s0.max(s1)));
         }
     }
 }

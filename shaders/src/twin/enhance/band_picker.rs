@@ -1,6 +1,6 @@
 //! View-dependent band picker (LFD section 4).
 
-use super::band::{band_at, band_between};
+use super::band::{band_between, band_most};
 use super::chain::{scaled, xyz};
 use super::{Constants, LinkState, Place};
 use crate::twin::composite::Sample;
@@ -28,8 +28,7 @@ pub(super) fn at<F: Real>(
         return changed;
     }
     let toward = |from: F, to: F| from + (to - from) * weight;
-    let Importance { mean, ends: [first, last] } = sample.importance;
-    let ends =
-        [toward(first, band_at(&link[0], place.scalars.0)), toward(last, band_at(&link[0], place.scalars.1))];
-    Sample { importance: Importance { mean: toward(mean, picked), ends }, ..changed }
+    let Importance { mean, most } = sample.importance;
+    let most = toward(most, band_most(&link[0], place.scalars));
+    Sample { importance: Importance { mean: toward(mean, picked), most }, ..changed }
 }

@@ -56,9 +56,8 @@ pub(super) fn at<F: Real>(
     }
     let strength = link[1][3];
     let changed = scaled(sample, F::ONE + (opacity - F::ONE) * strength);
-    let colour = F::ONE + (intensity - F::ONE) * strength;
-    let [r, g, b, extinction] = changed.k;
-    Sample { k: [r * colour, g * colour, b * colour, extinction], ..changed }
+    let brightness = changed.brightness * (F::ONE + (intensity - F::ONE) * strength);
+    Sample { brightness, ..changed }
 }
 
 /// η: how much of an edge a sample is.

@@ -78,7 +78,7 @@ impl<F: Real> Bent<F> {
         }
         if (n2 - n0).abs() <= F::of(SURFACE) {
             let bend = index_slope(table, s0, s2) * length / scene.view.voxel_m;
-            return normalize(v * n0 + gradient * bend);
+            return normalize(v * (F::of(0.5) * (n0 + n2)) + gradient * bend);
         }
         let size = square.sqrt();
         let mut normal = gradient.map(|c| c / size);
