@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod command;
 mod error;
+pub mod gallery;
 pub mod interrupt;
 pub mod orientation;
 pub mod progress;

@@ -182,7 +182,7 @@ fn a_look_relative_to_a_volume_cannot_say_what_is_empty() {
     let said = Scene::visibility_in_file(&path).unwrap_err().to_string();
     assert!(said.contains("[optics]") && said.contains("--empty-below") && !said.contains('\n'), "{said}");
     write(&format!("{OPTICS}extinction = [[100, 0], [101, 5]]\ncolour = [[0, 1, 1, 1]]\n"));
-    let shown = Scene::visibility_in_file(&path).unwrap();
+    let shown = &Scene::visibility_in_file(&path).unwrap()[0];
     assert!(shown.is_empty_on(-5e3, 100.0) && !shown.is_empty_on(100.5, 100.6));
     assert!(Scene::load(&path.to_string_lossy()).is_err(), "its store is not there");
 }
