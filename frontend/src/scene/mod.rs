@@ -179,4 +179,6 @@ fn tool_at_rest(kind: ToolKind) -> Tool {
 }
 
 #[cfg(test)]
+mod illustration_tests;
+#[cfg(test)]
 mod tests;
