@@ -1,5 +1,6 @@
 //! The renderer of one back-end: draws the frames of its projectors until nothing is missing.
 
+mod ancestors;
 mod damage;
 #[cfg(test)]
 mod damage_tests;

@@ -1,6 +1,6 @@
 //! Pre-integrated transfer functions: curves made into tables of f and F = ∫ f.
 
-use crate::compose::Compositing;
+use crate::compose::{Compositing, Needs, Way};
 use crate::layout::{ImportanceEntry, OpticsEntry};
 use crate::optics::{Curve, Optics};
 use glam::DVec3;
@@ -15,20 +15,37 @@ pub struct Tables {
     pub optics: Vec<OpticsEntry>,
     /// ι; empty where importance plays no part.
     pub importance: Vec<ImportanceEntry>,
+    /// ν, which is the integral of its own slope; empty where light is not bent. A jump becomes the slope of one cell.
+    pub index: Vec<f32>,
+    /// Ambient, diffuse, specular, shininess; empty where all scalars have the light's own.
+    pub materials: Vec<[f32; 4]>,
     /// See [`occupancy`].
     pub occupied: Vec<u32>,
 }
 
 impl Tables {
-    /// The tables that a kernel for these optics reads.
-    pub fn new(optics: &Optics) -> Self {
-        let importance = match (&optics.mimda, Compositing::for_optics(optics)) {
+    /// The tables that a kernel for these optics and needs reads.
+    pub fn new(optics: &Optics, needs: &Needs) -> Self {
+        let importance = match (&optics.mimda, needs.compositing) {
             (Some(mimda), Compositing::Mimda(_)) => importance_table(&mimda.importance),
             (Some(_) | None, _) => Vec::new(),
         };
-        let optics = optics_table(optics);
-        let occupied = occupancy(&optics, &importance);
-        Self { optics, importance, occupied }
+        let index = match (&optics.refraction, needs.way) {
+            (Some(index), Way::Refracted) => nodes().map(|s| index.at(s) as f32).collect(),
+            (Some(_) | None, _) => Vec::new(),
+        };
+        let materials = match &optics.materials {
+            Some(materials) if needs.has_materials => {
+                nodes().map(|s| materials.at(s).to_array().map(|factor| factor as f32)).collect()
+            }
+            Some(_) | None => Vec::new(),
+        };
+        let occupied = occupancy(&optics_table(optics), |cell| {
+            let bends = index.get(cell..cell + 2).is_some_and(|pair| pair[0] != pair[1]);
+            let [lo, hi] = [cell, cell + 1].map(|node| node as f64 / (TABLE_ENTRIES - 1) as f64);
+            bends || optics.most_importance_on(lo, hi) > 0.0
+        });
+        Self { optics: optics_table(optics), importance, index, materials, occupied }
     }
 
     /// Whether nothing within scalars [low, high] changes a picture. A scalar that rounds into the next cell is
@@ -75,28 +92,24 @@ pub fn importance_table(importance: &Curve<f64>) -> Vec<ImportanceEntry> {
         .collect()
 }
 
-/// How many table cells below each node change a picture: cells with any extinction, or any importance where
-/// `importance` is not empty. So cells a to b together change nothing where the counts at a and b + 1 are equal.
-pub fn occupancy(optics: &[OpticsEntry], importance: &[ImportanceEntry]) -> Vec<u32> {
+/// How many table cells below each node change a picture: cells with any extinction, and those for which `acts` tells that
+/// something else does. So cells a to b together change nothing where the counts at a and b + 1 are equal.
+pub fn occupancy(optics: &[OpticsEntry], acts: impl Fn(usize) -> bool) -> Vec<u32> {
     let has_extinction = |a: &OpticsEntry, b: &OpticsEntry| {
         let grows = b.integral[3] > a.integral[3] || b.integral_rest[3] != a.integral_rest[3];
         a.value[3] > 0.0 || b.value[3] > 0.0 || grows
     };
-    let has_importance = |cell: usize| match importance.get(cell..cell + 2) {
-        Some([a, b]) => a.value > 0.0 || b.value > 0.0 || b.integral > a.integral,
-        _ => false,
-    };
     let mut count = 0;
     let counts = optics.windows(2).enumerate().map(|(cell, pair)| {
-        count += u32::from(has_extinction(&pair[0], &pair[1]) || has_importance(cell));
+        count += u32::from(has_extinction(&pair[0], &pair[1]) || acts(cell));
         count
     });
     std::iter::once(0).chain(counts).collect()
 }
 
-/// The importance where no table is needed: its largest value on [0, 1].
-pub fn largest_importance(importance: &Curve<f64>) -> f64 {
-    importance.max_on(0.0, 1.0)
+/// The scalars of a table's nodes.
+fn nodes() -> impl Iterator<Item = f64> {
+    (0..TABLE_ENTRIES).map(|node| node as f64 / (TABLE_ENTRIES - 1) as f64)
 }
 
 fn merged_knots(extinction: &Curve<f64>, colour: &Curve<DVec3>) -> Vec<f64> {
@@ -216,9 +229,8 @@ mod tests {
         let cells = (TABLE_ENTRIES - 1) as f64;
         let spike =
             optics_table(&optics(vec![(10.2 / cells, 0.0), (10.5 / cells, 1.0), (10.8 / cells, 0.0)]));
-        let counts = occupancy(&spike, &[]);
+        let counts = occupancy(&spike, |_| false);
         assert_eq!((counts[10], counts[11], counts[TABLE_ENTRIES - 1]), (0, 1, 1));
-        let importance = importance_table(&Curve::new(vec![(0.5, 0.0), (0.6, 1.0)]).unwrap());
-        assert!(occupancy(&spike, &importance)[TABLE_ENTRIES - 1] > 500);
+        assert_eq!(occupancy(&spike, |cell| cell >= 500)[TABLE_ENTRIES - 1], 1 + 523);
     }
 }

@@ -1,50 +1,4 @@
-// A ray's way through one brick: samples, light and steps.
-
-// What stays the same on that way.
-struct Brick {
-    // First texel in the atlas.
-    origin: vec3<f32>,
-    // First word of its cells.
-    words: u32,
-    // A point t metres along the ray lies at base + slope t, in texels of the brick.
-    base: vec3<f32>,
-    slope: vec3<f32>,
-    // Metres per texel along each axis, without sign.
-    pace: vec3<f32>,
-    // Turns a difference over two texels into a change of the scalar per finest voxel.
-    gradient_scale: f32,
-    offset: f32,
-    scale: f32,
-}
-
-fn slot_origin(slot: u32) -> vec3<f32> {
-    let across = params.atlas.x;
-    let layer = params.atlas.x * params.atlas.y;
-    return vec3<f32>(vec3<u32>(slot % across, (slot % layer) / across, slot / layer) * BRICK_EDGE);
-}
-
-fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
-    let edge = voxel_edge(node.depth);
-    var brick: Brick;
-    brick.origin = slot_origin(node.slot);
-    brick.words = node.slot * CELL_WORDS;
-    brick.base = (ray.origin_in_volume - node_low(node)) / edge + OVERLAP;
-    brick.slope = ray.direction_in_volume / edge;
-    brick.pace = abs(ray.inverse) * edge;
-    brick.gradient_scale = 0.5 * node.scale / edge;
-    brick.offset = node.offset;
-    brick.scale = node.scale;
-    return brick;
-}
-
-// The point at t, in texels of the brick.
-fn point_in(brick: Brick, t: f32) -> vec3<f32> {
-    return brick.base + brick.slope * t;
-}
-
-fn scalar_at(brick: Brick, t: f32) -> f32 {
-    return clamp(brick.offset + brick.scale * sample_atlas(brick.origin, point_in(brick, t)), 0.0, 1.0);
-}
+// A ray's way through one brick: light and steps.
 
 // Whether anything shows within a voxel of the cell around a point.
 fn is_visible_at(brick: Brick, point: vec3<f32>) -> bool {
@@ -56,7 +10,7 @@ fn is_visible_at(brick: Brick, point: vec3<f32>) -> bool {
 // Pairs of steps of `length` metres until the middle of one lies beyond the cell around `middle`; at least 1.
 fn pairs_across(brick: Brick, middle: vec3<f32>, length: f32) -> f32 {
     let low = floor(middle * (1.0 / CELL_EDGE)) * CELL_EDGE;
-    let face = select(low, low + CELL_EDGE, brick.slope >= vec3<f32>(0.0));
+    let face = select(low, low + CELL_EDGE, brick.own.slope >= vec3<f32>(0.0));
     let way = abs(face - middle) * brick.pace;
     return clamp(ceil(min(way.x, min(way.y, way.z)) / length), 1.0, 1e6);
 }
@@ -67,61 +21,110 @@ struct Lighting {
     highlight: f32,
 }
 
-// The light at t, where there is extinction to be lit.
-fn light_at(brick: Brick, ray: Ray, extinction: f32, t: f32) -> Lighting {
-    if extinction > 0.0 {
-        return lighting(brick.origin, point_in(brick, t), brick.gradient_scale, ray);
+// The light on a segment at t, where there is extinction to be lit.
+fn light_on(sample: Sample, gradients: Gradients, ray: Ray, s: f32) -> Lighting {
+    if sample.k.w > 0.0 {
+        return lighting(gradients, ray, material_at(s));
     }
     return Lighting(1.0, 0.0);
 }
 
-// Light of a segment with mean `k` of (τ c, τ), composited alone: premultiplied colour and opacity. `thickness` is metres
-// times the extinction per metre where the table says 1.
-fn segment_light(k: vec4<f32>, thickness: f32, light: Lighting) -> vec4<f32> {
-    let depth = k.w * thickness;
+// Light of a segment, composited alone: premultiplied colour and opacity. `thickness` is metres times the extinction per
+// metre where the table says 1.
+fn segment_light(sample: Sample, thickness: f32, light: Lighting) -> vec4<f32> {
+    let depth = sample.k.w * thickness;
     let mean = attenuation_mean(depth);
-    let lit = k.xyz * light.body + vec3<f32>(k.w * light.highlight);
+    let body = 1.0 - sample.lit + sample.lit * light.body;
+    let lit = sample.k.xyz * body + vec3<f32>(sample.k.w * (sample.lit * light.highlight));
     return vec4<f32>(lit * (thickness * mean), depth * mean);
 }
 
 // Adds one step, lit as given.
-fn add_whole(front: Accumulated, k: vec4<f32>, s0: f32, s1: f32, thickness: f32, light: Lighting) -> Accumulated {
-    if is_clear(k.w) {
+fn add_whole(front: Accumulated, sample: Sample, thickness: f32, light: Lighting) -> Accumulated {
+    if is_clear(sample.k.w) {
         return front;
     }
-    return composite(front, segment_light(k, thickness, light), s0, s1);
+    return composite(front, segment_light(sample, thickness, light), sample);
 }
 
-// Adds one step that begins at t0, cut into parts.
-fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, s0: f32, s1: f32, t0: f32, step: f32,
-    parts: f32) -> Accumulated {
-    let part = step / parts;
+// One step along a ray.
+struct Step {
+    // All of it as one segment.
+    whole: Sample,
+    s0: f32,
+    s1: f32,
+    // Where it begins, and its length, metres.
+    t0: f32,
+    length: f32,
+}
+
+// Adds one step, cut into parts.
+fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, parts: f32) -> Accumulated {
+    let part = step.length / parts;
     let thickness = params.quality.z * part;
     var front = front_of_step;
     var alone = vec4<f32>(0.0);
-    var from_s = s0;
-    var from_located = locate(s0);
+    var from_s = step.s0;
+    var from_located = locate(from_s);
     for (var j = 1.0; j <= parts; j += 1.0) {
-        let t = t0 + j * part;
-        var to_s = s1;
+        let t = step.t0 + j * part;
+        var to_s = step.s1;
         if j < parts {
-            to_s = scalar_at(brick, t);
+            to_s = scalar_at(brick, ray, t);
         }
         let to_located = locate(to_s);
-        let k = optics_between(from_located, to_located);
-        if !is_clear(k.w) {
-            let light = segment_light(k, thickness, light_at(brick, ray, k.w, t - 0.5 * part));
+        let plain = sample_between(from_located, to_located, from_s, to_s);
+        if !is_clear(plain.k.w) {
+            let middle = t - 0.5 * part;
+            var gradients = NO_GRADIENTS;
+            if plain.k.w > 0.0 {
+                gradients = gradients_at(brick, ray, middle);
+            }
+            let sample = enhance(plain, ray, middle, from_s, to_s, gradients);
+            let light = segment_light(sample, thickness, light_on(sample, gradients, ray, 0.5 * (from_s + to_s)));
             if ONCE_PER_STEP {
                 alone += light * (1.0 - alone.w);
             } else {
-                front = composite(front, light, from_s, to_s);
+                front = composite(front, light, sample);
             }
         }
         from_s = to_s;
         from_located = to_located;
     }
     if ONCE_PER_STEP {
-        front = composite(front, alone, s0, s1);
+        front = composite(front, alone, step.whole);
     }
     return front;
+}
+
+// Adds a pair of steps that meets nothing but scalars within `range`: the first along one straight way, the second along
+// another, which is the same where light is not bent. Yields the number of parts that each was cut into.
+fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
+    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>) -> f32 {
+    let thickness = params.quality.z * step;
+    var pair = pair_of(s0, s1, s2, range);
+    let middle = t0 + step;
+    var gradients = NO_GRADIENTS;
+    if CHAIN_NEEDS_GRADIENT && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
+        gradients = gradients_at(brick, ray, middle);
+    }
+    pair.first = enhance(pair.first, ray, t0 + 0.5 * step, s0, s1, gradients);
+    pair.second = enhance(pair.second, next_ray, t1 + 0.5 * step, s1, s2, gradients);
+    pair.both = enhance(pair.both, ray, middle, s0, s2, gradients);
+    pair.reach = enhance(pair.reach, ray, middle, range.x, range.y, gradients);
+    let visible = still_to_come(*front);
+    let parts = max(parts_of_step(pair, thickness, visible), parts_of_rise(*front, pair.reach));
+    if parts == 1.0 {
+        // The light in the middle of the pair serves both steps.
+        if !CHAIN_NEEDS_GRADIENT && max(pair.first.k.w, pair.second.k.w) > 0.0 {
+            gradients = gradients_at(brick, ray, middle);
+        }
+        let light = lighting(gradients, ray, material_at(s1));
+        *front = add_whole(*front, pair.first, thickness, light);
+        *front = add_whole(*front, pair.second, thickness, light);
+    } else {
+        *front = add_parts(*front, brick, ray, Step(pair.first, s0, s1, t0, step), parts);
+        *front = add_parts(*front, next_brick, next_ray, Step(pair.second, s1, s2, t1, step), parts);
+    }
+    return parts;
 }

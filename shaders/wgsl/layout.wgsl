@@ -13,6 +13,7 @@ struct Params {
     atlas: vec4<u32>,
     raster: vec4<u32>,
     tables: vec4<u32>,
+    resolution: vec4<f32>,
 }
 
 struct NodeRecord {

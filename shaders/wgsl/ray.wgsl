@@ -7,7 +7,8 @@ struct Ray {
     direction_in_volume: vec3<f32>,
     // Metres per voxel along each axis; FAR along an axis that the ray is parallel to.
     inverse: vec3<f32>,
-    // Unit vector.
+    // The same place, metres, and the direction, a unit vector.
+    origin_in_display: vec3<f32>,
     direction_in_display: vec3<f32>,
     // t of the ray's start on the observer's line.
     start: f32,
@@ -28,11 +29,19 @@ fn ray_of_pixel(pixel: vec2<f32>) -> Ray {
     let origin = vec3<f32>(beam.x + beam.y * screen.x, beam.z, beam.w);
     let reach = length(screen - origin);
     var ray: Ray;
-    ray.direction_in_display = (screen - origin) / reach;
+    ray.origin_in_display = screen;
     ray.start = -reach;
     let m = params.volume_from_display;
-    let v = ray.direction_in_display;
     ray.origin_in_volume = m[0].xyz * screen.x + m[1].xyz * screen.y + m[3].xyz;
+    return turned(ray, (screen - origin) / reach);
+}
+
+// A ray from the same origin along another unit vector.
+fn turned(from_ray: Ray, direction_in_display: vec3<f32>) -> Ray {
+    let m = params.volume_from_display;
+    let v = direction_in_display;
+    var ray = from_ray;
+    ray.direction_in_display = v;
     ray.direction_in_volume = m[0].xyz * v.x + m[1].xyz * v.y + m[2].xyz * v.z;
     ray.speed = length(ray.direction_in_volume);
     ray.inverse = select(vec3<f32>(1.0) / ray.direction_in_volume, vec3<f32>(FAR),
@@ -50,6 +59,10 @@ fn is_forward(ray: Ray, axis: u32) -> bool {
 
 fn point_on(ray: Ray, t: f32) -> vec3<f32> {
     return ray.origin_in_volume + ray.direction_in_volume * t;
+}
+
+fn point_in_display(ray: Ray, t: f32) -> vec3<f32> {
+    return ray.origin_in_display + ray.direction_in_display * t;
 }
 
 // The part of the ray inside the volume; empty where x >= y.

@@ -17,36 +17,48 @@ fn step_voxels(depth: f32) -> f32 {
     return min(SAFE_DEPTH / max(depth, 1e-30), max(shortest, LONGEST_STEP));
 }
 
-// Means of (τ c, τ) over a pair of steps.
+// The same in metres along the ray.
+fn longest_step(node: NodeRecord, ray: Ray) -> f32 {
+    let edge = voxel_edge(node.depth) / ray.speed;
+    return step_voxels(node.most_extinction * params.quality.z * edge) * edge;
+}
+
+// What a pair of steps shows.
 struct Pair {
-    first: vec4<f32>,
-    second: vec4<f32>,
-    // Over both steps, taken as one segment.
-    both: vec4<f32>,
-    // Over all scalars within reach.
-    reach: vec4<f32>,
+    first: Sample,
+    second: Sample,
+    // Both steps, taken as one segment.
+    both: Sample,
+    // All scalars within reach.
+    reach: Sample,
 }
 
 fn largest(v: vec4<f32>) -> f32 {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
-fn pair_of(s0: Located, s1: Located, s2: Located, reach: vec2<f32>) -> Pair {
-    return Pair(optics_between(s0, s1), optics_between(s1, s2), optics_between(s0, s2),
-        optics_between(locate(reach.x), locate(reach.y)));
+fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>) -> Pair {
+    let l0 = locate(s0);
+    let l1 = locate(s1);
+    let l2 = locate(s2);
+    return Pair(sample_between(l0, l1, s0, s1), sample_between(l1, l2, s1, s2), sample_between(l0, l2, s0, s2),
+        sample_between(locate(reach.x), locate(reach.y), reach.x, reach.y));
 }
 
 // Parts of each step of a pair, where a step has `thickness` and `visible` is the opacity that may still be added.
 // Three things err: where the scalar bends, `both` differs from the mean of the two steps, and something between the
 // samples may not have been seen at all; where colours differ, light taken as if it came from anywhere in a step errs by
-// up to the product of both depths; and so does shading. The first falls with the square of the parts.
+// up to the product of both depths; and so does what varies with the place. The first falls with the square of the parts.
 fn parts_of_step(pair: Pair, thickness: f32, visible: f32) -> f32 {
-    let depth = (pair.first.w + pair.second.w) * thickness;
+    let first = pair.first.k;
+    let second = pair.second.k;
+    let both = pair.both.k;
+    let depth = (first.w + second.w) * thickness;
     let order_scale = thickness * thickness / (1.0 + depth * depth);
-    let bend = max(abs(pair.first + pair.second - 2.0 * pair.both), abs(pair.reach - pair.both) * UNSEEN);
-    let order = abs(pair.first.xyz * pair.second.w - pair.second.xyz * pair.first.w) * order_scale;
-    let shaded = pair.first.w * pair.second.w * order_scale * SPREAD;
-    let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, shaded)));
+    let bend = max(abs(first + second - 2.0 * both), abs(pair.reach.k - both) * UNSEEN);
+    let order = abs(first.xyz * second.w - second.xyz * first.w) * order_scale;
+    let uneven = first.w * second.w * order_scale * (SHADE_SPREAD + chain_spread());
+    let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, uneven)));
     return clamp(ceil(sqrt(worst * visible / params.quality.w)), 1.0, MOST_PARTS);
 }
 

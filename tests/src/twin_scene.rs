@@ -6,7 +6,7 @@ use backend::store::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
 use backend::working_set::{Cut, IndexRules, ResidentBrick, build_index};
 use display_config::Display;
 use rayon::prelude::*;
-use shaders::compose::{Compositing, Shading};
+use shaders::compose::Needs;
 use shaders::layout::{CELL_WORDS, NodeRecord};
 use shaders::tables::Tables;
 use shaders::twin::view::Placement;
@@ -23,15 +23,14 @@ pub struct TwinScene {
     pub tables: Tables,
     /// The visible cells, slot by slot: all of them, so that the twin here passes over nothing.
     pub cells: Vec<u32>,
-    /// The shading module.
-    pub shading: Shading,
-    /// The compositing module.
-    pub compositing: Compositing,
+    /// What the scene needs.
+    pub needs: Needs,
 }
 
 impl TwinScene {
     /// The scene of `frame` on `display`.
     pub fn new(display: &Display, frame: &FrameState, source: &dyn BrickSource) -> Self {
+        let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
         let shape = source.shape();
         let lod = lod_rule(display, frame);
         let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics };
@@ -43,20 +42,20 @@ impl TwinScene {
             if rules.is_empty(&node) {
                 continue;
             }
+            // Ancestors are looked at by scenes that filter over levels.
+            let brick = resident(source, node.key, &mut atlas);
+            cut.set_brick(place, brick);
             if rules.deficit(&node) > 0.0 {
                 let first = cut.split(place, |key| shape.contains(key).then(|| source.summary(key)));
                 places.extend(first..first + 8);
-            } else {
-                cut.set_brick(place, resident(source, node.key, &mut atlas));
             }
         }
         Self {
             nodes: build_index(&cut, &rules),
             cells: vec![u32::MAX; atlas.len() / BRICK_VOXELS * CELL_WORDS],
             atlas,
-            tables: Tables::new(&frame.optics),
-            shading: if frame.light.is_some() { Shading::Phong } else { Shading::Plain },
-            compositing: Compositing::for_optics(&frame.optics),
+            tables: Tables::new(&frame.optics, &needs),
+            needs,
         }
     }
 
@@ -66,14 +65,13 @@ impl TwinScene {
         let scene = Scene {
             view,
             nodes: &self.nodes,
-            optics: &self.tables.optics,
-            importance: &self.tables.importance,
-            occupied: &self.tables.occupied,
+            tables: &self.tables,
+            needs: &self.needs,
             cells: &self.cells,
             atlas: &self.atlas,
             feedback: &feedback,
         };
-        let cast = |&(x, y): &(u32, u32)| cast_pixel(&scene, self.shading, self.compositing, x, y).rgba;
+        let cast = |&(x, y): &(u32, u32)| cast_pixel(&scene, x, y).rgba;
         pixels.par_iter().map(cast).collect()
     }
 }
@@ -102,6 +100,7 @@ pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn 
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
+        resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
     };
     View::new(place, &frame.optics, frame.light_in_effect(), &frame.quality)
 }

@@ -55,9 +55,8 @@ impl CpuDevice {
         let scene = Scene {
             view: job.view,
             nodes: &self.nodes,
-            optics: &self.tables.optics,
-            importance: &self.tables.importance,
-            occupied: &self.tables.occupied,
+            tables: &self.tables,
+            needs: &job.needs,
             cells: &self.cells,
             atlas: &self.atlas,
             feedback: &feedback,
@@ -110,7 +109,7 @@ fn cast_tile_anywhere(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts
     let [width, height] = job.view.raster;
     let mut casts = Vec::with_capacity(64);
     for (x, y) in job.grid.pixels(tile, width, height) {
-        casts.push(((x, y), cast_pixel(scene, job.shading, job.compositing, x, y)));
+        casts.push(((x, y), cast_pixel(scene, x, y)));
     }
     casts
 }

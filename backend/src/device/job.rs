@@ -1,6 +1,6 @@
 //! One cast: which rays, with which kernel, and what they found.
 
-use shaders::compose::{Compositing, Shading};
+use shaders::compose::Needs;
 use shaders::layout::{FeedbackEntry, TILE_EDGE};
 use shaders::twin::View;
 
@@ -44,10 +44,8 @@ impl TileGrid {
 pub struct CastJob<'a> {
     /// The view, in f32.
     pub view: &'a View<f32>,
-    /// Gradient shading or not.
-    pub shading: Shading,
-    /// How samples accumulate.
-    pub compositing: Compositing,
+    /// What the scene needs of a kernel.
+    pub needs: Needs,
     /// The raster's tiles.
     pub grid: TileGrid,
     /// Those to cast.

@@ -11,7 +11,7 @@ use crate::volume::VolumeFrame;
 use crate::volume::procedural::ProceduralVolume;
 use crate::working_set::{Cut, IndexRules, LodRule, ResidentBrick, build_index, is_shown};
 use glam::{DVec3, UVec3};
-use shaders::compose::{Compositing, Shading};
+use shaders::compose::Needs;
 use shaders::tables::Tables;
 use std::sync::Mutex;
 use std::time::Duration;
@@ -88,10 +88,18 @@ fn limited_cut(source: &dyn BrickSource, rules: &IndexRules, broken: &[NodeKey])
 /// The pictures of that cut, every brick of which is resident.
 fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let source = Spoiled::shared(&[], 0);
-    let (display, shape, tables) = (display(), source.shape(), Tables::new(&frame.optics));
+    let (display, shape) = (display(), source.shape());
+    let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
+    let tables = Tables::new(&frame.optics, &needs);
     let lod = LodRule::new(&display, frame);
     let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics };
-    let frame_rules = FrameRules { lod, optics: &frame.optics, tables: &tables, can_pass_over: true };
+    let frame_rules = FrameRules {
+        lod,
+        optics: &frame.optics,
+        tables: &tables,
+        can_pass_over: true,
+        is_quadrilinear: false,
+    };
     let mut cut = limited_cut(&*source, &rules, broken);
     let leaves: Vec<u32> = cut.walk().filter(|&p| !rules.is_empty(cut.node(p))).collect();
     let mut device = Device::Cpu(CpuDevice::new(leaves.len() as u32));
@@ -102,7 +110,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         device.write_brick(slot, &samples);
         let brick = ResidentBrick { slot, low: f64::from(brick.low), span: f64::from(brick.step) * 65535.0 };
         cut.set_brick(place, brick);
-        cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick));
+        cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick, &[]));
     }
     device.write_tables(tables.clone());
     device.write_index(&build_index(&cut, &rules), &cells);
@@ -110,10 +118,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let picture = |view: &views::ProjectorView| {
         let grid = TileGrid::new(48, 36, 1);
         let tiles: Vec<u32> = (0..grid.count()).collect();
-        let compositing = Compositing::for_optics(&frame.optics);
-        device
-            .cast(&CastJob { view: &view.view, shading: Shading::Phong, compositing, grid, tiles: &tiles })
-            .unwrap();
+        device.cast(&CastJob { view: &view.view, needs, grid, tiles: &tiles }).unwrap();
         device.picture().unwrap()
     };
     views.iter().map(picture).collect()

@@ -8,7 +8,7 @@ use crate::device::{CastJob, CastOutcome, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages};
 use crate::store::NodeKey;
 use crate::working_set::{LodRule, Touched};
-use shaders::compose::{Compositing, Shading};
+use shaders::compose::Needs;
 use shaders::tables::Tables;
 use std::collections::HashSet;
 use std::time::Instant;
@@ -26,8 +26,7 @@ const MOST_DAMAGES: usize = 16;
 struct Drawing<'a> {
     renderer: &'a mut Renderer,
     rules: FrameRules<'a>,
-    shading: Shading,
-    compositing: Compositing,
+    needs: Needs,
     stages: Stages,
     /// Number of the last cast; the cut remembers by it what was used when.
     cast: u64,
@@ -45,8 +44,9 @@ pub(super) fn draw(
     let started = Instant::now();
     frame.optics.check()?;
     let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
-    let tables = Tables::new(&frame.optics);
-    let mut drawing = Drawing::new(renderer, frame, &tables);
+    let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
+    let tables = Tables::new(&frame.optics, &needs);
+    let mut drawing = Drawing::new(renderer, frame, needs, &tables);
     drawing.start(frame)?;
     let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
     sink(RenderEvent::Progress { done: 0, total });
@@ -79,9 +79,8 @@ impl WorkingSets {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(renderer: &'a mut Renderer, frame: &'a FrameState, tables: &'a Tables) -> Self {
+    fn new(renderer: &'a mut Renderer, frame: &'a FrameState, needs: Needs, tables: &'a Tables) -> Self {
         let lod = LodRule::new(&renderer.display, frame);
-        let shading = if frame.light.is_some() { Shading::Phong } else { Shading::Plain };
         // Casts are numbered across frames, so that detail of older frames is the first to go.
         let cast = renderer.residency.cut.node(0).last_used;
         Self {
@@ -91,9 +90,9 @@ impl<'a> Drawing<'a> {
                 optics: &frame.optics,
                 tables,
                 can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
+                is_quadrilinear: frame.quality.quadrilinear,
             },
-            shading,
-            compositing: Compositing::for_optics(&frame.optics),
+            needs,
             stages: Stages::default(),
             cast,
             rays: 0,
@@ -118,8 +117,7 @@ impl<'a> Drawing<'a> {
         tiles: &[u32],
     ) -> Result<CastOutcome, RenderError> {
         let started = Instant::now();
-        let job =
-            CastJob { view: &view.view, shading: self.shading, compositing: self.compositing, grid, tiles };
+        let job = CastJob { view: &view.view, needs: self.needs, grid, tiles };
         let outcome = self.renderer.device.cast(&job)?;
         self.cast += 1;
         self.rays += outcome.rays;

@@ -1,6 +1,7 @@
 //! The resident bricks: it carries out on the device what the cut asks for.
 
 use super::RenderError;
+use super::ancestors::{Ancestor, MOST_ANCESTORS};
 use super::damage::Damage;
 use super::rules::FrameRules;
 use crate::device::Device;
@@ -101,8 +102,8 @@ impl Residency {
             places = self.newly_visible(rules);
         }
         tracing::debug!(frame = frame.index, bricks = places.len(), "bricks that became visible");
-        self.refresh_cells(rules);
         self.load(&places, rules, device, stages)?;
+        self.refresh_cells(rules);
         self.write_index(rules, device, stages);
         Ok(())
     }
@@ -163,8 +164,23 @@ impl Residency {
             let Some(brick) = self.cut.node(place).brick else { continue };
             let Some(ranges) = &self.ranges[brick.slot as usize] else { continue };
             let start = brick.slot as usize * CELL_WORDS;
-            self.cells[start..start + CELL_WORDS].copy_from_slice(&rules.visible_cells(ranges, brick));
+            let cells = rules.visible_cells(ranges, brick, &self.ancestors(place, rules));
+            self.cells[start..start + CELL_WORDS].copy_from_slice(&cells);
         }
+    }
+
+    /// The bricks above a node that its samples are blended with.
+    fn ancestors(&self, place: u32, rules: &FrameRules) -> Vec<Ancestor<'_>> {
+        let mut found = Vec::new();
+        let mut at = self.cut.node(place).parent.filter(|_| rules.is_quadrilinear);
+        while let Some(above) = at.filter(|_| found.len() < MOST_ANCESTORS) {
+            let node = self.cut.node(above);
+            let Some(brick) = node.brick else { break };
+            let Some(ranges) = &self.ranges[brick.slot as usize] else { break };
+            found.push(Ancestor::new(self.cut.node(place).key, node.key, brick, ranges));
+            at = node.parent;
+        }
+        found
     }
 
     fn is_visible(&self, key: NodeKey, rules: &FrameRules) -> bool {
@@ -258,7 +274,8 @@ impl Residency {
         let brick = ResidentBrick { slot, low: loaded.low, span: loaded.span };
         self.cut.set_brick(place, brick);
         let start = slot as usize * CELL_WORDS;
-        self.cells[start..start + CELL_WORDS].copy_from_slice(&rules.visible_cells(&loaded.cells, brick));
+        let cells = rules.visible_cells(&loaded.cells, brick, &self.ancestors(place, rules));
+        self.cells[start..start + CELL_WORDS].copy_from_slice(&cells);
         self.ranges[slot as usize] = Some(loaded.cells);
         self.bricks_loaded += 1;
         self.bytes_loaded += loaded.bytes;

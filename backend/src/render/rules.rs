@@ -1,5 +1,6 @@
 //! What one frame asks of the cut and its bricks.
 
+use super::ancestors::Ancestor;
 use crate::store::CellRanges;
 use crate::working_set::{LodRule, ResidentBrick};
 use shaders::layout::CELL_WORDS;
@@ -14,15 +15,36 @@ pub(super) struct FrameRules<'a> {
     pub(super) tables: &'a Tables,
     /// Whether steps are short enough for the margin that cells are kept with.
     pub(super) can_pass_over: bool,
+    /// Whether samples are blended with those of the two ancestors.
+    pub(super) is_quadrilinear: bool,
 }
 
 impl FrameRules<'_> {
-    /// The bits of the cells of a brick that show anything.
-    pub(super) fn visible_cells(&self, ranges: &CellRanges, brick: ResidentBrick) -> [u32; CELL_WORDS] {
+    /// The bits of the cells of a brick that show anything; blended with ancestors, where the scene does that.
+    pub(super) fn visible_cells(
+        &self,
+        ranges: &CellRanges,
+        brick: ResidentBrick,
+        ancestors: &[Ancestor],
+    ) -> [u32; CELL_WORDS] {
+        if !self.can_pass_over {
+            return [u32::MAX; CELL_WORDS];
+        }
+        ranges.visible(|cell, range| {
+            let own = self.scalars(brick, range);
+            let (low, high) = ancestors.iter().fold(own, |(low, high), ancestor| {
+                let (least, most) = self.scalars(ancestor.brick, ancestor.range_around(cell));
+                (low.min(least), high.max(most))
+            });
+            !self.tables.is_vacant(low, high)
+        })
+    }
+
+    /// The scalars of a range of samples.
+    fn scalars(&self, brick: ResidentBrick, samples: [u16; 2]) -> (f64, f64) {
         let (low, high) = self.optics.domain;
         let scalar =
             |sample: u16| (brick.low + brick.span * f64::from(sample) / 65535.0 - low) / (high - low);
-        ranges
-            .visible(|least, most| !self.can_pass_over || !self.tables.is_vacant(scalar(least), scalar(most)))
+        (scalar(samples[0]), scalar(samples[1]))
     }
 }

@@ -35,6 +35,7 @@ pub fn view_of(
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
+        resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
     };
     Ok(View::new(place, &frame.optics, frame.light_in_effect(), &frame.quality))
 }

@@ -48,13 +48,19 @@ impl CellRanges {
         &self.0
     }
 
-    /// The bits of the cells for which `is_visible(smallest, largest)`.
-    pub fn visible(&self, is_visible: impl Fn(u16, u16) -> bool) -> [u32; CELL_WORDS] {
+    /// The bits of the cells for which `is_visible([x, y, z], [smallest, largest])`.
+    pub fn visible(&self, is_visible: impl Fn([usize; 3], [u16; 2]) -> bool) -> [u32; CELL_WORDS] {
         let mut words = [0; CELL_WORDS];
-        for (cell, &[low, high]) in self.0.iter().enumerate() {
-            words[cell / 32] |= u32::from(is_visible(low, high)) << (cell % 32);
+        for (index, &range) in self.0.iter().enumerate() {
+            let cell = [0, 1, 2].map(|axis| index / CELLS_ACROSS.pow(axis) % CELLS_ACROSS);
+            words[index / 32] |= u32::from(is_visible(cell, range)) << (index % 32);
         }
         words
+    }
+
+    /// Smallest and largest code around the cell (x, y, z).
+    pub fn around(&self, [x, y, z]: [usize; 3]) -> [u16; 2] {
+        self.0[(z * CELLS_ACROSS + y) * CELLS_ACROSS + x]
     }
 
     /// Bytes of [`CellRanges::to_bytes`].
@@ -124,7 +130,7 @@ mod tests {
         samples[Brick::index(9, 16, 31)] = 900;
         let ranges = CellRanges::of(&Codes::U16(samples));
         assert_eq!(ranges.0.len(), CELLS);
-        let words = ranges.visible(|_, high| high > 7);
+        let words = ranges.visible(|_, [_, high]| high > 7);
         for z in 0..8 {
             for y in 0..8 {
                 for x in 0..8 {

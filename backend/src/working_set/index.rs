@@ -2,7 +2,7 @@
 
 use super::{Cut, CutNode, LodRule};
 use crate::store::{NodeSummary, OctreeShape};
-use shaders::compose::Compositing;
+use shaders::compose::{Compositing, Way};
 use shaders::layout::{NO_NODE, NO_SLOT, NodeRecord};
 use shaders::optics::Optics;
 
@@ -48,14 +48,14 @@ impl IndexRules<'_> {
         }
     }
 
-    /// Steps may grow where extinction is low; not where importance acts, which has no part in extinction.
+    /// Steps may grow where extinction is low; not where importance or refraction acts, which have no part in it.
     fn most_extinction(&self, node: &CutNode) -> f64 {
-        match (node.summary, Compositing::for_optics(self.optics)) {
-            (Some(NodeSummary { min, max }), Compositing::Over) => {
+        match (node.summary, Compositing::for_optics(self.optics), Way::for_optics(self.optics)) {
+            (Some(NodeSummary { min, max }), Compositing::Over, Way::Straight) => {
                 let [low, high] = [min, max].map(|value| self.optics.normalise(f64::from(value)));
-                self.optics.extinction.max_on(low, high)
+                self.optics.extinction.max_on(low, high) * self.optics.most_factor()
             }
-            (_, Compositing::Mimda(_)) | (None, _) => f64::from(f32::MAX),
+            (_, Compositing::Mimda(_), _) | (_, _, Way::Refracted) | (None, ..) => f64::from(f32::MAX),
         }
     }
 }

@@ -32,6 +32,23 @@ pub struct Params {
     pub atlas: [u32; 4],
     /// Width and height of the raster in pixels, then pixels between cast rays, then tiles along x.
     pub raster: [u32; 4],
-    /// Table entries of the optics, of the importance, unused, unused.
+    /// Table entries of the optics, of the importance, tiles to cast, unused.
     pub tables: [u32; 4],
+    /// c0 and c1 of the wanted level above the finest, log2(c0 + c1 |z|); strength of the shading of detail; diagonal of
+    /// the volume in metres.
+    pub resolution: [f32; 4],
+}
+
+/// The constants of one link of a chain of enhancers; its module says what they are. 64 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Link {
+    /// As the enhancer's module says.
+    pub a: [f32; 4],
+    /// As the enhancer's module says.
+    pub b: [f32; 4],
+    /// As the enhancer's module says.
+    pub c: [f32; 4],
+    /// As the enhancer's module says.
+    pub d: [f32; 4],
 }

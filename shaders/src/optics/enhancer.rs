@@ -187,10 +187,20 @@ impl Enhancer {
         }
     }
 
+    /// Whether it leaves every picture as it is.
+    pub fn is_neutral(&self) -> bool {
+        match self {
+            Self::ClipPlane(plane) => plane.strength == 0.0,
+            Self::Probe(probe) => probe.strength == 0.0,
+            Self::BandPicker(picker) => picker.strength == 0.0,
+            Self::LayerOpacity(layer) => layer.away == 1.0 && layer.toward == 1.0,
+        }
+    }
+
     /// The largest factor that it may multiply an extinction by, at least 1.
     pub fn most_factor(&self) -> f64 {
         match self {
-            Self::ClipPlane(plane) => plane.boost.max(1.0),
+            Self::ClipPlane(plane) => 1.0 + (plane.boost - 1.0).max(0.0) * plane.strength,
             Self::Probe(_) | Self::BandPicker(_) => 1.0,
             Self::LayerOpacity(layer) => layer.away.max(layer.toward).max(1.0),
         }

@@ -1,76 +1,20 @@
-//! A ray's way through one brick: samples, light and steps.
+//! A ray's way through one brick: light and steps.
 
-use super::composite::{Accumulated, Composite, Light};
-use super::sample::sample_brick;
-use super::scene::BRICK_VOXELS;
+use super::composite::{Accumulated, Composite, Light, Sample};
+use super::enhance::Chain;
+use super::gradient::Gradients;
+use super::kernel::Kernel;
+use super::levels::Brick;
+use super::material::material_at;
+use super::refine::{Pair, parts_of_step};
 use super::shade::{Lighting, Shade};
-use super::tables::{attenuation_mean, locate, optics_between};
-use super::traverse::{node_low, voxel_edge};
+use super::tables::{attenuation_mean, locate};
 use super::{Real, Scene, ray::Ray, vector::Vec3};
-use crate::layout::{CELL_WORDS, NodeRecord};
 
-/// Texels of overlap on each side of a brick.
-const OVERLAP: f64 = 2.0;
 /// Texels along the edge of a cell.
 const CELL: f64 = 4.0;
 
-/// What stays the same on a ray's way through one brick.
-pub(super) struct Brick<'a, F> {
-    codes: &'a [u16; BRICK_VOXELS],
-    cells: &'a [u32; CELL_WORDS],
-    /// A point t metres along the ray lies at base + slope t, in texels of the brick.
-    base: Vec3<F>,
-    slope: Vec3<F>,
-    /// Metres per texel along each axis, without sign.
-    pace: Vec3<F>,
-    gradient_scale: F,
-    offset: F,
-    scale: F,
-}
-
-/// One step along a ray.
-pub(super) struct Step<F> {
-    /// Mean of (τ c, τ).
-    pub(super) k: [F; 4],
-    /// At its ends.
-    pub(super) scalars: (F, F),
-    /// Where it begins.
-    pub(super) t0: F,
-    /// Metres.
-    pub(super) length: F,
-}
-
-impl<'a, F: Real> Brick<'a, F> {
-    #[inline(always)]
-    pub(super) fn new(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
-        let finest = scene.view.finest_depth;
-        let edge = voxel_edge::<F>(finest, node.depth);
-        let overlap = F::of(OVERLAP);
-        let scale = F::of_f32(node.scale);
-        Self {
-            codes: scene.brick(node.slot),
-            cells: scene.cells(node.slot),
-            base: (ray.origin_in_volume - node_low(finest, node)).map(|c| c / edge + overlap),
-            slope: ray.direction_in_volume.map(|c| c / edge),
-            pace: ray.inverse.map(|c| c.abs() * edge),
-            gradient_scale: F::of(0.5) * scale / edge,
-            offset: F::of_f32(node.offset),
-            scale,
-        }
-    }
-
-    /// The point at t, in texels.
-    #[inline(always)]
-    pub(super) fn point(&self, t: F) -> Vec3<F> {
-        self.base + self.slope * t
-    }
-
-    #[inline(always)]
-    pub(super) fn scalar_at(&self, t: F) -> F {
-        let stored = sample_brick(self.codes, self.point(t));
-        (self.offset + self.scale * stored).most(F::ZERO).least(F::ONE)
-    }
-
+impl<F: Real> Brick<'_, F> {
     /// Whether anything shows within a voxel of the cell around a point.
     #[inline(always)]
     pub(super) fn is_visible_at(&self, point: Vec3<F>) -> bool {
@@ -86,85 +30,173 @@ impl<'a, F: Real> Brick<'a, F> {
         for axis in 0..3 {
             let in_cells = middle.0[axis] * F::of(1.0 / CELL);
             let low = F::of_u32(in_cells.to_index()) * F::of(CELL);
-            let face = if self.slope.0[axis] >= F::ZERO { low + F::of(CELL) } else { low };
+            let face = if self.own.slope.0[axis] >= F::ZERO { low + F::of(CELL) } else { low };
             way = way.least((face - middle.0[axis]).abs() * self.pace.0[axis]);
         }
         (way / length).ceil().most(F::ONE).least(F::of(1e6)).to_index()
     }
+}
 
-    /// The light at t, where there is extinction to be lit.
-    #[inline(always)]
-    pub(super) fn lighting<S: Shade>(
-        &self,
-        scene: &Scene<F>,
-        ray: &Ray<F>,
-        extinction: F,
-        t: F,
-    ) -> Lighting<F> {
-        if extinction > F::ZERO {
-            S::lighting(scene.view, self.codes, self.point(t), self.gradient_scale, ray)
-        } else {
-            Lighting::NONE
-        }
+/// A straight way through a brick.
+#[derive(Clone, Copy)]
+pub(super) struct Straight<'a, F> {
+    pub(super) brick: &'a Brick<'a, F>,
+    pub(super) ray: &'a Ray<F>,
+}
+
+/// A pair of steps of equal length, of which the second may take another way.
+pub(super) struct PairOfSteps<'a, F> {
+    pub(super) first: Straight<'a, F>,
+    pub(super) second: Straight<'a, F>,
+    /// Where each begins on its way.
+    pub(super) t: [F; 2],
+    /// Metres of each.
+    pub(super) length: F,
+    /// The scalars at the ends and in the middle.
+    pub(super) scalars: [F; 3],
+    /// All that may have been met.
+    pub(super) range: (F, F),
+}
+
+/// One step along a way.
+struct Step<'a, F> {
+    way: Straight<'a, F>,
+    /// All of it as one segment.
+    whole: Sample<F>,
+    scalars: (F, F),
+    t0: F,
+    length: F,
+}
+
+/// Light of a segment, composited alone; `thickness` is metres times the extinction per metre where the table says 1.
+#[inline(always)]
+fn segment_light<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) -> Light<F> {
+    let depth = sample.k[3] * thickness;
+    let mean = attenuation_mean(depth);
+    let body = F::ONE - sample.lit + sample.lit * light.body;
+    let [r, g, b, extinction] = sample.k;
+    let lit = Vec3([r, g, b]) * body + Vec3::splat(extinction * (sample.lit * light.highlight));
+    Light { rgb: lit * (thickness * mean), alpha: depth * mean }
+}
+
+/// Adds one step, lit as given.
+#[inline(always)]
+fn add_whole<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    front: Accumulated<F>,
+    sample: &Sample<F>,
+    thickness: F,
+    light: Lighting<F>,
+) -> Accumulated<F> {
+    if K::Composite::is_clear(sample.k[3]) {
+        return front;
     }
+    K::Composite::composite(scene, front, segment_light(sample, thickness, light), sample)
+}
 
-    /// Adds one step, lit as given.
-    #[inline(always)]
-    pub(super) fn add_whole<C: Composite>(
-        &self,
-        scene: &Scene<F>,
-        front: Accumulated<F>,
-        step: &Step<F>,
-        light: Lighting<F>,
-    ) -> Accumulated<F> {
-        if C::is_clear(step.k[3]) {
-            return front;
-        }
-        let thickness = scene.view.extinction_per_metre * step.length;
-        C::composite(scene, front, segment_light(step.k, thickness, light), step.scalars)
-    }
-
-    /// Adds one step, cut into parts.
-    #[inline(always)]
-    pub(super) fn add_parts<S: Shade, C: Composite>(
-        &self,
-        scene: &Scene<F>,
-        ray: &Ray<F>,
-        mut front: Accumulated<F>,
-        step: &Step<F>,
-        parts: F,
-    ) -> Accumulated<F> {
-        let part = step.length / parts;
-        let thickness = scene.view.extinction_per_metre * part;
-        let mut alone = Light::NONE;
-        let (mut from, end) = step.scalars;
-        let mut from_located = locate(scene.optics, from);
-        let count = parts.to_index();
-        for j in 1..=count {
-            let t = step.t0 + F::of_u32(j) * part;
-            let to = if j < count { self.scalar_at(t) } else { end };
-            let to_located = locate(scene.optics, to);
-            let k = optics_between(scene.optics, &from_located, &to_located);
-            if !C::is_clear(k[3]) {
-                let light = self.lighting::<S>(scene, ray, k[3], t - F::of(0.5) * part);
-                let light = segment_light(k, thickness, light);
-                if C::ONCE_PER_STEP {
-                    alone = alone.then(light);
-                } else {
-                    front = C::composite(scene, front, light, (from, to));
-                }
+/// Adds one step, cut into parts.
+#[inline(always)]
+fn add_parts<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    chain: &Chain<F>,
+    mut front: Accumulated<F>,
+    step: &Step<F>,
+    parts: F,
+) -> Accumulated<F> {
+    let Straight { brick, ray } = step.way;
+    let part = step.length / parts;
+    let thickness = scene.view.extinction_per_metre * part;
+    let half = F::of(0.5);
+    let mut alone = Light::NONE;
+    let (mut from, end) = step.scalars;
+    let mut from_located = locate(&scene.tables.optics, from);
+    let count = parts.to_index();
+    for j in 1..=count {
+        let t = step.t0 + F::of_u32(j) * part;
+        let to = if j < count { brick.scalar_at::<K>(scene, ray, t) } else { end };
+        let to_located = locate(&scene.tables.optics, to);
+        let plain = K::Composite::sample_between(scene, [&from_located, &to_located], (from, to));
+        if !K::Composite::is_clear(plain.k[3]) {
+            let middle = t - half * part;
+            let mut gradients = Gradients::NONE;
+            if reads_gradients::<F, K>(scene) && plain.k[3] > F::ZERO {
+                gradients = Gradients::new::<K>(scene, brick, ray, middle);
             }
-            (from, from_located) = (to, to_located);
+            let sample = chain.enhance::<K>(scene, plain, (ray, middle), (from, to), &gradients);
+            let light = if sample.k[3] > F::ZERO {
+                let material = material_at::<F, K>(scene, half * (from + to));
+                K::Shade::lighting(scene, &gradients, ray, material)
+            } else {
+                Lighting::NONE
+            };
+            let light = segment_light(&sample, thickness, light);
+            if K::Composite::ONCE_PER_STEP {
+                alone = alone.then(light);
+            } else {
+                front = K::Composite::composite(scene, front, light, &sample);
+            }
         }
-        if C::ONCE_PER_STEP { C::composite(scene, front, alone, step.scalars) } else { front }
+        (from, from_located) = (to, to_located);
+    }
+    if K::Composite::ONCE_PER_STEP {
+        K::Composite::composite(scene, front, alone, &step.whole)
+    } else {
+        front
     }
 }
 
-/// Light of a segment with mean `k` of (τ c, τ), composited alone; `thickness` is metres times the extinction per metre
-/// where the table says 1.
+/// Whether shading or an enhancer looks at gradients.
 #[inline(always)]
-fn segment_light<F: Real>(k: [F; 4], thickness: F, light: Lighting<F>) -> Light<F> {
-    let depth = k[3] * thickness;
-    let mean = attenuation_mean(depth);
-    Light { rgb: light.on(k) * (thickness * mean), alpha: depth * mean }
+fn reads_gradients<F: Real, K: Kernel>(scene: &Scene<F>) -> bool {
+    K::Shade::reads_gradients(scene.needs) || chain_needs_gradient::<F, K>(scene)
+}
+
+#[inline(always)]
+fn chain_needs_gradient<F: Real, K: Kernel>(scene: &Scene<F>) -> bool {
+    K::IS_FULL && scene.needs.chain.needs_gradient()
+}
+
+/// Adds a pair of steps. Yields what was gathered, and the number of parts that each step was cut into.
+#[inline(always)]
+pub(super) fn add_pair<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    chain: &Chain<F>,
+    front: Accumulated<F>,
+    steps: &PairOfSteps<F>,
+) -> (Accumulated<F>, F) {
+    let view = scene.view;
+    let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range } = *steps;
+    let thickness = view.extinction_per_metre * length;
+    let mut pair = Pair::new::<K::Composite>(scene, [s0, s1, s2], range);
+    let middle = t0 + length;
+    let mut gradients = Gradients::NONE;
+    let enhancers_look = chain_needs_gradient::<F, K>(scene);
+    if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
+        gradients = Gradients::new::<K>(scene, first.brick, first.ray, middle);
+    }
+    let half = F::of(0.5) * length;
+    pair.first = chain.enhance::<K>(scene, pair.first, (first.ray, t0 + half), (s0, s1), &gradients);
+    pair.second = chain.enhance::<K>(scene, pair.second, (second.ray, t1 + half), (s1, s2), &gradients);
+    pair.both = chain.enhance::<K>(scene, pair.both, (first.ray, middle), (s0, s2), &gradients);
+    pair.reach = chain.enhance::<K>(scene, pair.reach, (first.ray, middle), range, &gradients);
+    let visible = K::Composite::still_to_come(scene, front);
+    let spread = F::of(K::Shade::spread(scene.needs)) + Chain::spread::<K>(scene);
+    let parts = parts_of_step(&pair, thickness, visible, spread, view.tolerance)
+        .most(K::Composite::parts_of_rise(scene, front, &pair.reach));
+    if parts > F::ONE {
+        let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };
+        let front = add_parts::<F, K>(scene, chain, front, &step, parts);
+        let step = Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length };
+        return (add_parts::<F, K>(scene, chain, front, &step, parts), parts);
+    }
+    // The light in the middle of the pair serves both steps.
+    let mut light = Lighting::NONE;
+    if K::Shade::reads_gradients(scene.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
+        if !enhancers_look {
+            gradients = Gradients::new::<K>(scene, first.brick, first.ray, middle);
+        }
+        light = K::Shade::lighting(scene, &gradients, first.ray, material_at::<F, K>(scene, s1));
+    }
+    let front = add_whole::<F, K>(scene, front, &pair.first, thickness, light);
+    (add_whole::<F, K>(scene, front, &pair.second, thickness, light), parts)
 }

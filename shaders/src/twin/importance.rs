@@ -17,8 +17,19 @@ pub const RISE: f64 = 64.0;
 pub struct Importance<F> {
     /// Its mean.
     pub mean: F,
-    /// The larger of the values at its two ends.
-    pub at_ends: F,
+    /// At its two ends, in the order of the ray.
+    pub ends: [F; 2],
+}
+
+impl<F: Real> Importance<F> {
+    /// Where all is equally important.
+    pub const EQUAL: Self = Self { mean: F::ONE, ends: [F::ONE; 2] };
+
+    /// The larger of the values at the two ends.
+    #[inline(always)]
+    pub fn at_ends(&self) -> F {
+        self.ends[0].most(self.ends[1])
+    }
 }
 
 /// ι over scalars [s0, s1].
@@ -27,14 +38,14 @@ pub fn importance_between<F: Real>(table: &[ImportanceEntry], s0: F, s1: F) -> I
     let (u0, u1, c0, c1) = span(table.len(), s0, s1);
     let half = F::of(0.5);
     let (first, last) = (importance_at(table, u0, c0), importance_at(table, u1, c1));
-    let at_ends = first.most(last);
+    let ends = if s1 < s0 { [last, first] } else { [first, last] };
     if c0 == c1 {
-        return Importance { mean: half * (first + last), at_ends };
+        return Importance { mean: half * (first + last), ends };
     }
     let (after, before) = (&table[c0 + 1], &table[c1]);
     let left = (first + F::of_f32(after.value)) * (half * (F::of_u32(c0 as u32 + 1) - u0));
     let right = (F::of_f32(before.value) + last) * (half * (u1 - F::of_u32(c1 as u32)));
     let whole = (F::of_f32(before.integral) - F::of_f32(after.integral))
         + (F::of_f32(before.integral_rest) - F::of_f32(after.integral_rest));
-    Importance { mean: (left + whole + right) / (u1 - u0), at_ends }
+    Importance { mean: (left + whole + right) / (u1 - u0), ends }
 }

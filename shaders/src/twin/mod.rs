@@ -3,13 +3,19 @@
 //! At f32 it agrees with the kernels to rounding and is what the CPU device runs; at f64 it shows what rounding
 //! costs. Files share their stem with the WGSL module they tell again. They bend in three places: bricks are lists of
 //! codes instead of parts of one texture, so a point to sample is relative to its brick; a table entry is read as
-//! f32 and widened; and generics stand where the composer puts one module or another into a slot.
+//! f32 and widened; and where the composer puts one module or another into a slot, the twin has generics for shading and
+//! compositing and branches for the rest, of which twins for plain scenes have none: see [`kernel`].
 
 mod brick;
 pub mod cast;
 pub mod composite;
+pub mod enhance;
 mod four;
+pub mod gradient;
 pub mod importance;
+pub mod kernel;
+pub mod levels;
+mod material;
 pub mod ray;
 pub mod real;
 pub mod refine;
@@ -20,6 +26,7 @@ pub mod tables;
 pub mod traverse;
 pub mod vector;
 pub mod view;
+mod way;
 
 pub use cast::{Cast, cast_pixel};
 pub use real::Real;

@@ -16,7 +16,9 @@ pub struct Ray<F> {
     pub direction_in_volume: Vec3<F>,
     /// Metres per voxel along each axis.
     pub inverse: Vec3<F>,
-    /// Unit vector.
+    /// The same place, metres.
+    pub origin_in_display: Vec3<F>,
+    /// The same direction, a unit vector.
     pub direction_in_display: Vec3<F>,
     /// t of the ray's start on the observer's line.
     pub start: F,
@@ -35,17 +37,31 @@ impl<F: Real> Ray<F> {
         let origin = Vec3([beam[0] + beam[1] * screen.0[0], beam[2], beam[3]]);
         let toward = screen - origin;
         let reach = toward.length();
-        let v = toward.map(|c| c / reach);
         let m = &view.volume_from_display;
+        let ray = Self {
+            origin_in_volume: m[0] * screen.0[0] + m[1] * screen.0[1] + m[3],
+            direction_in_volume: Vec3::ZERO,
+            inverse: Vec3::ZERO,
+            origin_in_display: screen,
+            direction_in_display: Vec3::ZERO,
+            start: -reach,
+            speed: F::ZERO,
+        };
+        ray.turned(view, toward.map(|c| c / reach))
+    }
+
+    /// A ray from the same origin along another unit vector.
+    #[inline(always)]
+    pub fn turned(self, view: &View<F>, direction_in_display: Vec3<F>) -> Self {
+        let (m, v) = (&view.volume_from_display, direction_in_display);
         let direction_in_volume = m[0] * v.0[0] + m[1] * v.0[1] + m[2] * v.0[2];
         Self {
-            origin_in_volume: m[0] * screen.0[0] + m[1] * screen.0[1] + m[3],
             direction_in_volume,
             inverse: direction_in_volume
                 .map(|d| if d.abs() < F::of(PARALLEL) { F::of(FAR) } else { F::ONE / d }),
             direction_in_display: v,
-            start: -reach,
             speed: direction_in_volume.length(),
+            ..self
         }
     }
 
@@ -65,6 +81,22 @@ impl<F: Real> Ray<F> {
     #[inline(always)]
     pub fn point(&self, t: F) -> Vec3<F> {
         self.origin_in_volume + self.direction_in_volume * t
+    }
+
+    /// The point at t, metres.
+    #[inline(always)]
+    pub fn point_in_display(&self, t: F) -> Vec3<F> {
+        self.origin_in_display + self.direction_in_display * t
+    }
+
+    /// t where `normal` · point = `offset`, display frame; far where the ray is parallel to that plane.
+    #[inline(always)]
+    pub fn plane_crossing(&self, normal: Vec3<F>, offset: F) -> F {
+        let speed = normal.dot(self.direction_in_display);
+        if speed.abs() < F::of(PARALLEL) {
+            return far();
+        }
+        (offset - normal.dot(self.origin_in_display)) / speed
     }
 
     /// The part of the ray inside the volume; empty where the first is not below the second.

@@ -31,6 +31,8 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// e^x.
     fn exp(self) -> Self;
+    /// log₂ x.
+    fn log2(self) -> Self;
     /// x^y for x > 0.
     fn powf(self, exponent: Self) -> Self;
     /// The next whole number at or above.
@@ -47,6 +49,12 @@ pub trait Real:
     #[inline(always)]
     fn least(self, other: Self) -> Self {
         if other < self { other } else { self }
+    }
+    /// 0 up to `low`, 1 from `high` on, smooth between.
+    #[inline(always)]
+    fn smoothstep(self, low: Self, high: Self) -> Self {
+        let t = ((self - low) / (high - low)).most(Self::ZERO).least(Self::ONE);
+        t * t * (Self::of(3.0) - Self::of(2.0) * t)
     }
     /// The larger.
     #[inline(always)]
@@ -88,6 +96,10 @@ macro_rules! real {
             #[inline(always)]
             fn exp(self) -> Self {
                 <$type>::exp(self)
+            }
+            #[inline(always)]
+            fn log2(self) -> Self {
+                <$type>::log2(self)
             }
             #[inline(always)]
             fn powf(self, exponent: Self) -> Self {

@@ -1,9 +1,13 @@
 //! How many parts a step is cut into, by what a pair of steps tells of its own error.
 
-use super::Real;
+use super::composite::{Composite, Sample};
 use super::four::each;
-use super::tables::{Located, locate, optics_between};
-use crate::layout::OpticsEntry;
+use super::kernel::Kernel;
+use super::shade::Shade;
+use super::tables::locate;
+use super::traverse::voxel_edge;
+use super::{Real, Scene, ray::Ray};
+use crate::layout::NodeRecord;
 
 /// A step is cut into this many parts at most.
 pub const MOST_PARTS: f64 = 16.0;
@@ -24,37 +28,49 @@ pub fn step_voxels<F: Real>(shortest: F, depth: F, safe: F, tolerance: F) -> F {
 /// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
 const UNSEEN: f64 = 0.25;
 
-/// Means of (τ c, τ) over a pair of steps.
+/// The same in metres along the ray.
+#[inline(always)]
+pub fn longest_step<F: Real, K: Kernel>(scene: &Scene<F>, node: &NodeRecord, ray: &Ray<F>) -> F {
+    let view = scene.view;
+    let edge = voxel_edge::<F>(view.finest_depth, node.depth) / ray.speed;
+    let depth = F::of_f32(node.most_extinction) * view.extinction_per_metre * edge;
+    step_voxels(view.step_voxels, depth, F::of(K::Shade::safe_depth(scene.needs)), view.tolerance) * edge
+}
+
+/// What a pair of steps shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<F> {
-    /// Over the first step.
-    pub first: [F; 4],
-    /// Over the second.
-    pub second: [F; 4],
-    /// Over both, taken as one segment.
-    pub both: [F; 4],
-    /// Over all scalars within reach: see [`scalars_in_reach`].
-    pub reach: [F; 4],
+    /// The first step.
+    pub first: Sample<F>,
+    /// The second.
+    pub second: Sample<F>,
+    /// Both, taken as one segment.
+    pub both: Sample<F>,
+    /// All scalars within reach: see [`scalars_in_reach`].
+    pub reach: Sample<F>,
 }
 
 impl<F: Real> Pair<F> {
-    /// The means over scalars s0 to s1 to s2, with `reach` as [`scalars_in_reach`] tells it.
+    /// Over scalars s0 to s1 to s2, with `reach` as [`scalars_in_reach`] tells it.
     #[inline(always)]
-    pub fn new(table: &[OpticsEntry], [s0, s1, s2]: [&Located<F>; 3], reach: (F, F)) -> Self {
+    pub fn new<C: Composite>(scene: &Scene<F>, [s0, s1, s2]: [F; 3], reach: (F, F)) -> Self {
+        let table = &scene.tables.optics;
+        let (l0, l1, l2) = (locate(table, s0), locate(table, s1), locate(table, s2));
+        let (low, high) = (locate(table, reach.0), locate(table, reach.1));
         Self {
-            first: optics_between(table, s0, s1),
-            second: optics_between(table, s1, s2),
-            both: optics_between(table, s0, s2),
-            reach: optics_between(table, &locate(table, reach.0), &locate(table, reach.1)),
+            first: C::sample_between(scene, [&l0, &l1], (s0, s1)),
+            second: C::sample_between(scene, [&l1, &l2], (s1, s2)),
+            both: C::sample_between(scene, [&l0, &l2], (s0, s2)),
+            reach: C::sample_between(scene, [&low, &high], reach),
         }
     }
 }
 
 /// Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
-/// `spread` how much shading varies within a step; see the WGSL for what errs how.
+/// `spread` how much shading and enhancers vary within a step; see the WGSL for what errs how.
 #[inline(always)]
 pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: F, tolerance: F) -> F {
-    let Pair { first, second, both, reach } = pair;
+    let [first, second, both, reach] = [&pair.first.k, &pair.second.k, &pair.both.k, &pair.reach.k];
     let depth = (first[3] + second[3]) * thickness;
     let bend_scale = thickness / (F::ONE + depth);
     let order_scale = thickness * thickness / (F::ONE + depth * depth);
@@ -64,8 +80,8 @@ pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: 
         (first[C] + second[C] - two * both[C]).abs().most((reach[C] - both[C]).abs() * share)
     });
     let order: [F; 4] = each!(C => (first[C] * second[3] - second[C] * first[3]).abs());
-    let shaded = first[3] * second[3] * spread;
-    let worst_order = order[0].most(order[1]).most(order[2].most(shaded)) * order_scale;
+    let uneven = first[3] * second[3] * spread;
+    let worst_order = order[0].most(order[1]).most(order[2].most(uneven)) * order_scale;
     let worst = (bend[0].most(bend[1]).most(bend[2].most(bend[3])) * bend_scale).most(worst_order);
     (worst * visible / tolerance).sqrt().ceil().most(F::ONE).least(F::of(MOST_PARTS))
 }

@@ -1,7 +1,9 @@
 //! What a twin reads, and the feedback it writes.
 
 use super::{Real, View};
-use crate::layout::{CELL_WORDS, FeedbackEntry, ImportanceEntry, NodeRecord, OpticsEntry, code_from_deficit};
+use crate::compose::Needs;
+use crate::layout::{CELL_WORDS, FeedbackEntry, NodeRecord, code_from_deficit};
+use crate::tables::Tables;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Codes of one brick: 32³.
@@ -14,12 +16,10 @@ pub struct Scene<'a, F> {
     pub view: &'a View<F>,
     /// The spatial index, root first.
     pub nodes: &'a [NodeRecord],
-    /// (τ c, τ).
-    pub optics: &'a [OpticsEntry],
-    /// ι; empty where nothing reads it.
-    pub importance: &'a [ImportanceEntry],
-    /// See [`crate::tables::occupancy`].
-    pub occupied: &'a [u32],
+    /// The transfer functions.
+    pub tables: &'a Tables,
+    /// What the scene needs.
+    pub needs: &'a Needs,
     /// Which 4³ cells of each slot's brick show anything: 16 words of bits a slot, see [`crate::layout::CELL_WORDS`].
     pub cells: &'a [u32],
     /// The brick cache: slot i holds the codes from i · 32³.

@@ -5,7 +5,7 @@ use super::{Real, Scene, ray::Ray, vector::Vec3};
 use crate::layout::{NO_NODE, NodeRecord};
 
 /// Own voxels of a node along an edge.
-const OWN_EDGE: f64 = 28.0;
+pub const OWN_EDGE: f64 = 28.0;
 
 /// Where and through which face a ray leaves a node.
 #[derive(Clone, Copy, Debug)]

@@ -30,6 +30,12 @@ impl<F: Real> Vec3<F> {
         self.dot(self).sqrt()
     }
 
+    /// `self + (other - self) * t`.
+    #[inline(always)]
+    pub fn lerp(self, other: Self, t: F) -> Self {
+        self + (other - self) * t
+    }
+
     /// f of each component.
     #[inline(always)]
     pub fn map(self, f: impl Fn(F) -> F) -> Self {

@@ -1,9 +1,10 @@
 //! The view and the scene's numbers, as [`Params`] holds them for a kernel.
 
+use super::enhance::{Constants, constants};
 use super::vector::Vec3;
-use crate::layout::Params;
-use crate::optics::{Light, Optics, Quality};
-use crate::tables::{TABLE_ENTRIES, largest_importance};
+use crate::layout::{Link, Params};
+use crate::optics::{Detail, Light, MOST_ENHANCERS, Optics, Quality};
+use crate::tables::TABLE_ENTRIES;
 use display_config::{BeamLaw, Raster};
 use glam::{DAffine3, DVec3, UVec3};
 
@@ -40,6 +41,14 @@ pub struct View<F> {
     pub largest_importance: F,
     /// Depth of the finest level.
     pub finest_depth: u32,
+    /// c0 and c1 of the wanted level above the finest, log2(c0 + c1 |z|).
+    pub resolution: [F; 2],
+    /// Strength of the shading of detail.
+    pub detail: F,
+    /// The volume's diagonal, metres.
+    pub diagonal_m: F,
+    /// The constants of the chain's links.
+    pub links: [Constants<F>; MOST_ENHANCERS],
     /// Width and height of the raster, pixels.
     pub raster: [u32; 2],
 }
@@ -57,6 +66,23 @@ pub struct Placement<'a> {
     pub dims: UVec3,
     /// Depth of the octree's finest level.
     pub finest_depth: u8,
+    /// s0 and 2 tan(Φ/2) of the display's resolution s(z) = s0 + 2 |z| tan(Φ/2), metres and metres per metre.
+    pub resolution: (f64, f64),
+}
+
+/// Strength of the shading of detail, where there is any.
+fn detail_strength(light: &Light) -> f64 {
+    match light.detail {
+        Detail::None => 0.0,
+        Detail::Unsharp { strength } => strength,
+        Detail::Exaggerated { contrast } => contrast,
+    }
+}
+
+/// The constants of the links that do anything, in order.
+fn links(optics: &Optics) -> [Constants<f64>; MOST_ENHANCERS] {
+    let mut links = optics.enhancers.iter().filter(|e| !e.is_neutral()).map(constants);
+    std::array::from_fn(|_| links.next().unwrap_or_default())
 }
 
 impl View<f64> {
@@ -70,6 +96,9 @@ impl View<f64> {
         let voxel_m = place.display_from_volume.matrix3.determinant().abs().cbrt();
         let light = light.unwrap_or_default();
         let mimda = optics.mimda.as_ref();
+        let m3 = place.display_from_volume.matrix3;
+        let finest_m = m3.x_axis.length().max(m3.y_axis.length()).max(m3.z_axis.length());
+        let per_finest = quality.lod_scale / finest_m;
         Self {
             screen_from_pixel: [vector(h.x_axis), vector(h.y_axis), vector(h.z_axis)],
             volume_from_display: [m.x_axis, m.y_axis, m.z_axis, inverse.translation].map(vector),
@@ -84,8 +113,12 @@ impl View<f64> {
             tolerance: quality.tolerance,
             extinction_per_metre: optics.extinction_per_metre(voxel_m),
             gamma: mimda.map_or(0.0, |m| m.gamma),
-            largest_importance: mimda.map_or(0.0, |m| largest_importance(&m.importance)),
+            largest_importance: optics.most_importance_on(0.0, 1.0),
             finest_depth: u32::from(place.finest_depth),
+            resolution: [place.resolution.0 * per_finest, place.resolution.1 * per_finest],
+            detail: detail_strength(&light),
+            diagonal_m: (m3 * place.dims.as_dvec3()).length(),
+            links: links(optics),
             raster: [place.raster.width, place.raster.height],
         }
     }
@@ -109,6 +142,10 @@ impl View<f64> {
             gamma: self.gamma as f32,
             largest_importance: self.largest_importance as f32,
             finest_depth: self.finest_depth,
+            resolution: self.resolution.map(|x| x as f32),
+            detail: self.detail as f32,
+            diagonal_m: self.diagonal_m as f32,
+            links: self.links.map(|link| link.map(|vector| vector.map(|x| x as f32))),
             raster: self.raster,
         }
     }
@@ -148,6 +185,12 @@ impl View<f32> {
             atlas: [slots[0], slots[1], slots[2], self.finest_depth],
             raster: [self.raster[0], self.raster[1], dispatch.stride, dispatch.tiles_across],
             tables: [entries, entries, dispatch.tiles, 0],
+            resolution: [self.resolution[0], self.resolution[1], self.detail, self.diagonal_m],
         }
+    }
+
+    /// The chain's constants, as kernels with enhancers read them.
+    pub fn links(&self) -> [Link; MOST_ENHANCERS] {
+        self.links.map(|[a, b, c, d]| Link { a, b, c, d })
     }
 }

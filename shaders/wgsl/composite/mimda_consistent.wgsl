@@ -1,20 +1,5 @@
 // Maximum Importance Difference Accumulation in the form that telescopes: β = (1 − γ ι) / (1 − γ ι_max).
 
-struct Accumulated {
-    rgb: vec3<f32>,
-    alpha: f32,
-    importance: f32,
-}
-
-fn nothing_accumulated() -> Accumulated {
-    return Accumulated(vec3<f32>(0.0), 0.0, 0.0);
-}
-
-// Importance acts whatever the extinction: no segment is clear.
-fn is_clear(extinction: f32) -> bool {
-    return false;
-}
-
 // β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
 fn kept(largest: f32, importance: f32) -> f32 {
     let before = 1.0 - params.mimda.x * largest;
@@ -27,26 +12,20 @@ fn kept(largest: f32, importance: f32) -> f32 {
 // Whether the parts of a step are composited among themselves first: the product of their β telescopes as they are.
 const ONCE_PER_STEP: bool = false;
 
-// A segment's light, premultiplied colour and opacity, over scalars [s0, s1], behind what is in front.
+// A segment's light, premultiplied colour and opacity, behind what is in front.
 // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
-fn composite(front: Accumulated, light: vec4<f32>, s0: f32, s1: f32) -> Accumulated {
-    let importance = importance_between(s0, s1);
-    let middle = max(front.importance, importance.mean);
-    let end = max(middle, importance.at_ends);
+fn composite(front: Accumulated, light: vec4<f32>, sample: Sample) -> Accumulated {
+    let middle = max(front.importance, sample.importance.mean);
+    let end = max(middle, at_ends(sample.importance));
     let beta = kept(front.importance, middle);
     let rest = kept(middle, end);
     let through = 1.0 - beta * front.alpha;
     return Accumulated((front.rgb * beta + light.xyz * through) * rest, (front.alpha * beta + light.w * through) * rest, end);
 }
 
-// The opacity that what follows may still add, when the largest importance is yet to come.
-fn still_to_come(front: Accumulated) -> f32 {
-    return 1.0 - kept(front.importance, params.mimda.y) * front.alpha;
-}
-
 // Parts of each step of a pair, by what a rise of importance within reach may have erased unseen. Its error falls with
 // the parts, not with their square.
-fn parts_of_rise(front: Accumulated, range: vec2<f32>) -> f32 {
-    let unseen = (1.0 - kept(front.importance, importance_between(range.x, range.y).at_ends)) * front.alpha * RISE;
+fn parts_of_rise(front: Accumulated, reach: Sample) -> f32 {
+    let unseen = (1.0 - kept(front.importance, at_ends(reach.importance))) * front.alpha * RISE;
     return clamp(ceil(unseen), 1.0, MOST_PARTS);
 }

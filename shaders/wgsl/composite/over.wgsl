@@ -5,8 +5,20 @@ struct Accumulated {
     alpha: f32,
 }
 
+// What a segment shows.
+struct Sample {
+    // Mean (τ c, τ).
+    k: vec4<f32>,
+    // Share of the shading that acts on it.
+    lit: f32,
+}
+
 fn nothing_accumulated() -> Accumulated {
     return Accumulated(vec3<f32>(0.0), 0.0);
+}
+
+fn sample_between(a: Located, b: Located, s0: f32, s1: f32) -> Sample {
+    return Sample(optics_between(a, b), 1.0);
 }
 
 // Whether a segment without extinction changes nothing.
@@ -17,8 +29,8 @@ fn is_clear(extinction: f32) -> bool {
 // Whether the parts of a step are composited among themselves first: it makes no difference here.
 const ONCE_PER_STEP: bool = false;
 
-// A segment's light, premultiplied colour and opacity, over scalars [s0, s1], behind what is in front.
-fn composite(front: Accumulated, light: vec4<f32>, s0: f32, s1: f32) -> Accumulated {
+// A segment's light, premultiplied colour and opacity, behind what is in front.
+fn composite(front: Accumulated, light: vec4<f32>, sample: Sample) -> Accumulated {
     let through = 1.0 - front.alpha;
     return Accumulated(front.rgb + light.xyz * through, front.alpha + light.w * through);
 }
@@ -29,6 +41,6 @@ fn still_to_come(front: Accumulated) -> f32 {
 }
 
 // Parts of each step of a pair, by what a rise of importance may have erased unseen: there is none.
-fn parts_of_rise(front: Accumulated, range: vec2<f32>) -> f32 {
+fn parts_of_rise(front: Accumulated, reach: Sample) -> f32 {
     return 1.0;
 }

@@ -8,8 +8,9 @@ use super::readback::Readback;
 use crate::device::{CastJob, CastOutcome, DeviceError};
 use crate::protocol::{DeviceInfo, FilterChoice};
 use bytemuck::Pod;
-use shaders::compose::{Filter, KernelKey};
-use shaders::layout::{FeedbackEntry, NodeRecord, Params};
+use shaders::compose::{Filter, KernelKey, Way};
+use shaders::layout::{FeedbackEntry, Link, NodeRecord, Params};
+use shaders::optics::MOST_ENHANCERS;
 use shaders::tables::Tables;
 use shaders::twin::view::Dispatch;
 use std::sync::Arc;
@@ -29,10 +30,13 @@ pub struct GpuDevice {
     filter_error: Option<f32>,
     kernels: Kernels,
     params: wgpu::Buffer,
+    links: wgpu::Buffer,
     nodes: Storage,
     cells: Storage,
     optics: Storage,
     importance: Storage,
+    index: Storage,
+    materials: Storage,
     occupied: Storage,
     tiles: Storage,
     pixels: Storage,
@@ -82,6 +86,13 @@ impl Storage {
         context.queue.write_buffer(&self.buffer, 0, bytes);
     }
 
+    /// The same, where there is anything to write.
+    fn write_if_any<T: Pod>(&mut self, context: &Context, items: &[T]) {
+        if !items.is_empty() {
+            self.write(context, items);
+        }
+    }
+
     fn binding(&self) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.buffer,
@@ -110,12 +121,8 @@ impl GpuDevice {
             if context.has_filter { Some(filter_error(&context, &atlas, &sampler)?) } else { None };
         let filter = choose_filter(filter, filter_error)?;
         let storage = |label| Storage::new(&context, label);
-        let params = context.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("params"),
-            size: size_of::<Params>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let params = uniform::<Params>(&context, "params");
+        let links = uniform::<[Link; MOST_ENHANCERS]>(&context, "chain of enhancers");
         drop(turn);
         Ok(Self {
             atlas,
@@ -124,11 +131,14 @@ impl GpuDevice {
             filter_error,
             kernels: Kernels::default(),
             params,
+            links,
             nodes: storage("nodes"),
             cells: storage("visible cells"),
             occupied: storage("occupied table cells"),
             optics: storage("optics table"),
             importance: storage("importance table"),
+            index: storage("refraction table"),
+            materials: storage("material table"),
             tiles: storage("tiles"),
             pixels: storage("pixels"),
             counts: storage("sample counts"),
@@ -179,15 +189,17 @@ impl GpuDevice {
     pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
         let _turn = self.context.turn();
         self.optics.write(&self.context, &tables.optics);
-        self.importance.write(&self.context, &tables.importance);
         self.occupied.write(&self.context, &tables.occupied);
+        self.importance.write_if_any(&self.context, &tables.importance);
+        self.index.write_if_any(&self.context, &tables.index);
+        self.materials.write_if_any(&self.context, &tables.materials);
     }
 
     pub(in crate::device) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
         self.prepare(job);
-        let key = KernelKey { filter: self.filter, shading: job.shading, compositing: job.compositing };
+        let key = KernelKey { filter: self.filter, needs: job.needs };
         let pipeline = self.kernels.get(&context, key).clone();
         let bind_group = self.bind(&pipeline, key);
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -235,6 +247,9 @@ impl GpuDevice {
         self.counts.reserve(&self.context, 4 * pixels);
         self.tiles.write(&self.context, job.tiles);
         self.context.queue.write_buffer(&self.params, 0, bytemuck::bytes_of(&job.view.params(&dispatch)));
+        if !job.needs.chain.is_empty() {
+            self.context.queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&job.view.links()));
+        }
     }
 
     fn bind(&self, pipeline: &wgpu::ComputePipeline, key: KernelKey) -> wgpu::BindGroup {
@@ -259,8 +274,16 @@ impl GpuDevice {
             let sampler = wgpu::BindingResource::Sampler(&self.sampler);
             entries.push(wgpu::BindGroupEntry { binding: 8, resource: sampler });
         }
-        if key.reads_importance() {
-            entries.push(wgpu::BindGroupEntry { binding: 9, resource: self.importance.binding() });
+        if !key.needs.chain.is_empty() {
+            entries.push(wgpu::BindGroupEntry { binding: 12, resource: self.links.as_entire_binding() });
+        }
+        let tables = [
+            (9, &self.importance, key.needs.reads_importance()),
+            (13, &self.index, key.needs.way == Way::Refracted),
+            (14, &self.materials, key.needs.has_materials),
+        ];
+        for (binding, storage, _) in tables.into_iter().filter(|&(.., is_read)| is_read) {
+            entries.push(wgpu::BindGroupEntry { binding, resource: storage.binding() });
         }
         self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
@@ -268,6 +291,16 @@ impl GpuDevice {
             entries: &entries,
         })
     }
+}
+
+/// A uniform buffer for one T.
+fn uniform<T>(context: &Context, label: &str) -> wgpu::Buffer {
+    context.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: size_of::<T>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }
 
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {

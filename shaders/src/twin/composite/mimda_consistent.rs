@@ -1,11 +1,8 @@
 //! Maximum Importance Difference Accumulation in the form that telescopes: β = (1 − γ ι) / (1 − γ ι_max).
 
-use super::{Accumulated, Composite, Light};
-use crate::twin::{
-    Real, Scene,
-    importance::{RISE, importance_between},
-    refine::MOST_PARTS,
-};
+use super::{Accumulated, Composite, Light, Sample, mimda};
+use crate::twin::tables::Located;
+use crate::twin::{Real, Scene, importance::RISE, refine::MOST_PARTS};
 
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
 pub struct MimdaConsistent;
@@ -21,7 +18,13 @@ fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
 }
 
 impl Composite for MimdaConsistent {
+    const READS_IMPORTANCE: bool = true;
     const ONCE_PER_STEP: bool = false;
+
+    #[inline(always)]
+    fn sample_between<F: Real>(scene: &Scene<F>, located: [&Located<F>; 2], scalars: (F, F)) -> Sample<F> {
+        mimda::sample_between(scene, located, scalars)
+    }
 
     #[inline(always)]
     fn is_clear<F: Real>(_: F) -> bool {
@@ -33,12 +36,11 @@ impl Composite for MimdaConsistent {
         scene: &Scene<F>,
         front: Accumulated<F>,
         light: Light<F>,
-        (s0, s1): (F, F),
+        sample: &Sample<F>,
     ) -> Accumulated<F> {
-        let importance = importance_between(scene.importance, s0, s1);
         // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
-        let middle = front.importance.most(importance.mean);
-        let end = middle.most(importance.at_ends);
+        let middle = front.importance.most(sample.importance.mean);
+        let end = middle.most(sample.importance.at_ends());
         let beta = kept(scene.view.gamma, front.importance, middle);
         let rest = kept(scene.view.gamma, middle, end);
         let all = front.then(beta, light, end);
@@ -46,9 +48,9 @@ impl Composite for MimdaConsistent {
     }
 
     #[inline(always)]
-    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, (low, high): (F, F)) -> F {
-        let reach = importance_between(scene.importance, low, high).at_ends;
-        let unseen = (F::ONE - kept(scene.view.gamma, front.importance, reach)) * front.alpha * F::of(RISE);
+    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
+        let beyond = kept(scene.view.gamma, front.importance, reach.importance.at_ends());
+        let unseen = (F::ONE - beyond) * front.alpha * F::of(RISE);
         unseen.ceil().most(F::ONE).least(F::of(MOST_PARTS))
     }
 

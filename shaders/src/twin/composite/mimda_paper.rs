@@ -1,7 +1,8 @@
 //! Maximum Importance Difference Accumulation as published (LFD eq. 3): β = 1 − γ max(ι − ι_max, 0).
 
-use super::{Accumulated, Composite, Light};
-use crate::twin::{Real, Scene, importance::importance_between};
+use super::{Accumulated, Composite, Light, Sample, mimda};
+use crate::twin::tables::Located;
+use crate::twin::{Real, Scene};
 
 /// Twin of `wgsl/composite/mimda_paper.wgsl`.
 pub struct MimdaPaper;
@@ -13,7 +14,13 @@ fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
 }
 
 impl Composite for MimdaPaper {
+    const READS_IMPORTANCE: bool = true;
     const ONCE_PER_STEP: bool = true;
+
+    #[inline(always)]
+    fn sample_between<F: Real>(scene: &Scene<F>, located: [&Located<F>; 2], scalars: (F, F)) -> Sample<F> {
+        mimda::sample_between(scene, located, scalars)
+    }
 
     #[inline(always)]
     fn is_clear<F: Real>(_: F) -> bool {
@@ -25,15 +32,15 @@ impl Composite for MimdaPaper {
         scene: &Scene<F>,
         front: Accumulated<F>,
         light: Light<F>,
-        (s0, s1): (F, F),
+        sample: &Sample<F>,
     ) -> Accumulated<F> {
-        let importance = importance_between(scene.importance, s0, s1).mean;
+        let importance = sample.importance.mean;
         let beta = kept(scene.view.gamma, front.importance, importance);
         front.then(beta, light, front.importance.most(importance))
     }
 
     #[inline(always)]
-    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: (F, F)) -> F {
+    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
         F::ONE
     }
 

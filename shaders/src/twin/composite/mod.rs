@@ -1,5 +1,6 @@
 //! How samples are accumulated along a ray.
 
+mod mimda;
 mod mimda_consistent;
 mod mimda_paper;
 mod over;
@@ -8,7 +9,8 @@ pub use mimda_consistent::MimdaConsistent;
 pub use mimda_paper::MimdaPaper;
 pub use over::Over;
 
-use super::{Real, Scene, vector::Vec3};
+use super::importance::Importance;
+use super::{Real, Scene, tables::Located, vector::Vec3};
 
 /// What has been gathered so far.
 #[derive(Clone, Copy, Debug)]
@@ -58,21 +60,36 @@ impl<F: Real> Light<F> {
     }
 }
 
+/// What a segment shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<F> {
+    /// Mean (τ c, τ).
+    pub k: [F; 4],
+    /// Share of the shading that acts on it.
+    pub lit: F,
+    /// Its importance; [`Importance::EQUAL`] in ordinary compositing.
+    pub importance: Importance<F>,
+}
+
 /// A module for the compositing slot.
 pub trait Composite {
+    /// Whether it looks at importance.
+    const READS_IMPORTANCE: bool;
     /// Whether the parts of a step are composited among themselves first.
     const ONCE_PER_STEP: bool;
+    /// What a segment between two scalars shows.
+    fn sample_between<F: Real>(scene: &Scene<F>, located: [&Located<F>; 2], scalars: (F, F)) -> Sample<F>;
     /// Whether a segment without extinction changes nothing.
     fn is_clear<F: Real>(extinction: F) -> bool;
-    /// A segment's light, over scalars [s0, s1], behind what is in front.
+    /// A segment's light, behind what is in front.
     fn composite<F: Real>(
         scene: &Scene<F>,
         front: Accumulated<F>,
         light: Light<F>,
-        scalars: (F, F),
+        sample: &Sample<F>,
     ) -> Accumulated<F>;
     /// Parts of each step of a pair, by what a rise of importance over the scalars within reach may have erased unseen.
-    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, range: (F, F)) -> F;
+    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, reach: &Sample<F>) -> F;
     /// The opacity that what follows may still add.
     fn still_to_come<F: Real>(scene: &Scene<F>, front: Accumulated<F>) -> F;
 }

@@ -1,13 +1,22 @@
 //! Ordinary front-to-back compositing.
 
-use super::{Accumulated, Composite, Light};
+use super::{Accumulated, Composite, Light, Sample};
+use crate::twin::importance::Importance;
+use crate::twin::tables::{Located, optics_between};
 use crate::twin::{Real, Scene};
 
 /// Twin of `wgsl/composite/over.wgsl`.
 pub struct Over;
 
 impl Composite for Over {
+    const READS_IMPORTANCE: bool = false;
     const ONCE_PER_STEP: bool = false;
+
+    #[inline(always)]
+    fn sample_between<F: Real>(scene: &Scene<F>, [a, b]: [&Located<F>; 2], _: (F, F)) -> Sample<F> {
+        let k = optics_between(&scene.tables.optics, a, b);
+        Sample { k, lit: F::ONE, importance: Importance::EQUAL }
+    }
 
     #[inline(always)]
     fn is_clear<F: Real>(extinction: F) -> bool {
@@ -15,7 +24,12 @@ impl Composite for Over {
     }
 
     #[inline(always)]
-    fn composite<F: Real>(_: &Scene<F>, front: Accumulated<F>, light: Light<F>, _: (F, F)) -> Accumulated<F> {
+    fn composite<F: Real>(
+        _: &Scene<F>,
+        front: Accumulated<F>,
+        light: Light<F>,
+        _: &Sample<F>,
+    ) -> Accumulated<F> {
         let through = F::ONE - front.alpha;
         Accumulated {
             rgb: front.rgb + light.rgb * through,
@@ -25,7 +39,7 @@ impl Composite for Over {
     }
 
     #[inline(always)]
-    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: (F, F)) -> F {
+    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
         F::ONE
     }
 

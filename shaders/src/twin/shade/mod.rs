@@ -1,28 +1,33 @@
 //! What a segment's colour becomes under the light.
 
+mod exaggerated;
+mod law;
 mod phong;
 mod plain;
+mod unsharp;
 
 pub use phong::Phong;
 pub use plain::Plain;
 
-use super::{Real, View, ray::Ray, scene::BRICK_VOXELS, vector::Vec3};
+use super::gradient::Gradients;
+use super::{Real, Scene, ray::Ray};
+use crate::compose::{Needs, Shading};
 
 /// A module for the shading slot.
 pub trait Shade {
     /// How much the shaded colour may vary within a step, for the estimate of a step's error.
-    const SPREAD: f64;
+    fn spread(needs: &Needs) -> f64;
     /// Steps may grow while the optical depth of one stays below this.
-    const SAFE_DEPTH: f64;
+    fn safe_depth(needs: &Needs) -> f64;
+    /// Whether it looks at gradients.
+    fn reads_gradients(needs: &Needs) -> bool;
 
-    /// The light at `place`, in texels of the brick; `gradient_scale` turns a difference over two texels into a change
-    /// of the scalar per finest voxel.
+    /// The light on a segment of `material`: ambient, diffuse, specular, shininess.
     fn lighting<F: Real>(
-        view: &View<F>,
-        brick: &[u16; BRICK_VOXELS],
-        place: Vec3<F>,
-        gradient_scale: F,
+        scene: &Scene<F>,
+        gradients: &Gradients<F>,
         ray: &Ray<F>,
+        material: [F; 4],
     ) -> Lighting<F>;
 }
 
@@ -38,10 +43,39 @@ pub struct Lighting<F> {
 impl<F: Real> Lighting<F> {
     /// Plain colours.
     pub const NONE: Self = Self { body: F::ONE, highlight: F::ZERO };
+}
 
-    /// Lit τ c of a mean of (τ c, τ).
+/// Whichever shading a scene needs.
+pub struct AnyShade;
+
+impl Shade for AnyShade {
     #[inline(always)]
-    pub fn on(self, k: [F; 4]) -> Vec3<F> {
-        Vec3([k[0], k[1], k[2]]) * self.body + Vec3::splat(k[3] * self.highlight)
+    fn spread(needs: &Needs) -> f64 {
+        if Self::reads_gradients(needs) { Phong::spread(needs) } else { Plain::spread(needs) }
+    }
+
+    #[inline(always)]
+    fn safe_depth(needs: &Needs) -> f64 {
+        if Self::reads_gradients(needs) { Phong::safe_depth(needs) } else { Plain::safe_depth(needs) }
+    }
+
+    #[inline(always)]
+    fn reads_gradients(needs: &Needs) -> bool {
+        needs.shading != Shading::Plain
+    }
+
+    #[inline(always)]
+    fn lighting<F: Real>(
+        scene: &Scene<F>,
+        gradients: &Gradients<F>,
+        ray: &Ray<F>,
+        material: [F; 4],
+    ) -> Lighting<F> {
+        match scene.needs.shading {
+            Shading::Plain => Lighting::NONE,
+            Shading::Phong => Phong::lighting(scene, gradients, ray, material),
+            Shading::Unsharp => unsharp::lighting(scene, gradients, ray, material),
+            Shading::Exaggerated => exaggerated::lighting(scene, gradients, ray, material),
+        }
     }
 }

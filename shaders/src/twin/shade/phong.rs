@@ -1,53 +1,42 @@
-//! Gradient shading: two-sided Phong, weighted by the strength of the gradient.
+//! Gradient shading as the law has it.
 
+use super::law::lit_by;
 use super::{Lighting, Shade};
-use crate::twin::{Real, View, ray::Ray, sample::differences, scene::BRICK_VOXELS, vector::Vec3};
+use crate::compose::Needs;
+use crate::twin::gradient::{Gradients, LEAST_SQUARE};
+use crate::twin::{Real, Scene, ray::Ray};
 
 /// Twin of `wgsl/shade/phong.wgsl`.
 pub struct Phong;
 
 impl Shade for Phong {
-    const SPREAD: f64 = 0.1;
-    const SAFE_DEPTH: f64 = 0.01;
+    #[inline(always)]
+    fn spread(_: &Needs) -> f64 {
+        0.1
+    }
+
+    #[inline(always)]
+    fn safe_depth(_: &Needs) -> f64 {
+        0.01
+    }
+
+    #[inline(always)]
+    fn reads_gradients(_: &Needs) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn lighting<F: Real>(
-        view: &View<F>,
-        brick: &[u16; BRICK_VOXELS],
-        place: Vec3<F>,
-        gradient_scale: F,
+        scene: &Scene<F>,
+        gradients: &Gradients<F>,
         ray: &Ray<F>,
+        material: [F; 4],
     ) -> Lighting<F> {
-        let difference = differences(brick, place);
-        let in_volume = difference * gradient_scale;
-        let m = &view.volume_from_display;
-        let gradient = Vec3([m[0].dot(in_volume), m[1].dot(in_volume), m[2].dot(in_volume)]) * view.voxel_m;
-        let square = gradient.dot(gradient);
-        if square < F::of(1e-30) {
+        let square = gradients.at.dot(gradients.at);
+        if square < F::of(LEAST_SQUARE) {
             return Lighting::NONE;
         }
-        let weight = square / (square + view.gradient_half_square);
-        let length = square.sqrt();
-        let normal = gradient.map(|c| c / length);
-        let [ambient, diffuse, specular, shininess] = view.material;
-        let lit = normal.dot(view.toward_light).abs();
-        let highlight = highlight(normal, view.toward_light - ray.direction_in_display, shininess);
-        Lighting {
-            body: F::ONE - weight + weight * (ambient + diffuse * lit),
-            highlight: weight * specular * highlight,
-        }
+        let lit = gradients.at.dot(scene.view.toward_light).abs() / square.sqrt();
+        lit_by(scene, (gradients.at, square), lit, ray, material)
     }
-}
-
-/// |n·h|^shininess, 0 where h has no direction.
-#[inline(always)]
-fn highlight<F: Real>(normal: Vec3<F>, halfway: Vec3<F>, shininess: F) -> F {
-    let square = halfway.dot(halfway);
-    if square > F::of(1e-12) {
-        let cosine = (normal.dot(halfway).abs() / square.sqrt()).least(F::ONE);
-        if cosine > F::ZERO {
-            return cosine.powf(shininess);
-        }
-    }
-    F::ZERO
 }

@@ -1,17 +1,31 @@
 //! No shading: a segment shows its own colour.
 
 use super::{Lighting, Shade};
-use crate::twin::{Real, View, ray::Ray, scene::BRICK_VOXELS, vector::Vec3};
+use crate::compose::Needs;
+use crate::twin::gradient::Gradients;
+use crate::twin::{Real, Scene, ray::Ray};
 
 /// Twin of `wgsl/shade/plain.wgsl`.
 pub struct Plain;
 
 impl Shade for Plain {
-    const SPREAD: f64 = 0.0;
-    const SAFE_DEPTH: f64 = 0.04;
+    #[inline(always)]
+    fn spread(_: &Needs) -> f64 {
+        0.0
+    }
 
     #[inline(always)]
-    fn lighting<F: Real>(_: &View<F>, _: &[u16; BRICK_VOXELS], _: Vec3<F>, _: F, _: &Ray<F>) -> Lighting<F> {
+    fn safe_depth(_: &Needs) -> f64 {
+        0.04
+    }
+
+    #[inline(always)]
+    fn reads_gradients(_: &Needs) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn lighting<F: Real>(_: &Scene<F>, _: &Gradients<F>, _: &Ray<F>, _: [F; 4]) -> Lighting<F> {
         Lighting::NONE
     }
 }

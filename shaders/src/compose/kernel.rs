@@ -1,0 +1,137 @@
+//! One kernel: a filter, and what a scene needs.
+
+use super::{Compositing, Levels, Needs, Shading, Way};
+use crate::optics::MimdaForm;
+
+/// How voxels are interpolated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Filter {
+    /// By the texture unit.
+    Hardware,
+    /// By eight fetches and f32 arithmetic.
+    Exact,
+}
+
+/// What one kernel is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct KernelKey {
+    /// Interpolation.
+    pub filter: Filter,
+    /// What the scene needs.
+    pub needs: Needs,
+}
+
+/// A module's text by its place in `wgsl/`.
+macro_rules! module {
+    ($path:literal) => {
+        include_str!(concat!("../../wgsl/", $path, ".wgsl"))
+    };
+}
+
+impl Needs {
+    fn levels_wgsl(&self) -> Vec<&'static str> {
+        if !self.reads_ancestors() {
+            return vec![module!("levels/level"), module!("levels/one")];
+        }
+        let filters = match self.levels {
+            Levels::Quadrilinear => "const FILTERS_LEVELS: bool = true;\n",
+            Levels::Single => "const FILTERS_LEVELS: bool = false;\n",
+        };
+        vec![filters, module!("levels/level"), module!("levels/three")]
+    }
+
+    fn gradient_wgsl(&self) -> Vec<&'static str> {
+        if !self.reads_gradients() {
+            return vec![module!("gradient/none")];
+        }
+        let which = match (self.shading.has_detail(), self.levels) {
+            (true, _) => module!("gradient/detail"),
+            (false, Levels::Quadrilinear) => module!("gradient/blended"),
+            (false, Levels::Single) => module!("gradient/own"),
+        };
+        vec![module!("gradient/central"), which]
+    }
+
+    fn shade_wgsl(&self) -> Vec<&'static str> {
+        let shade = match self.shading {
+            Shading::Plain => module!("shade/plain"),
+            Shading::Phong => module!("shade/phong"),
+            Shading::Unsharp => module!("shade/unsharp"),
+            Shading::Exaggerated => module!("shade/exaggerated"),
+        };
+        let material = if self.has_materials { module!("material/table") } else { module!("material/one") };
+        let law = if self.shading == Shading::Plain { "" } else { module!("shade/law") };
+        vec![material, law, shade]
+    }
+
+    fn composite_wgsl(&self) -> Vec<&'static str> {
+        let form = match self.compositing {
+            Compositing::Over => return vec![module!("composite/over")],
+            Compositing::Mimda(MimdaForm::Paper) => module!("composite/mimda_paper"),
+            Compositing::Mimda(MimdaForm::Consistent) => module!("composite/mimda_consistent"),
+        };
+        vec![module!("importance"), module!("composite/mimda"), form]
+    }
+}
+
+impl KernelKey {
+    /// The kernel's WGSL; entry point `cast_tile`.
+    pub fn wgsl(&self) -> String {
+        let needs = &self.needs;
+        let sample = match self.filter {
+            Filter::Hardware => module!("sample/hardware"),
+            Filter::Exact => module!("sample/exact"),
+        };
+        let way = match needs.way {
+            Way::Straight => module!("way/straight"),
+            Way::Refracted => module!("way/refracted"),
+        };
+        let mut modules =
+            vec![module!("layout"), module!("ray"), module!("traverse"), module!("tables"), sample];
+        modules.extend(needs.levels_wgsl());
+        modules.extend(needs.gradient_wgsl());
+        modules.extend(needs.composite_wgsl());
+        modules.extend(needs.shade_wgsl());
+        let chain = needs.chain.wgsl(needs.reads_importance());
+        modules.extend([
+            chain.as_str(),
+            module!("refine"),
+            module!("brick"),
+            module!("report"),
+            way,
+            module!("cast"),
+        ]);
+        modules.join("\n")
+    }
+
+    /// Kernels that together have every module, in every pair of slots that look at each other, and every chain of one
+    /// and some of more: what a validator should see.
+    pub fn samples() -> Vec<Self> {
+        use super::{Chain, EnhancerKind};
+        let mut chains: Vec<Chain> = EnhancerKind::ALL.iter().map(|&kind| Chain::of_kinds(&[kind])).collect();
+        chains.push(Chain::EMPTY);
+        chains.push(Chain::of_kinds(&[
+            EnhancerKind::BandPicker,
+            EnhancerKind::Probe,
+            EnhancerKind::ClipPlane,
+        ]));
+        chains.push(Chain::of_kinds(&[EnhancerKind::ClipPlane; 3]));
+        let mut keys = Vec::new();
+        for filter in [Filter::Hardware, Filter::Exact] {
+            for levels in [Levels::Single, Levels::Quadrilinear] {
+                for shading in Shading::ALL {
+                    for compositing in Compositing::ALL {
+                        for way in [Way::Straight, Way::Refracted] {
+                            for &chain in &chains {
+                                let has_materials = shading != Shading::Plain && chain.is_empty();
+                                let needs = Needs { levels, shading, has_materials, compositing, way, chain };
+                                keys.push(Self { filter, needs });
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        keys
+    }
+}

@@ -1,0 +1,20 @@
+//! Kernels composed for what a scene uses: WGSL modules concatenated, one per slot.
+//!
+//! | slot | modules |
+//! | --- | --- |
+//! | filter | `sample/hardware`, `sample/exact` |
+//! | levels | `levels/one`, `levels/three` |
+//! | gradient | `gradient/none`, `own`, `blended`, `detail` |
+//! | material | `material/one`, `table` |
+//! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
+//! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
+//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of [`Chain::wgsl`] |
+//! | way | `way/straight`, `way/refracted` |
+
+mod chain;
+mod kernel;
+mod needs;
+
+pub use chain::{Chain, EnhancerKind};
+pub use kernel::{Filter, KernelKey};
+pub use needs::{Compositing, Levels, Needs, Shading, Way};

@@ -1,0 +1,145 @@
+//! What a scene needs of a kernel.
+
+use super::Chain;
+use crate::optics::{Detail, Light, MimdaForm, Optics, Quality};
+
+/// Whether samples are filtered over levels of detail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Levels {
+    /// The node's own level.
+    Single,
+    /// Node, parent and grandparent.
+    Quadrilinear,
+}
+
+/// Whether gradients are sampled, and what light makes of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// Plain colours.
+    Plain,
+    /// Gradient shading.
+    Phong,
+    /// The same with normal unsharp masking.
+    Unsharp,
+    /// Exaggerated shading.
+    Exaggerated,
+}
+
+/// How samples are accumulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Compositing {
+    /// Front to back.
+    Over,
+    /// Maximum Importance Difference Accumulation.
+    Mimda(MimdaForm),
+}
+
+/// How light travels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Way {
+    /// Straight on.
+    Straight,
+    /// Bent by refraction.
+    Refracted,
+}
+
+/// What a kernel is made for, its filter apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Needs {
+    /// Filtering over levels.
+    pub levels: Levels,
+    /// Shading.
+    pub shading: Shading,
+    /// Whether each scalar has a material of its own.
+    pub has_materials: bool,
+    /// Accumulation.
+    pub compositing: Compositing,
+    /// Refraction.
+    pub way: Way,
+    /// Enhancers.
+    pub chain: Chain,
+}
+
+impl Compositing {
+    /// All there are.
+    pub const ALL: [Self; 3] =
+        [Self::Over, Self::Mimda(MimdaForm::Paper), Self::Mimda(MimdaForm::Consistent)];
+
+    /// What an optical model needs: γ = 0 is ordinary compositing.
+    pub fn for_optics(optics: &Optics) -> Self {
+        match &optics.mimda {
+            Some(mimda) if mimda.gamma > 0.0 => Self::Mimda(mimda.form),
+            Some(_) | None => Self::Over,
+        }
+    }
+}
+
+impl Shading {
+    /// All there are.
+    pub const ALL: [Self; 4] = [Self::Plain, Self::Phong, Self::Unsharp, Self::Exaggerated];
+
+    /// What a light needs.
+    pub fn for_light(light: Option<&Light>) -> Self {
+        match light.map(|light| light.detail) {
+            None => Self::Plain,
+            Some(Detail::None) => Self::Phong,
+            Some(Detail::Unsharp { .. }) => Self::Unsharp,
+            Some(Detail::Exaggerated { .. }) => Self::Exaggerated,
+        }
+    }
+
+    /// Whether it looks at the gradients of coarser levels.
+    pub fn has_detail(self) -> bool {
+        matches!(self, Self::Unsharp | Self::Exaggerated)
+    }
+}
+
+impl Way {
+    /// What an optical model needs: one index everywhere bends nothing.
+    pub fn for_optics(optics: &Optics) -> Self {
+        match &optics.refraction {
+            Some(index) if !index.is_constant_on(0.0, 1.0) => Self::Refracted,
+            Some(_) | None => Self::Straight,
+        }
+    }
+}
+
+impl Needs {
+    /// Nothing but plain colours, composited front to back.
+    pub const PLAIN: Self = Self {
+        levels: Levels::Single,
+        shading: Shading::Plain,
+        has_materials: false,
+        compositing: Compositing::Over,
+        way: Way::Straight,
+        chain: Chain::EMPTY,
+    };
+
+    /// What a scene needs.
+    pub fn of(optics: &Optics, light: Option<&Light>, quality: &Quality) -> Self {
+        let shading = Shading::for_light(light);
+        Self {
+            levels: if quality.quadrilinear { Levels::Quadrilinear } else { Levels::Single },
+            shading,
+            has_materials: optics.materials.is_some() && shading != Shading::Plain,
+            compositing: Compositing::for_optics(optics),
+            way: Way::for_optics(optics),
+            chain: Chain::of(&optics.enhancers),
+        }
+    }
+
+    /// Whether the kernel reads the importance table.
+    pub fn reads_importance(&self) -> bool {
+        matches!(self.compositing, Compositing::Mimda(_))
+    }
+
+    /// Whether it samples gradients.
+    pub fn reads_gradients(&self) -> bool {
+        self.shading != Shading::Plain || self.way == Way::Refracted || self.chain.needs_gradient()
+    }
+
+    /// Whether it reads the bricks of ancestors.
+    pub fn reads_ancestors(&self) -> bool {
+        self.levels == Levels::Quadrilinear || self.shading.has_detail()
+    }
+}

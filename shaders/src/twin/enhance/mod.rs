@@ -1,0 +1,12 @@
+//! Enhancers: what changes samples by where they lie and from where they are seen.
+
+mod band;
+mod band_picker;
+mod chain;
+mod clip_plane;
+mod layer_opacity;
+mod link;
+mod probe;
+
+pub use chain::{Chain, LinkState, Place};
+pub use link::{Constants, constants};

@@ -1,0 +1,52 @@
+//! The gradients at the level that a sample is filtered at, and one and two levels above it.
+
+use super::central::gradient_in;
+use crate::twin::kernel::Kernel;
+use crate::twin::levels::Brick;
+use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+
+/// Of the scalar per finest voxel's edge, display frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradients<F> {
+    /// At the level that the sample itself is filtered at.
+    pub at: Vec3<F>,
+    /// One level above; told only where the shading looks at it.
+    pub coarse: Vec3<F>,
+    /// Two levels above; told only where the shading looks at it.
+    pub coarsest: Vec3<F>,
+}
+
+impl<F: Real> Gradients<F> {
+    /// Where none is needed.
+    pub const NONE: Self = Self { at: Vec3::ZERO, coarse: Vec3::ZERO, coarsest: Vec3::ZERO };
+
+    /// At t.
+    #[inline(always)]
+    pub fn new<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
+        if K::IS_FULL && scene.needs.shading.has_detail() {
+            return Self::detailed::<K>(scene, brick, ray, t);
+        }
+        let f = brick.fraction::<K>(scene, ray, t);
+        let at = if f <= F::ZERO {
+            gradient_in(scene, &brick.own, t)
+        } else if f <= F::ONE {
+            gradient_in(scene, &brick.own, t).lerp(gradient_in(scene, &brick.parent, t), f)
+        } else {
+            gradient_in(scene, &brick.parent, t).lerp(gradient_in(scene, &brick.grandparent, t), f - F::ONE)
+        };
+        Self { at, ..Self::NONE }
+    }
+
+    #[inline(always)]
+    fn detailed<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
+        let f = brick.fraction::<K>(scene, ray, t);
+        let own = gradient_in(scene, &brick.own, t);
+        let parent = gradient_in(scene, &brick.parent, t);
+        let grandparent = gradient_in(scene, &brick.grandparent, t);
+        let between = |f: F| {
+            let share = |f: F| f.most(F::ZERO).least(F::ONE);
+            own.lerp(parent, share(f)).lerp(grandparent, share(f - F::ONE))
+        };
+        Self { at: between(f), coarse: between(f + F::ONE), coarsest: grandparent }
+    }
+}

@@ -1,0 +1,34 @@
+//! Which modules a twin is made of.
+
+use super::composite::Composite;
+use super::shade::Shade;
+use std::marker::PhantomData;
+
+/// The slots of a twin that are filled when it is compiled. A kernel is composed anew for every scene; a twin is compiled
+/// once, so what is rare is behind a branch, and twins with such branches are apart from those without.
+pub trait Kernel {
+    /// The shading slot.
+    type Shade: Shade;
+    /// The compositing slot.
+    type Composite: Composite;
+    /// Whether it looks for levels, materials, detail, enhancers and refraction.
+    const IS_FULL: bool;
+}
+
+/// Shading and compositing alone.
+pub struct Lean<S, C>(PhantomData<(S, C)>);
+
+/// Everything.
+pub struct Full<S, C>(PhantomData<(S, C)>);
+
+impl<S: Shade, C: Composite> Kernel for Lean<S, C> {
+    type Shade = S;
+    type Composite = C;
+    const IS_FULL: bool = false;
+}
+
+impl<S: Shade, C: Composite> Kernel for Full<S, C> {
+    type Shade = S;
+    type Composite = C;
+    const IS_FULL: bool = true;
+}

@@ -1,0 +1,55 @@
+//! One level of detail around a ray: where a brick's samples lie on it.
+
+use crate::layout::NodeRecord;
+use crate::twin::sample::sample_brick;
+use crate::twin::scene::BRICK_VOXELS;
+use crate::twin::traverse::{node_low, voxel_edge};
+use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+
+/// Texels of overlap on each side of a brick.
+const OVERLAP: f64 = 2.0;
+
+/// See `Level` in `wgsl/levels/level.wgsl`.
+#[derive(Clone, Copy)]
+pub struct Level<'a, F> {
+    /// The brick's samples.
+    pub codes: &'a [u16; BRICK_VOXELS],
+    base: Vec3<F>,
+    /// Texels per metre of t.
+    pub slope: Vec3<F>,
+    /// Turns a difference over two texels into a change of the scalar per finest voxel.
+    pub gradient_scale: F,
+    offset: F,
+    scale: F,
+}
+
+impl<'a, F: Real> Level<'a, F> {
+    /// Of a node with a brick.
+    #[inline(always)]
+    pub fn new(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+        let finest = scene.view.finest_depth;
+        let edge = voxel_edge::<F>(finest, node.depth);
+        let overlap = F::of(OVERLAP);
+        let scale = F::of_f32(node.scale);
+        Self {
+            codes: scene.brick(node.slot),
+            base: (ray.origin_in_volume - node_low(finest, node)).map(|c| c / edge + overlap),
+            slope: ray.direction_in_volume.map(|c| c / edge),
+            gradient_scale: F::of(0.5) * scale / edge,
+            offset: F::of_f32(node.offset),
+            scale,
+        }
+    }
+
+    /// The point at t, in texels.
+    #[inline(always)]
+    pub fn point(&self, t: F) -> Vec3<F> {
+        self.base + self.slope * t
+    }
+
+    /// The scalar at t, not held to [0, 1].
+    #[inline(always)]
+    pub fn scalar(&self, t: F) -> F {
+        self.offset + self.scale * sample_brick(self.codes, self.point(t))
+    }
+}

@@ -1,0 +1,29 @@
+//! How a ray goes through the volume.
+
+mod refracted;
+mod straight;
+
+use super::composite::Accumulated;
+use super::{Cast, Real, Scene, kernel::Kernel, ray::Ray};
+use crate::compose::Way;
+
+/// A ray from the eye to its colour.
+#[inline(always)]
+pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Cast<F> {
+    if K::IS_FULL && scene.needs.way == Way::Refracted {
+        return refracted::cast_ray::<F, K>(scene, ray);
+    }
+    straight::cast_ray::<F, K>(scene, ray)
+}
+
+impl<F: Real> Cast<F> {
+    /// A ray that meets nothing.
+    const NOTHING: Self = Self { rgba: [F::ZERO; 4], samples: 0, is_missing: false };
+
+    /// The colours gathered at the ray's end.
+    #[inline(always)]
+    fn with_colours(self, front: Accumulated<F>) -> Self {
+        let [r, g, b] = front.rgb.0;
+        Self { rgba: [r, g, b, front.alpha], ..self }
+    }
+}

@@ -1,0 +1,254 @@
+//! A bent ray's way through the volume: straight pairs of steps, with a turn in the middle of each.
+
+use crate::layout::{NO_NODE, NO_SLOT, NodeRecord};
+use crate::twin::brick::{PairOfSteps, Straight, add_pair};
+use crate::twin::composite::{Accumulated, Composite};
+use crate::twin::enhance::Chain;
+use crate::twin::gradient::{Gradients, LEAST_SQUARE};
+use crate::twin::kernel::Kernel;
+use crate::twin::levels::Brick;
+use crate::twin::ray::{Ray, far};
+use crate::twin::refine::{longest_step, scalars_in_reach};
+use crate::twin::tables::is_vacant;
+use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
+use crate::twin::{Cast, Real, Scene, vector::Vec3};
+
+/// See `wgsl/way/refracted.wgsl` for these four.
+const SURFACE: f64 = 0.02;
+const LONGEST_WAY_DIAGONALS: f64 = 4.0;
+const LEAST_PAIR: f64 = 1e-3;
+const LEAST_CELLS: f64 = 0.5;
+
+/// What a bent ray carries along.
+struct Bent<F> {
+    /// Straight from the last turn on.
+    ray: Ray<F>,
+    /// Metres since that turn.
+    t: F,
+    /// Metres of the whole way.
+    way: F,
+    /// The index beyond a surface that turned the ray and that it may not have passed yet.
+    passing: Option<F>,
+}
+
+/// The refraction index at a scalar.
+#[inline(always)]
+fn index_at<F: Real>(table: &[f32], s: F) -> F {
+    let u = s * F::of_u32(table.len() as u32 - 1);
+    let cell = (u.to_index() as usize).min(table.len() - 2);
+    let (a, b) = (F::of_f32(table[cell]), F::of_f32(table[cell + 1]));
+    a + (b - a) * (u - F::of_u32(cell as u32))
+}
+
+/// Its mean slope between two scalars.
+#[inline(always)]
+fn index_slope<F: Real>(table: &[f32], s0: F, s1: F) -> F {
+    let cells = F::of_u32(table.len() as u32 - 1);
+    if (s1 - s0).abs() * cells >= F::of(LEAST_CELLS) {
+        return (index_at(table, s1) - index_at(table, s0)) / (s1 - s0);
+    }
+    let cell = ((F::of(0.5) * (s0 + s1) * cells).to_index() as usize).min(table.len() - 2);
+    (F::of_f32(table[cell + 1]) - F::of_f32(table[cell])) * cells
+}
+
+#[inline(always)]
+fn normalize<F: Real>(v: Vec3<F>) -> Vec3<F> {
+    let length = v.length();
+    v.map(|c| c / length)
+}
+
+impl<F: Real> Bent<F> {
+    /// The direction beyond the middle of a pair of steps, where the gradient of the scalar (per finest voxel) is
+    /// `gradient` and the pair, straight on, would go from s0 to s2 over `length` metres.
+    #[inline(always)]
+    fn direction_beyond(
+        &mut self,
+        scene: &Scene<F>,
+        gradient: Vec3<F>,
+        (s0, s2): (F, F),
+        length: F,
+    ) -> Vec3<F> {
+        let table = &scene.tables.index;
+        let v = self.ray.direction_in_display;
+        let (n0, n2) = (index_at(table, s0), index_at(table, s2));
+        let is_before = self.passing.take().is_some_and(|beyond| (beyond - n0).abs() > F::of(SURFACE));
+        let square = gradient.dot(gradient);
+        if square < F::of(LEAST_SQUARE) || is_before {
+            return v;
+        }
+        if (n2 - n0).abs() <= F::of(SURFACE) {
+            let bend = index_slope(table, s0, s2) * length / scene.view.voxel_m;
+            return normalize(v * n0 + gradient * bend);
+        }
+        let size = square.sqrt();
+        let mut normal = gradient.map(|c| c / size);
+        let towards = normal.dot(v);
+        if towards < F::ZERO {
+            normal = normal * -F::ONE;
+        }
+        let along = n0 * towards.abs();
+        let beyond = along * along + n2 * n2 - n0 * n0;
+        if beyond < F::ZERO {
+            return normalize(v - normal * (F::of(2.0) * towards.abs()));
+        }
+        self.passing = Some(n2);
+        normalize(v * n0 + normal * (beyond.sqrt() - along))
+    }
+}
+
+/// The same ray, turned at t.
+#[inline(always)]
+fn turned_at<F: Real>(scene: &Scene<F>, ray: &Ray<F>, t: F, direction_in_display: Vec3<F>) -> Ray<F> {
+    let next = Ray { origin_in_volume: ray.point(t), origin_in_display: ray.point_in_display(t), ..*ray };
+    next.turned(scene.view, direction_in_display)
+}
+
+/// Where the ray, which is inside, leaves the volume.
+#[inline(always)]
+fn exit_of_volume<F: Real>(scene: &Scene<F>, ray: &Ray<F>) -> F {
+    let mut t = far::<F>();
+    for axis in 0..3 {
+        if !ray.is_parallel(axis) {
+            let face = if ray.is_forward(axis) { scene.view.dims.0[axis] } else { F::ZERO };
+            t = t.least((face - ray.origin_in_volume.0[axis]) * ray.inverse.0[axis]);
+        }
+    }
+    t
+}
+
+#[inline(always)]
+fn is_in_box<F: Real>(point: Vec3<F>, low: Vec3<F>, high: Vec3<F>) -> bool {
+    (0..3).all(|axis| point.0[axis] >= low.0[axis] && point.0[axis] <= high.0[axis])
+}
+
+#[inline(always)]
+fn is_in_node<F: Real>(scene: &Scene<F>, node: &NodeRecord, point: Vec3<F>) -> bool {
+    let finest = scene.view.finest_depth;
+    let low = node_low::<F>(finest, node);
+    let edge = F::of(OWN_EDGE) * voxel_edge::<F>(finest, node.depth);
+    is_in_box(point, low, low + Vec3::splat(edge))
+}
+
+/// Whether the index may change between two scalars.
+#[inline(always)]
+fn bends<F: Real>(table: &[f32], s0: F, s1: F) -> bool {
+    index_at(table, s0) != index_at(table, s1) || index_slope(table, s0, s1) != F::ZERO
+}
+
+#[inline(always)]
+pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -> Cast<F> {
+    let mut front = Accumulated::NOTHING;
+    let mut cast = Cast::NOTHING;
+    let span = eye_ray.clip_to_volume(scene.view.dims);
+    if !matches!(span.0.partial_cmp(&span.1), Some(std::cmp::Ordering::Less)) {
+        return cast;
+    }
+    let mut chain = Chain::start::<K>(scene, eye_ray);
+    let ray = turned_at(scene, eye_ray, span.0, eye_ray.direction_in_display);
+    let mut bent = Bent { ray, t: F::ZERO, way: F::ZERO, passing: None };
+    chain.follow::<K>(scene, &bent.ray);
+    let longest_way = scene.view.diagonal_m * F::of(LONGEST_WAY_DIAGONALS);
+    let mut at = scene.leaf_at(bent.ray.origin_in_volume, &bent.ray);
+    let mut reported = NO_NODE;
+    let mut known = None;
+    while at != NO_NODE && bent.way < longest_way {
+        let node = &scene.nodes[at as usize];
+        let exit = scene.exit_of(node, &bent.ray);
+        let t_out = exit.t.least(exit_of_volume(scene, &bent.ray));
+        if node.slot == NO_SLOT {
+            known = None;
+            bent.way = bent.way + (t_out - bent.t).most(F::ZERO);
+            bent.t = t_out.most(bent.t);
+            if t_out < exit.t {
+                break;
+            }
+            at = scene.leaf_beyond(node, exit.axis, bent.ray.point(bent.t), &bent.ray);
+            continue;
+        }
+        if reported != at {
+            reported = at;
+            known = None;
+            scene.feedback[at as usize].note(node.deficit);
+            cast.is_missing |= node.deficit > 0.0;
+        }
+        let brick = Brick::new::<K>(scene, node, &bent.ray);
+        let voxel = voxel_edge::<F>(scene.view.finest_depth, node.depth) / bent.ray.speed;
+        // As many equal pairs as lie between here and the border or the next break; one of them is taken.
+        let span_left = (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel);
+        let two = F::of(2.0);
+        let pairs = (span_left / (two * longest_step::<F, K>(scene, node, &bent.ray))).ceil().most(F::ONE);
+        let step = F::of(0.5) * span_left / pairs;
+        let t0 = bent.t;
+        let middle = brick.own.point(t0 + step);
+        if !brick.is_visible_at(middle) {
+            known = None;
+            let across = F::of_u32(brick.pairs_across(middle, two * step)).least(pairs);
+            let skipped = across * two * step;
+            bent.t = bent.t + skipped;
+            bent.way = bent.way + skipped;
+            if bent.t >= t_out {
+                if t_out < exit.t {
+                    break;
+                }
+                at = scene.leaf_beyond(node, exit.axis, bent.ray.point(bent.t), &bent.ray);
+            }
+            continue;
+        }
+        let ray = bent.ray;
+        let s0 = known.unwrap_or_else(|| brick.scalar_at::<K>(scene, &ray, t0));
+        let mut t1 = t0 + step;
+        let s1 = brick.scalar_at::<K>(scene, &ray, t1);
+        let mut s2 = brick.scalar_at::<K>(scene, &ray, t0 + two * step);
+        cast.samples += 3;
+        let mut next_brick = brick;
+        let mut is_turned = false;
+        if bends(&scene.tables.index, s0, s2) {
+            let gradient = Gradients::new::<K>(scene, &brick, &ray, t1).at;
+            let direction = bent.direction_beyond(scene, gradient, (s0, s2), two * step);
+            is_turned = direction != ray.direction_in_display;
+            if is_turned {
+                bent.ray = turned_at(scene, &ray, t1, direction);
+                chain.follow::<K>(scene, &bent.ray);
+                next_brick = Brick::new::<K>(scene, node, &bent.ray);
+                t1 = F::ZERO;
+                s2 = next_brick.scalar_at::<K>(scene, &bent.ray, step);
+                cast.samples += 1;
+            }
+        }
+        known = Some(s2);
+        bent.t = t1 + step;
+        bent.way = bent.way + two * step;
+        let range = scalars_in_reach(s0, s1, s2);
+        if !is_vacant(&scene.tables.occupied, range.0, range.1) {
+            let steps = PairOfSteps {
+                first: Straight { brick: &brick, ray: &ray },
+                second: Straight { brick: &next_brick, ray: &bent.ray },
+                t: [t0, t1],
+                length: step,
+                scalars: [s0, s1, s2],
+                range,
+            };
+            let (added, parts) = add_pair::<F, K>(scene, &chain, front, &steps);
+            front = added;
+            cast.samples += 2 * (parts.to_index() - 1);
+            if K::Composite::still_to_come(scene, front) < scene.view.termination {
+                break;
+            }
+        }
+        let point = bent.ray.point(bent.t);
+        if is_turned {
+            if !is_in_box(point, Vec3::ZERO, scene.view.dims) {
+                break;
+            }
+            if !is_in_node(scene, node, point) {
+                at = scene.leaf_at(point, &bent.ray);
+            }
+        } else if bent.t >= t_out {
+            if t_out < exit.t {
+                break;
+            }
+            at = scene.leaf_beyond(node, exit.axis, point, &bent.ray);
+        }
+    }
+    cast.with_colours(chain.end(front))
+}

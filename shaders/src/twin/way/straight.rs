@@ -1,0 +1,121 @@
+//! A straight ray's way through the volume.
+
+use crate::layout::{NO_NODE, NO_SLOT};
+use crate::twin::brick::{PairOfSteps, Straight, add_pair};
+use crate::twin::composite::{Accumulated, Composite};
+use crate::twin::enhance::Chain;
+use crate::twin::kernel::Kernel;
+use crate::twin::levels::Brick;
+use crate::twin::refine::{longest_step, scalars_in_reach};
+use crate::twin::tables::is_vacant;
+use crate::twin::{Cast, Real, Scene, ray::Ray};
+
+struct Marched<F> {
+    front: Accumulated<F>,
+    samples: u32,
+    is_done: bool,
+}
+
+/// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps
+/// are too long for the tolerance, each of them is cut into equal parts.
+#[inline(always)]
+fn march<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    chain: &Chain<F>,
+    mut front: Accumulated<F>,
+    way: Straight<F>,
+    longest: F,
+    (t_in, t_out): (F, F),
+) -> Marched<F> {
+    let Straight { brick, ray } = way;
+    let two = F::of(2.0);
+    let span = t_out - t_in;
+    let pairs = (span / (two * longest)).ceil().most(F::ONE);
+    let step = F::of(0.5) * span / pairs;
+    let count = pairs.to_index();
+    let mut marched = Marched { front, samples: 0, is_done: false };
+    let mut i = 0;
+    let mut known = None;
+    while i < count {
+        let t0 = t_in + two * F::of_u32(i) * step;
+        let middle = brick.own.point(t0 + step);
+        if !brick.is_visible_at(middle) {
+            i += brick.pairs_across(middle, two * step);
+            known = None;
+            continue;
+        }
+        i += 1;
+        let s0 = known.unwrap_or_else(|| {
+            marched.samples += 1;
+            brick.scalar_at::<K>(scene, ray, t0)
+        });
+        let s1 = brick.scalar_at::<K>(scene, ray, t0 + step);
+        let s2 = brick.scalar_at::<K>(scene, ray, t0 + two * step);
+        marched.samples += 2;
+        known = Some(s2);
+        let range = scalars_in_reach(s0, s1, s2);
+        if is_vacant(&scene.tables.occupied, range.0, range.1) {
+            continue;
+        }
+        let steps = PairOfSteps {
+            first: way,
+            second: way,
+            t: [t0, t0 + step],
+            length: step,
+            scalars: [s0, s1, s2],
+            range,
+        };
+        let (added, parts) = add_pair::<F, K>(scene, chain, front, &steps);
+        front = added;
+        marched.samples += 2 * (parts.to_index() - 1);
+        if K::Composite::still_to_come(scene, front) < scene.view.termination {
+            marched.is_done = true;
+            break;
+        }
+    }
+    marched.front = front;
+    marched
+}
+
+#[inline(always)]
+pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Cast<F> {
+    let mut front = Accumulated::NOTHING;
+    let mut cast = Cast::NOTHING;
+    let (mut t, t_end) = ray.clip_to_volume(scene.view.dims);
+    // Not `t >= t_end`: a span that is not a number is empty, too.
+    if !matches!(t.partial_cmp(&t_end), Some(std::cmp::Ordering::Less)) {
+        return cast;
+    }
+    let chain = Chain::start::<K>(scene, ray);
+    let mut at = scene.leaf_at(ray.point(t), ray);
+    while at != NO_NODE {
+        let node = &scene.nodes[at as usize];
+        let exit = scene.exit_of(node, ray);
+        let t_out = exit.t.most(t).least(t_end);
+        if node.slot != NO_SLOT && t_out > t {
+            scene.feedback[at as usize].note(node.deficit);
+            let brick = Brick::new::<K>(scene, node, ray);
+            let longest = longest_step::<F, K>(scene, node, ray);
+            let mut is_done = false;
+            // Cut where the law of an enhancer is not smooth.
+            while t < t_out && !is_done {
+                let until = chain.next_break::<K>(t).least(t_out);
+                let way = Straight { brick: &brick, ray };
+                let marched = march::<F, K>(scene, &chain, front, way, longest, (t, until));
+                (front, is_done) = (marched.front, marched.is_done);
+                cast.samples += marched.samples;
+                t = until;
+            }
+            cast.is_missing |= node.deficit > 0.0;
+            if is_done {
+                break;
+            }
+        }
+        if t_out >= t_end {
+            break;
+        }
+        t = t_out;
+        at = scene.leaf_beyond(node, exit.axis, ray.point(t), ray);
+    }
+    cast.with_colours(chain.end(front))
+}

@@ -1,0 +1,34 @@
+// What both forms of Maximum Importance Difference Accumulation share.
+
+struct Accumulated {
+    rgb: vec3<f32>,
+    alpha: f32,
+    importance: f32,
+}
+
+// What a segment shows.
+struct Sample {
+    // Mean (τ c, τ).
+    k: vec4<f32>,
+    // Share of the shading that acts on it.
+    lit: f32,
+    importance: Importance,
+}
+
+fn nothing_accumulated() -> Accumulated {
+    return Accumulated(vec3<f32>(0.0), 0.0, 0.0);
+}
+
+fn sample_between(a: Located, b: Located, s0: f32, s1: f32) -> Sample {
+    return Sample(optics_between(a, b), 1.0, importance_between(s0, s1));
+}
+
+// Importance acts whatever the extinction: no segment is clear.
+fn is_clear(extinction: f32) -> bool {
+    return false;
+}
+
+// The opacity that what follows may still add, when the largest importance is yet to come.
+fn still_to_come(front: Accumulated) -> f32 {
+    return 1.0 - kept(front.importance, max(params.mimda.y, front.importance)) * front.alpha;
+}

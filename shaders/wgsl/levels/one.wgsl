@@ -1,0 +1,18 @@
+// Samples of the node that a ray is in.
+
+// What stays the same on a straight way through one brick.
+struct Brick {
+    own: Level,
+    // First word of its cells.
+    words: u32,
+    // Metres per texel along each axis, without sign.
+    pace: vec3<f32>,
+}
+
+fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
+    return Brick(level_of(node, ray), node.slot * CELL_WORDS, abs(ray.inverse) * voxel_edge(node.depth));
+}
+
+fn scalar_at(brick: Brick, ray: Ray, t: f32) -> f32 {
+    return clamp(scalar_in(brick.own, t), 0.0, 1.0);
+}

@@ -1,0 +1,95 @@
+// A straight ray's way through the volume.
+
+struct Marched {
+    front: Accumulated,
+    samples: u32,
+    is_done: bool,
+}
+
+// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps are
+// too long for the tolerance, each of them is cut into equal parts.
+fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, longest: f32, t_in: f32, t_out: f32) -> Marched {
+    let span = t_out - t_in;
+    let pairs = max(1.0, ceil(span / (2.0 * longest)));
+    let step = 0.5 * span / pairs;
+    var front = front_of_brick;
+    var marched = Marched(front, 0u, false);
+    var known = false;
+    var s2 = 0.0;
+    var i = 0.0;
+    while i < pairs {
+        let t0 = t_in + 2.0 * i * step;
+        let middle = point_in(brick.own, t0 + step);
+        if !is_visible_at(brick, middle) {
+            i += pairs_across(brick, middle, 2.0 * step);
+            known = false;
+            continue;
+        }
+        i += 1.0;
+        var s0 = s2;
+        if !known {
+            s0 = scalar_at(brick, ray, t0);
+            marched.samples++;
+        }
+        let s1 = scalar_at(brick, ray, t0 + step);
+        s2 = scalar_at(brick, ray, t0 + 2.0 * step);
+        marched.samples += 2u;
+        known = true;
+        let range = scalars_in_reach(s0, s1, s2);
+        if is_vacant(range.x, range.y) {
+            continue;
+        }
+        let parts = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range);
+        marched.samples += 2u * u32(parts - 1.0);
+        if still_to_come(front) < params.quality.y {
+            marched.is_done = true;
+            break;
+        }
+    }
+    marched.front = front;
+    return marched;
+}
+
+// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
+fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
+    var front = nothing_accumulated();
+    let span = clip_to_volume(ray);
+    if span.x >= span.y {
+        return vec4<f32>(0.0);
+    }
+    start_chain(ray);
+    follow_chain(ray);
+    var t = span.x;
+    var at = leaf_at(point_on(ray, t), ray);
+    while at != NO_NODE {
+        let node = nodes[at];
+        let exit = exit_of(node, ray);
+        let t_out = min(max(exit.t, t), span.y);
+        if node.slot != NO_SLOT && t_out > t {
+            report(at, node.deficit);
+            let brick = brick_of(node, ray);
+            let longest = longest_step(node, ray);
+            var is_done = false;
+            // Cut where the law of an enhancer is not smooth.
+            while t < t_out && !is_done {
+                let until = min(next_break(t), t_out);
+                let marched = march(front, brick, ray, longest, t, until);
+                front = marched.front;
+                is_done = marched.is_done;
+                *count += marched.samples;
+                t = until;
+            }
+            *count |= select(0u, MISSING, node.deficit > 0.0);
+            if is_done {
+                break;
+            }
+        }
+        if t_out >= span.y {
+            break;
+        }
+        t = t_out;
+        at = leaf_beyond(node, exit.axis, point_on(ray, t), ray);
+    }
+    front = end_chain(front);
+    return vec4<f32>(front.rgb, front.alpha);
+}
