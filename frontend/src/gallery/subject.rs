@@ -9,11 +9,12 @@ use glam::{DAffine3, DVec3, UVec3};
 use shaders::optics::{Curve, Detail, ExtinctionUnit, Light, Material, Ramp, Trapezoid};
 
 /// Optical depth that [`Subject::covered`] gives the outer band's densest part, were the volume full of it.
-const COVERED_DEPTH: f64 = 60.0;
+const COVERED_DEPTH: f64 = 200.0;
 /// The same of [`Subject::glassy`].
 const GLASSY_DEPTH: f64 = 5.0;
-/// Refraction index of all that is seen, where a scene has none: a light plastic.
-const GLASS: f64 = 1.25;
+/// Refraction index of all that is seen, where a scene has none: strong enough to see, and too weak to
+/// turn rays back in noise.
+const GLASS: f64 = 1.12;
 /// Width of a derived curve's flanks, parts of the domain.
 const FLANK: f64 = 0.02;
 /// Part of the viewing zone between an outer eye and the zone's end: beams are few there.

@@ -22,12 +22,8 @@ pub const TECHNIQUES: [Technique; 13] = [
     Technique {
         name: "Quadrilinear filtering",
         about: "Samples are filtered over a node, its parent and its grandparent by the display's resolution at their \
-                depth, so no seam shows where the level of detail changes; here at half the detail that the display has.",
-        off: |subject| {
-            let mut frame = subject.frame.clone();
-            frame.quality.lod_scale *= 2.0;
-            frame
-        },
+                depth: no seam shows where the level of detail changes, and nothing is finer than the display can show.",
+        off: |subject| subject.frame.clone(),
         turn_on: |_, frame| frame.quality.quadrilinear = true,
     },
     Technique {
@@ -88,7 +84,7 @@ pub const TECHNIQUES: [Technique; 13] = [
                 it is empty.",
         off: Subject::covered,
         turn_on: |subject, frame| {
-            let toward_eye = -subject.look_of(0) * 0.3 * subject.depth_m;
+            let toward_eye = -subject.look_of(0) * 0.18 * subject.depth_m;
             frame.optics.enhancers = vec![probe(subject, subject.centre + toward_eye)];
         },
     },
@@ -110,7 +106,7 @@ pub const TECHNIQUES: [Technique; 13] = [
                 thins out for the right one.",
         off: Subject::covered,
         turn_on: |subject, frame| {
-            let below = DVec3::new(0.0, -0.15 * subject.longest_m, 0.3 * subject.depth_m);
+            let below = DVec3::new(0.0, -0.15 * subject.longest_m, 0.2 * subject.depth_m);
             let probe = probe(subject, subject.centre + below);
             frame.optics.enhancers = vec![slanted_cut(subject), probe, thin_layer(subject, 2)];
         },
@@ -155,7 +151,7 @@ fn slanted_cut(subject: &Subject) -> Enhancer {
 fn probe(subject: &Subject, centre_in_display: DVec3) -> Enhancer {
     Enhancer::Probe(Probe {
         centre_in_display,
-        radius_m: 0.27 * subject.longest_m,
+        radius_m: 0.32 * subject.longest_m,
         axis_in_display: subject.look_of(0),
         facing: subject.facing(),
         gradient_most: 0.1,

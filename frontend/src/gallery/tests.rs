@@ -137,7 +137,7 @@ fn the_volume_fits_the_screen_and_stays_as_opaque() {
     let depth = subject.frame.optics.extinction.at(0.8) * subject.longest_m;
     assert!((depth - full.optics.extinction.at(0.8) * 2.0).abs() < 1e-9, "{depth}");
     let covered = subject.covered().optics.extinction;
-    assert!((covered.at(0.4) * subject.longest_m - 60.0).abs() < 0.1, "{}", covered.at(0.4));
+    assert!((covered.at(0.4) * subject.longest_m - 200.0).abs() < 0.1, "{}", covered.at(0.4));
     assert_eq!(covered.at(0.9), subject.frame.optics.extinction.at(0.9));
     let alone = subject.inner_alone().optics.extinction;
     assert_eq!((alone.at(0.3), alone.at(0.9)), (0.0, subject.frame.optics.extinction.at(0.9)));
