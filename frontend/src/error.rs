@@ -1,5 +1,6 @@
 //! Why the program cannot do what it was asked to.
 
+use crate::accuracy::AccuracyError;
 use crate::scene::SceneError;
 use backend::output::OutputError;
 use std::path::PathBuf;
@@ -50,6 +51,9 @@ pub enum FrontendError {
         /// Indices into the display.
         missing: Vec<usize>,
     },
+    /// Accuracy cannot be measured.
+    #[error(transparent)]
+    Accuracy(#[from] AccuracyError),
     /// `--frames` asks for what the scene does not have.
     #[error("--frames {first}..{end} lies outside the scene's frames 0..{count}; give a part of them")]
     Frames {

@@ -1,5 +1,6 @@
 //! The program people start: its command line, scenes, simulation and reports.
 
+pub mod accuracy;
 pub mod cli;
 pub mod command;
 mod error;

@@ -2,6 +2,7 @@
 
 use clap::Parser;
 use frontend::FrontendError;
+use frontend::accuracy::AccuracyError;
 use frontend::cli::Cli;
 use frontend::interrupt::EXIT_CODE as INTERRUPTED;
 use std::io::{IsTerminal, Write};
@@ -21,7 +22,7 @@ fn main() -> ExitCode {
     match frontend::command::run(&cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         // Nothing but this process works then, so nothing else has to be ended.
-        Err(error @ FrontendError::Stopped(_)) => {
+        Err(error @ (FrontendError::Stopped(_) | FrontendError::Accuracy(AccuracyError::Stopped))) => {
             complain(&error.to_string());
             std::process::exit(INTERRUPTED)
         }

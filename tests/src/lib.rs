@@ -9,4 +9,5 @@ pub mod head;
 pub mod program;
 pub mod random;
 pub mod scenes;
+pub mod techniques;
 pub mod twin_scene;

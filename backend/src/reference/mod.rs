@@ -23,12 +23,14 @@
 //! | `quadrature`, `rise`, `accumulator` | the integration |
 //! | `segmentation` | the published, step-dependent compositing over given segments |
 //! | `tracer` | one call per ray |
+//! | `errors` | how far pictures are from the truth |
 
 mod accumulator;
 mod analytic;
 mod cell;
 mod cubic;
 mod cut;
+mod errors;
 mod field;
 #[cfg(test)]
 mod laws;
@@ -48,6 +50,7 @@ mod tracer;
 pub use accumulator::Integrator;
 pub use analytic::AnalyticField;
 pub use cubic::Cubic;
+pub use errors::Errors;
 pub use field::{Field, Piece, Visitor};
 pub use radiance::Radiance;
 pub use ray::{Line, Ray};

@@ -9,6 +9,7 @@ mod cells;
 mod codec;
 #[cfg(test)]
 mod damage_tests;
+mod eight_bits;
 mod entry;
 mod error;
 mod file;
@@ -45,6 +46,7 @@ pub use brick::{BRICK_EDGE, BRICK_VOXELS, Brick, Codes, Deviation, OVERLAP, OWN_
 pub use build::build;
 pub use cells::CellRanges;
 pub use codec::Codec;
+pub use eight_bits::EightBits;
 pub use error::StoreError;
 pub use file::Store;
 pub use import::{ImportOptions, PROCEDURAL_PREFIX, import};

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod accuracy;
 mod backends;
 mod export;
 mod gallery;
@@ -11,6 +12,7 @@ mod simulate;
 mod tests;
 mod verify;
 
+pub use accuracy::AccuracyArgs;
 pub use backends::{BackendArgs, DeviceArg, FilterArg};
 pub use export::ExportArgs;
 pub use gallery::GalleryArgs;
@@ -45,6 +47,8 @@ pub enum Command {
     Info(InfoArgs),
     /// Read and check every byte of a store.
     Verify(VerifyArgs),
+    /// Measure error and time of many settings against the reference, and draw them as plots.
+    Accuracy(AccuracyArgs),
     /// List the displays that come with the program.
     Displays,
 }

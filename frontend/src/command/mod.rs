@@ -1,5 +1,6 @@
 //! The commands: from arguments to what they print.
 
+mod accuracy;
 mod displays;
 mod export;
 mod gallery;
@@ -22,6 +23,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Info(args) => info::info(args),
         Command::Verify(args) => verify::verify(args),
         Command::Export(args) => export::export(args),
+        Command::Accuracy(args) => accuracy::accuracy(args),
         Command::Displays => displays::displays(),
     }
 }

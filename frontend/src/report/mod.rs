@@ -1,9 +1,11 @@
 //! What a run tells of itself, as JSON for programs and as a page for people.
 
+pub mod accuracy;
 mod frame;
 pub(crate) mod html;
 mod memory;
 pub(crate) mod page;
+pub mod plot;
 mod stage_bar;
 pub mod units;
 
@@ -14,7 +16,8 @@ use crate::FrontendError;
 use crate::scene::{Scene, VolumeFacts, VolumeSource};
 use crate::simulate::Job;
 use backend::output::{OutputError, write_atomically};
-use backend::protocol::DeviceInfo;
+use backend::protocol::{DeviceInfo, FrameState};
+use display_config::Display;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
@@ -112,9 +115,9 @@ impl Report {
         let total = Totals::of(frames.iter().flat_map(|frame| &frame.backends));
         Self {
             version: env!("CARGO_PKG_VERSION"),
-            command_line: std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect(),
-            scene: SceneSummary::new(scene, facts, job),
-            display: DisplaySummary::new(job),
+            command_line: command_line(),
+            scene: SceneSummary::new(scene, facts, job.frames.first()),
+            display: DisplaySummary::new(&job.display, job.frames.first()),
             backends,
             eyes: job.eye_summaries(),
             frames,
@@ -132,12 +135,12 @@ impl Report {
 }
 
 impl SceneSummary {
-    fn new(scene: &Scene, facts: &VolumeFacts, job: &Job) -> Self {
+    fn new(scene: &Scene, facts: &VolumeFacts, frame: Option<&FrameState>) -> Self {
         let volume = match &scene.volume {
             VolumeSource::Store(path) => path.display().to_string(),
             VolumeSource::Procedural { name, .. } => format!("procedural:{name}"),
         };
-        let edges_m = job.frames.first().map_or([0.0; 3], |frame| {
+        let edges_m = frame.map_or([0.0; 3], |frame| {
             let linear = frame.display_from_volume.matrix3;
             let dims = facts.dims.as_dvec3().to_array();
             [0, 1, 2].map(|axis| linear.col(axis).length() * dims[axis])
@@ -148,13 +151,11 @@ impl SceneSummary {
 }
 
 impl DisplaySummary {
-    fn new(job: &Job) -> Self {
-        let display = &job.display;
+    fn new(display: &Display, frame: Option<&FrameState>) -> Self {
         let pixels = |p: &display_config::Projector| u64::from(p.raster.width) * u64::from(p.raster.height);
-        let (eta, observer) =
-            job.frames.first().map_or((display.eta, display.observer_in_display), |frame| {
-                (frame.eta, frame.observer_in_display)
-            });
+        let (eta, observer) = frame.map_or((display.eta, display.observer_in_display), |frame| {
+            (frame.eta, frame.observer_in_display)
+        });
         Self {
             name: display.name.clone(),
             width_m: display.width_m,
@@ -167,6 +168,11 @@ impl DisplaySummary {
             observer_m: observer.to_array(),
         }
     }
+}
+
+/// How this program was called.
+fn command_line() -> Vec<String> {
+    std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
 /// Writes both reports; the page holds the pictures that it shows.

@@ -30,7 +30,10 @@ pub fn milliseconds(ms: f64) -> String {
         ms if ms < 10.0 => format!("{ms:.2} ms"),
         ms if ms < 1e3 => format!("{ms:.0} ms"),
         ms if ms < 60e3 => format!("{:.2} s", ms / 1e3),
-        ms => format!("{} min {:.0} s", (ms / 60e3).floor(), (ms / 1e3) % 60.0),
+        ms => {
+            let seconds = (ms / 1e3).round();
+            format!("{} min {:.0} s", (seconds / 60.0).floor(), seconds % 60.0)
+        }
     }
 }
 
@@ -57,8 +60,8 @@ mod tests {
         assert_eq!(count(0), "0");
         assert_eq!([bytes(17), bytes(1536), bytes(5 << 30)], ["17 B", "1.5 KiB", "5.0 GiB"]);
         assert_eq!(
-            [milliseconds(1.5), milliseconds(1500.0), milliseconds(61e3)],
-            ["1.50 ms", "1.50 s", "1 min 1 s"]
+            [1.5, 1500.0, 61e3, 179.9e3].map(milliseconds),
+            ["1.50 ms", "1.50 s", "1 min 1 s", "3 min 0 s"]
         );
         assert_eq!(per_second(1_000_000, 100.0), "10.00 M/s");
         assert_eq!(per_second(5, 0.0), "–");

@@ -19,11 +19,11 @@ use crate::cli::BackendArgs;
 use crate::scene::VolumeFacts;
 use crate::simulate::{Event, FrameSource};
 use backend::protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
-use backend::store::{BrickSource, Store};
+use backend::store::BrickSource;
 use backend::transport::{EventKind, Launch, Limits, Link, Session, launch, open_renderer, threads};
-use backend::volume::procedural::ProceduralVolume;
 use display_config::{Display, EyeModel};
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// The displays that come with the program: name, and a line about each.
 pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
@@ -66,16 +66,12 @@ pub fn pixel_from_screen(
 
 /// Opens a volume just to learn what it is.
 pub fn volume_facts(volume: &VolumeRef) -> Result<VolumeFacts, FrontendError> {
-    let wrong = |sentence: String| FrontendError::Volume(sentence);
-    let open: Box<dyn BrickSource> = match volume {
-        VolumeRef::Store(path) => Box::new(Store::open(path).map_err(|e| wrong(e.to_string()))?),
-        VolumeRef::Procedural { name, dims, voxel_size_m } => {
-            let volume =
-                ProceduralVolume::new(name, *dims, voxel_size_m.x).map_err(|e| wrong(e.to_string()))?;
-            Box::new(volume)
-        }
-    };
-    Ok(VolumeFacts::of(open.as_ref()))
+    Ok(VolumeFacts::of(open_volume(volume)?.as_ref()))
+}
+
+/// Opens a volume for work in this process.
+pub fn open_volume(volume: &VolumeRef) -> Result<Arc<dyn BrickSource>, FrontendError> {
+    backend::transport::open_volume(volume).map_err(FrontendError::Volume)
 }
 
 /// Back-ends that run and wait to be set up.

@@ -99,6 +99,33 @@ fn add_whole<F: Real, K: Kernel>(
 fn add_parts<F: Real, K: Kernel>(
     scene: &Scene<F>,
     chain: &Chain<F>,
+    front: Accumulated<F>,
+    step: &Step<F>,
+    parts: F,
+) -> Accumulated<F> {
+    if K::IS_FULL {
+        add_parts_apart::<F, K>(scene, chain, front, step, parts)
+    } else {
+        add_parts_here::<F, K>(scene, chain, front, step, parts)
+    }
+}
+
+/// The same, not inlined: there is much of it in kernels with everything.
+#[inline(never)]
+fn add_parts_apart<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    chain: &Chain<F>,
+    front: Accumulated<F>,
+    step: &Step<F>,
+    parts: F,
+) -> Accumulated<F> {
+    add_parts_here::<F, K>(scene, chain, front, step, parts)
+}
+
+#[inline(always)]
+fn add_parts_here<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    chain: &Chain<F>,
     mut front: Accumulated<F>,
     step: &Step<F>,
     parts: F,

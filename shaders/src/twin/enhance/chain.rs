@@ -47,20 +47,22 @@ impl<F: Real> Chain<F> {
         let unused = LinkState { weights: [F::ZERO; 4], breaks: [far(); 3] };
         let mut chain = Self { view: ray.direction_in_display, links: [unused; MOST_ENHANCERS] };
         if K::IS_FULL {
-            for (i, kind) in scene.needs.chain.kinds().enumerate() {
-                chain.links[i].weights = start(kind, &scene.view.links[i], chain.view);
-            }
-            chain.follow::<K>(scene, ray);
+            chain.start_links(scene, ray);
         }
         chain
     }
 
-    /// The breaks anew, for another straight way.
-    #[inline(always)]
-    pub fn follow<K: Kernel>(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
-        if !K::IS_FULL {
-            return;
+    #[inline(never)]
+    fn start_links(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
+        for (i, kind) in scene.needs.chain.kinds().enumerate() {
+            self.links[i].weights = start(kind, &scene.view.links[i], self.view);
         }
+        self.follow(scene, ray);
+    }
+
+    /// The breaks anew, for another straight way.
+    #[inline(never)]
+    pub fn follow(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {
             self.links[i].breaks = breaks(kind, &scene.view.links[i], self.view, ray);
         }
@@ -106,9 +108,14 @@ impl<F: Real> Chain<F> {
         let has_importance = K::Composite::READS_IMPORTANCE;
         let point = ray.point_in_display(t);
         let place = Place { point, gradient: gradients.at, scalars, view: self.view, has_importance };
-        let mut sample = plain;
+        self.enhance_at(scene, plain, &place)
+    }
+
+    /// Not inlined: it is called from many places, and rarely.
+    #[inline(never)]
+    fn enhance_at(&self, scene: &Scene<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            sample = at(kind, &scene.view.links[i], &self.links[i], sample, &place);
+            sample = at(kind, &scene.view.links[i], &self.links[i], sample, place);
         }
         sample
     }

@@ -23,23 +23,30 @@ impl<F: Real> Gradients<F> {
     /// At t.
     #[inline(always)]
     pub fn new<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
-        if K::IS_FULL && scene.needs.shading.has_detail() {
-            return Self::detailed::<K>(scene, brick, ray, t);
+        if K::IS_FULL {
+            return Self::over_levels(scene, brick, ray, t);
         }
-        let f = brick.fraction::<K>(scene, ray, t);
-        let at = if f <= F::ZERO {
-            gradient_in(scene, &brick.own, t)
-        } else if f <= F::ONE {
-            gradient_in(scene, &brick.own, t).lerp(gradient_in(scene, &brick.parent, t), f)
+        Self { at: gradient_in(scene, &brick.own, t), ..Self::NONE }
+    }
+
+    /// Not inlined: it is called from many places.
+    #[inline(never)]
+    fn over_levels(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
+        let f = brick.fraction(scene, ray, t);
+        if scene.needs.shading.has_detail() {
+            return Self::detailed(scene, brick, f, t);
+        }
+        let (near, far, share) = if f <= F::ONE {
+            (&brick.own, &brick.parent, f)
         } else {
-            gradient_in(scene, &brick.parent, t).lerp(gradient_in(scene, &brick.grandparent, t), f - F::ONE)
+            (&brick.parent, &brick.grandparent, f - F::ONE)
         };
+        let near = gradient_in(scene, near, t);
+        let at = if f <= F::ZERO { near } else { near.lerp(gradient_in(scene, far, t), share) };
         Self { at, ..Self::NONE }
     }
 
-    #[inline(always)]
-    fn detailed<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
-        let f = brick.fraction::<K>(scene, ray, t);
+    fn detailed(scene: &Scene<F>, brick: &Brick<F>, f: F, t: F) -> Self {
         let own = gradient_in(scene, &brick.own, t);
         let parent = gradient_in(scene, &brick.parent, t);
         let grandparent = gradient_in(scene, &brick.grandparent, t);

@@ -49,7 +49,7 @@ impl<'a, F: Real> Brick<'a, F> {
         brick
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn add_ancestors(&mut self, scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) {
         let above = |node: &NodeRecord| {
             let parent = scene.nodes.get(node.parent as usize).filter(|_| node.parent != NO_NODE)?;
@@ -65,8 +65,8 @@ impl<'a, F: Real> Brick<'a, F> {
 
     /// The fractional level that samples at t are filtered at: 0 is the node, 1 the parent, 2 the grandparent.
     #[inline(always)]
-    pub fn fraction<K: Kernel>(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        if !K::IS_FULL || !self.filters_levels {
+    pub fn fraction(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
+        if !self.filters_levels {
             return F::ZERO;
         }
         let z = ray.origin_in_display.0[2] + ray.direction_in_display.0[2] * t;
@@ -78,16 +78,23 @@ impl<'a, F: Real> Brick<'a, F> {
     /// The scalar at t.
     #[inline(always)]
     pub fn scalar_at<K: Kernel>(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        let f = self.fraction::<K>(scene, ray, t);
-        let s = if f <= F::ZERO {
-            self.own.scalar(t)
-        } else if f <= F::ONE {
-            let near = self.own.scalar(t);
-            near + (self.parent.scalar(t) - near) * f
-        } else {
-            let near = self.parent.scalar(t);
-            near + (self.grandparent.scalar(t) - near) * (f - F::ONE)
-        };
+        let s = if K::IS_FULL { self.scalar_over_levels(scene, ray, t) } else { self.own.scalar(t) };
         s.most(F::ZERO).least(F::ONE)
+    }
+
+    /// Not inlined: it is called from many places.
+    #[inline(never)]
+    fn scalar_over_levels(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
+        let f = self.fraction(scene, ray, t);
+        if f <= F::ZERO {
+            return self.own.scalar(t);
+        }
+        let (near, far, share) = if f <= F::ONE {
+            (&self.own, &self.parent, f)
+        } else {
+            (&self.parent, &self.grandparent, f - F::ONE)
+        };
+        let near = near.scalar(t);
+        near + (far.scalar(t) - near) * share
     }
 }

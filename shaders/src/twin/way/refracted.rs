@@ -135,7 +135,7 @@ fn bends<F: Real>(table: &[f32], s0: F, s1: F) -> bool {
     index_at(table, s0) != index_at(table, s1) || index_slope(table, s0, s1) != F::ZERO
 }
 
-#[inline(always)]
+#[inline(never)]
 pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -> Cast<F> {
     let mut front = Accumulated::NOTHING;
     let mut cast = Cast::NOTHING;
@@ -146,7 +146,7 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
     let mut chain = Chain::start::<K>(scene, eye_ray);
     let ray = turned_at(scene, eye_ray, span.0, eye_ray.direction_in_display);
     let mut bent = Bent { ray, t: F::ZERO, way: F::ZERO, passing: None };
-    chain.follow::<K>(scene, &bent.ray);
+    chain.follow(scene, &bent.ray);
     let longest_way = scene.view.diagonal_m * F::of(LONGEST_WAY_DIAGONALS);
     let mut at = scene.leaf_at(bent.ray.origin_in_volume, &bent.ray);
     let mut reported = NO_NODE;
@@ -208,7 +208,7 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
             is_turned = direction != ray.direction_in_display;
             if is_turned {
                 bent.ray = turned_at(scene, &ray, t1, direction);
-                chain.follow::<K>(scene, &bent.ray);
+                chain.follow(scene, &bent.ray);
                 next_brick = Brick::new::<K>(scene, node, &bent.ray);
                 t1 = F::ZERO;
                 s2 = next_brick.scalar_at::<K>(scene, &bent.ray, step);

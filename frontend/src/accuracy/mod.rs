@@ -1,0 +1,33 @@
+//! How far pictures are from the truth, and what that costs: settings are swept, timed and compared.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `setting`, `sweep` | one way to draw, and those that are tried |
+//! | `projectors` | which projectors' pictures are compared |
+//! | `truth` | their pixels by the reference |
+//! | `bench` | the device that draws, timed |
+//! | `study` | all of it, from a scene to what was found |
+//! | `pareto` | which settings no other one beats |
+//! | `watch`, `supervise` | how a study is told to stop, and tells how far it is |
+
+mod bench;
+mod error;
+mod pareto;
+mod projectors;
+mod setting;
+mod study;
+mod supervise;
+mod sweep;
+mod truth;
+mod watch;
+
+pub use bench::Measured;
+pub use error::AccuracyError;
+pub use pareto::{BEATEN_BY, Score, beaten_by, front};
+pub use projectors::{check_projectors, two_projectors};
+pub use setting::{Family, Setting, Trial, filter_name, small};
+pub use study::{Outcome, Study};
+pub use supervise::supervised;
+pub use sweep::{Offer, around_default, product};
+pub use truth::TruthSummary;
+pub use watch::Watch;
