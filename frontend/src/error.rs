@@ -64,6 +64,14 @@ pub enum FrontendError {
         /// How many there are.
         count: u32,
     },
+    /// A display that no eye at the observer's distance sees whole.
+    #[error(
+        "{distance_m} m before this display there is no viewing zone to spread eyes over; choose another display or another observer"
+    )]
+    NoViewingZone {
+        /// The observer's distance from the screen, metres.
+        distance_m: f64,
+    },
     /// The report does not go into JSON.
     #[error("cannot put the report into JSON: {0}")]
     Json(#[from] serde_json::Error),

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod cli;
 pub mod command;
 mod error;
+pub mod gallery;
 pub mod interrupt;
 pub mod orientation;
 pub mod progress;

@@ -15,8 +15,8 @@ pub enum Emptiness {
     Lossless,
     /// Bricks whose largest value is below this one.
     Below(f64),
-    /// Bricks that these transfer functions do not show.
-    Invisible(Optics),
+    /// Bricks that none of these looks shows.
+    Invisible(Vec<Optics>),
 }
 
 impl Emptiness {
@@ -25,7 +25,9 @@ impl Emptiness {
         match self {
             Emptiness::Lossless => false,
             Emptiness::Below(least) => f64::from(high) < *least,
-            Emptiness::Invisible(optics) => optics.is_empty_on(f64::from(low), f64::from(high)),
+            Emptiness::Invisible(looks) => {
+                looks.iter().all(|optics| optics.is_empty_on(f64::from(low), f64::from(high)))
+            }
         }
     }
 }

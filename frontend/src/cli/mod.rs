@@ -1,7 +1,9 @@
 //! The command line.
 
 mod accuracy;
+mod backends;
 mod export;
+mod gallery;
 mod import;
 mod info;
 mod parse;
@@ -11,10 +13,12 @@ mod tests;
 mod verify;
 
 pub use accuracy::AccuracyArgs;
+pub use backends::{BackendArgs, DeviceArg, FilterArg};
 pub use export::ExportArgs;
+pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
-pub use simulate::{DeviceArg, FilterArg, SimulateArgs};
+pub use simulate::SimulateArgs;
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};
@@ -33,6 +37,8 @@ pub struct Cli {
 pub enum Command {
     /// Render what every projector of a display shows, and what eyes before it see.
     Simulate(SimulateArgs),
+    /// Show each technique of illustration off and on, as eyes before a display see it, on one page.
+    Gallery(GalleryArgs),
     /// Turn a volume file, or a folder of one, into a store of bricks.
     Import(ImportArgs),
     /// Write a level of a store, or a part of it, as NRRD or OME-Zarr.

@@ -1,6 +1,6 @@
 //! Values of the command line: points, sizes, lengths.
 
-use glam::{DVec3, UVec3};
+use glam::{DVec3, UVec2, UVec3};
 
 /// Three finite numbers.
 pub(super) fn point(text: &str) -> Result<DVec3, String> {
@@ -32,4 +32,15 @@ pub(super) fn three<T: std::str::FromStr>(text: &str) -> Result<[T; 3], String> 
 pub(super) fn finite(text: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "give a finite number".to_owned())
+}
+
+/// Pixels of a picture along an edge, at most.
+const MOST_PIXELS: u32 = 1 << 13;
+
+/// A width and a height in pixels with an x between them.
+pub(super) fn picture_size(text: &str) -> Result<UVec2, String> {
+    let sizes = text.split_once('x').and_then(|(w, h)| Some(UVec2::new(w.parse().ok()?, h.parse().ok()?)));
+    sizes.filter(|size| size.min_element() > 0 && size.max_element() <= MOST_PIXELS).ok_or_else(|| {
+        format!("give a width and a height such as 640x480, each from 1 to {MOST_PIXELS} pixels")
+    })
 }

@@ -1,9 +1,9 @@
 //! The arguments of `lightloom simulate`.
 
+use super::BackendArgs;
 use super::parse::point;
 use crate::scene::QualityPreset;
-use backend::protocol::{DeviceChoice, FilterChoice};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -18,24 +18,15 @@ pub struct SimulateArgs {
     /// Folder for pictures and report; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How many back-ends share the projectors; 1 unless a launcher started more.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub backends: Option<u32>,
-    /// Which device casts the rays.
-    #[arg(long, value_enum, default_value = "auto")]
-    pub device: DeviceArg,
-    /// How voxels are interpolated.
-    #[arg(long, value_enum, default_value = "auto")]
-    pub filter: FilterArg,
+    /// With what pictures are drawn.
+    #[command(flatten)]
+    pub drawing: BackendArgs,
     /// An eye whose view is synthesised, metres from the screen's centre: x right, y up, z toward the viewers. Repeat it for more.
     #[arg(long = "eye", value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub eyes: Vec<DVec3>,
     /// Write linear OpenEXR pictures too.
     #[arg(long)]
     pub exr: bool,
-    /// Brick cache of each back-end.
-    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
-    pub cache_mib: u64,
     /// Quality in place of the scene's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
@@ -48,48 +39,6 @@ pub struct SimulateArgs {
     /// Print the report as JSON on standard output, and nothing else.
     #[arg(long)]
     pub json: bool,
-}
-
-/// See [`DeviceChoice`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum DeviceArg {
-    /// The GPU, or the CPU where there is no Vulkan driver.
-    Auto,
-    /// The GPU or nothing.
-    Gpu,
-    /// All cores of the CPU.
-    Cpu,
-}
-
-impl From<DeviceArg> for DeviceChoice {
-    fn from(device: DeviceArg) -> Self {
-        match device {
-            DeviceArg::Auto => DeviceChoice::Auto,
-            DeviceArg::Gpu => DeviceChoice::Gpu,
-            DeviceArg::Cpu => DeviceChoice::Cpu,
-        }
-    }
-}
-
-/// See [`FilterChoice`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum FilterArg {
-    /// The texture unit where it is precise, exact otherwise.
-    Auto,
-    /// The texture unit, whatever its precision.
-    Hardware,
-    /// Eight fetches, interpolated in f32.
-    Exact,
-}
-
-impl From<FilterArg> for FilterChoice {
-    fn from(filter: FilterArg) -> Self {
-        match filter {
-            FilterArg::Auto => FilterChoice::Auto,
-            FilterArg::Hardware => FilterChoice::Hardware,
-            FilterArg::Exact => FilterChoice::Exact,
-        }
-    }
 }
 
 fn frame_range(text: &str) -> Result<(u32, u32), String> {

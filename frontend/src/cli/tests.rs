@@ -39,6 +39,22 @@ fn nonsense_is_a_usage_error() {
     }
 }
 
+#[test]
+fn a_gallery_takes_sizes_of_pictures() {
+    let gallery = |rest: &[&str]| {
+        let all = ["lightloom", "gallery", "a.toml", "-o", "o"].iter().chain(rest);
+        Cli::try_parse_from(all).map_err(|error| error.exit_code()).map(|cli| match cli.command {
+            Command::Gallery(args) => (args.size, args.display, args.drawing.cache_mib),
+            other => panic!("{other:?}"),
+        })
+    };
+    assert_eq!(gallery(&[]), Ok((None, "desk8".to_owned(), 1024)));
+    assert_eq!(gallery(&["--size", "640x480"]).unwrap().0, Some(glam::UVec2::new(640, 480)));
+    for wrong in ["640", "0x480", "640x-1", "9000x480", "x"] {
+        assert_eq!(gallery(&["--size", wrong]), Err(2), "{wrong}");
+    }
+}
+
 fn import(rest: &[&str]) -> Result<ImportArgs, i32> {
     let all = ["lightloom", "import", "a.raw", "-o", "a.lloom"].iter().chain(rest);
     Cli::try_parse_from(all).map_err(|error| error.exit_code()).map(|cli| match cli.command {

@@ -3,6 +3,7 @@
 mod accuracy;
 mod displays;
 mod export;
+mod gallery;
 mod import;
 mod info;
 mod simulate;
@@ -17,6 +18,7 @@ use std::io::Write;
 pub fn run(command: &Command) -> Result<(), FrontendError> {
     match command {
         Command::Simulate(args) => simulate::simulate(args),
+        Command::Gallery(args) => gallery::gallery(args),
         Command::Import(args) => import::import(args),
         Command::Info(args) => info::info(args),
         Command::Verify(args) => verify::verify(args),

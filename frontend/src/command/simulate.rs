@@ -8,10 +8,8 @@ use crate::report::{self, Report, units};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session::{self, Backends};
 use crate::simulate::{Eye, Job};
-use backend::output::{EyePlan, ScreenRaster};
-use backend::protocol::{FrameState, Setup};
+use backend::protocol::FrameState;
 use display_config::Display;
-use glam::DVec3;
 use std::time::Instant;
 
 /// Renders, writes and reports. All that can be wrong with the arguments is found before any back-end starts.
@@ -23,14 +21,14 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let facts = session::volume_facts(&scene.volume_ref())?;
     let job = Job {
         frames: frames(args, &scene, &display, &facts)?,
-        eyes: args.eyes.iter().map(|&eye| eye_before(&display, eye)).collect::<Result<_, _>>()?,
+        eyes: args.eyes.iter().map(|&eye| Eye::before(&display, eye)).collect::<Result<_, _>>()?,
         display,
         out: args.out.clone(),
         exr: args.exr,
     };
     Job::prepare_output(&args.out)?;
-    let backends = Backends::connect(args.backends)?;
-    let setups = setups(args, &scene, &job.display, backends.count())?;
+    let backends = Backends::connect(args.drawing.backends)?;
+    let setups = session::setups(&args.drawing, &scene.volume_ref(), &job.display, backends.count())?;
     let (mut source, devices) = backends.start(setups)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let frames = job.run(source.as_mut(), &mut progress)?;
@@ -39,25 +37,6 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let report = Report::new(&scene, &facts, &job, devices, frames, started.elapsed());
     report::write(&report, &args.out)?;
     tell(args, &report)
-}
-
-fn setups(
-    args: &SimulateArgs,
-    scene: &Scene,
-    display: &Display,
-    backends: u32,
-) -> Result<Vec<Setup>, FrontendError> {
-    let shares = session::assignment(display, backends)?;
-    let setup = |(backend, projectors): (usize, Vec<u32>)| Setup {
-        display: display.clone(),
-        projectors,
-        backend: backend as u32,
-        volume: scene.volume_ref(),
-        device: args.device.into(),
-        filter: args.filter.into(),
-        cache_bytes: args.cache_mib << 20,
-    };
-    Ok(shares.into_iter().enumerate().map(setup).collect())
 }
 
 fn frames(
@@ -71,12 +50,6 @@ fn frames(
         return Err(FrontendError::Frames { first, end, count: scene.frame_count });
     }
     (first..end).map(|index| Ok(scene.frame(index, display, facts)?)).collect()
-}
-
-fn eye_before(display: &Display, position_m: DVec3) -> Result<Eye, FrontendError> {
-    let optics = session::eye_optics(display, position_m)?;
-    let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), optics.weights);
-    Ok(Eye { position_m, plan, warning: optics.warning })
 }
 
 fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {

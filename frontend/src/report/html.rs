@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use std::path::Path;
 
 /// Text with what HTML would read as its own replaced.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -22,7 +22,7 @@ pub(super) fn escape(text: &str) -> String {
 }
 
 /// A picture file as an `<img>` that needs no file, shown with `aspect` = width / height.
-pub(super) fn embedded_image(path: &Path, alt: &str, aspect: Option<f64>) -> Result<String, OutputError> {
+pub(crate) fn embedded_image(path: &Path, alt: &str, aspect: Option<f64>) -> Result<String, OutputError> {
     let failed = |source| OutputError::Write { path: path.to_owned(), source };
     let data = STANDARD.encode(std::fs::read(path).map_err(failed)?);
     let style = aspect.map(|a| format!(" style=\"aspect-ratio:{a:.4}\"")).unwrap_or_default();
@@ -30,7 +30,7 @@ pub(super) fn embedded_image(path: &Path, alt: &str, aspect: Option<f64>) -> Res
 }
 
 /// A table of names and values.
-pub(super) fn facts(rows: &[(&str, String)]) -> String {
+pub(crate) fn facts(rows: &[(&str, String)]) -> String {
     let row = |(name, value): &(&str, String)| {
         format!("<tr><th>{}</th><td>{}</td></tr>", escape(name), escape(value))
     };
@@ -38,7 +38,7 @@ pub(super) fn facts(rows: &[(&str, String)]) -> String {
 }
 
 /// A table with a heading per column; the first column is text, the others are numbers.
-pub(super) fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
+pub(crate) fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
     let cells = |tag: &str, texts: &mut dyn Iterator<Item = &str>| {
         texts.map(|text| format!("<{tag}>{}</{tag}>", escape(text))).collect::<String>()
     };

@@ -2,9 +2,9 @@
 
 pub mod accuracy;
 mod frame;
-mod html;
+pub(crate) mod html;
 mod memory;
-mod page;
+pub(crate) mod page;
 pub mod plot;
 mod stage_bar;
 pub mod units;
@@ -182,7 +182,7 @@ pub fn write(report: &Report, out: &Path) -> Result<(), FrontendError> {
     Ok(())
 }
 
-fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
     let failed = |source| OutputError::Write { path: path.to_owned(), source };
     write_atomically(path, |file| file.write_all(text.as_bytes()).map_err(failed))
 }

@@ -8,7 +8,8 @@ use crate::simulate::CONTACT_SHEET;
 use backend::output::OutputError;
 use std::path::Path;
 
-const STYLE: &str = include_str!("style.css");
+/// The look of all pages.
+pub(crate) const STYLE: &str = include_str!("style.css");
 
 /// The whole page, with the first frame's contact sheet and eye views from `out` inside.
 pub(super) fn page(report: &Report, out: &Path) -> Result<String, OutputError> {

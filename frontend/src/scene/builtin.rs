@@ -1,6 +1,6 @@
 //! Scenes that need no file.
 
-use super::{Look, Motion, Placement, Scene, Size, VolumeSource, placement};
+use super::{Edits, Look, Motion, Placement, Scene, Size, VolumeSource, placement};
 use glam::DVec3;
 use shaders::optics::{Curve, Light, Quality};
 use std::path::Path;
@@ -78,12 +78,15 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
         voxel_size_m: None,
         placement: default_placement(&volume),
         look: default_look(&volume),
+        bands: Vec::new(),
+        enhancers: Vec::new(),
         light: Some(default_light(&volume)),
         quality: Quality::default(),
         eta: None,
         observer_m: None,
         tool: None,
         motion: Motion::default(),
+        edits: Edits::default(),
         frame_count: 1,
         rate_hz: 30.0,
         volume,

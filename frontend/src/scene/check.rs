@@ -1,7 +1,7 @@
 //! Checks of single values of a scene file.
 
 use super::SceneError;
-use super::file::{Number, Triple};
+use super::file::{Limits, Number, Triple};
 use super::text::SceneText;
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -27,6 +27,25 @@ impl SceneText {
         };
         let message = || format!("it is {value}; give {expected}");
         range.contains(&value).then_some(value).ok_or_else(|| self.wrong(number.span(), message()))
+    }
+
+    /// The number, or `otherwise` where there is none.
+    pub fn within_or(
+        &self,
+        number: &Option<Number>,
+        otherwise: f64,
+        range: RangeInclusive<f64>,
+    ) -> Checked<f64> {
+        number.as_ref().map_or(Ok(otherwise), |number| self.within(number, range))
+    }
+
+    /// Two finite numbers, the first below the second.
+    pub fn rising(&self, limits: &Limits) -> Checked<(f64, f64)> {
+        let [low, high] = *limits.get_ref();
+        let is_rising = low.is_finite() && high.is_finite() && low < high;
+        let message =
+            || format!("[{low}, {high}] is not a rising interval of finite numbers; give [low, high]");
+        is_rising.then_some((low, high)).ok_or_else(|| self.wrong(limits.span(), message()))
     }
 
     pub fn point(&self, triple: &Triple) -> Checked<DVec3> {

@@ -10,6 +10,8 @@ use toml::Spanned;
 pub(super) type Number = Spanned<f64>;
 /// A point or direction with its place in the file.
 pub(super) type Triple = Spanned<[f64; 3]>;
+/// A lower and an upper limit with their place in the file.
+pub(super) type Limits = Spanned<[f64; 2]>;
 /// Control points, each `[value, numbers…]`, with their places.
 pub(super) type Points = Spanned<Vec<Spanned<Vec<f64>>>>;
 
@@ -21,6 +23,10 @@ pub(super) struct SceneFile {
     pub placement: Option<Spanned<PlacementTable>>,
     pub optics: Option<OpticsTable>,
     pub mimda: Option<Spanned<MimdaTable>>,
+    #[serde(default)]
+    pub band: Vec<BandTable>,
+    #[serde(default)]
+    pub enhancer: Vec<EnhancerTable>,
     pub light: Option<LightTable>,
     #[serde(default)]
     pub display: DisplayTable,
@@ -72,11 +78,13 @@ pub(super) struct PlacementTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OpticsTable {
-    pub domain: Option<Spanned<[f64; 2]>>,
+    pub domain: Option<Limits>,
     pub extinction_unit: ExtinctionUnit,
     pub extinction: Points,
     pub colour: Points,
     pub importance: Option<Points>,
+    pub refraction: Option<Points>,
+    pub materials: Option<Points>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -95,6 +103,57 @@ pub(super) struct LightTable {
     pub specular: Option<Number>,
     pub shininess: Option<Number>,
     pub gradient_half: Option<Number>,
+    pub detail: Option<Spanned<DetailKind>>,
+    pub detail_strength: Option<Number>,
+}
+
+/// See [`shaders::optics::Detail`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum DetailKind {
+    None,
+    Unsharp,
+    Exaggerated,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BandTable {
+    pub name: Spanned<String>,
+    pub corners: Spanned<[f64; 4]>,
+}
+
+/// See [`shaders::optics::Enhancer`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum EnhancerKind {
+    ClipPlane,
+    Probe,
+    BandPicker,
+    LayerOpacity,
+}
+
+/// The keys of all kinds of enhancers; which of them a kind has is checked later.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EnhancerTable {
+    pub kind: Spanned<EnhancerKind>,
+    pub carried: Option<Spanned<bool>>,
+    pub band: Option<Spanned<String>>,
+    pub point_m: Option<Triple>,
+    pub normal: Option<Triple>,
+    pub context: Option<Limits>,
+    pub thickness_m: Option<Number>,
+    pub boost: Option<Number>,
+    pub centre_m: Option<Triple>,
+    pub radius_m: Option<Number>,
+    pub axis: Option<Triple>,
+    pub facing: Option<Limits>,
+    pub gradient_most: Option<Number>,
+    pub edges: Option<Limits>,
+    pub away: Option<Number>,
+    pub toward: Option<Number>,
+    pub strength: Option<Number>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -112,6 +171,7 @@ pub(super) struct QualityTable {
     pub tolerance: Option<Number>,
     pub termination: Option<Number>,
     pub lod_scale: Option<Number>,
+    pub quadrilinear: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -123,6 +183,12 @@ pub(super) struct KeyframeTable {
     pub rotation_deg: Option<Triple>,
     pub tool_tip_m: Option<Triple>,
     pub tool_axis: Option<Triple>,
+    pub extinction: Option<Points>,
+    pub colour: Option<Points>,
+    pub importance: Option<Points>,
+    pub refraction: Option<Points>,
+    pub gamma: Option<Number>,
+    pub pick: Option<Spanned<String>>,
 }
 
 #[derive(Debug, Default, Deserialize)]

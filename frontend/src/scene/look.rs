@@ -1,8 +1,9 @@
 //! What scalars look like, before the volume is known.
 
-use super::SceneError;
+use super::enhancer::{band_of, normalised_enhancer};
+use super::{Edits, SceneError};
 use glam::DVec3;
-use shaders::optics::{Curve, CurveError, CurveValue, ExtinctionUnit, Mimda, Optics};
+use shaders::optics::{Curve, CurveError, CurveValue, Enhancer, ExtinctionUnit, Material, Mimda, Optics};
 
 /// A scene's look.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,30 +32,64 @@ pub struct DataLook {
     pub colour: Curve<DVec3>,
     /// Importance accumulation, its curve over data values.
     pub mimda: Option<Mimda>,
+    /// Refraction index over data values.
+    pub refraction: Option<Curve<f64>>,
+    /// Factors of the shading law over data values.
+    pub materials: Option<Curve<Material>>,
 }
 
 impl Look {
-    /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display.
-    pub fn optics(&self, value_range: (f64, f64), longest_m: f64) -> Result<Optics, SceneError> {
+    /// The look at a time, as keyframes have changed it until then.
+    pub(super) fn edited(&self, edits: &Edits, time_s: f64) -> Self {
+        match self {
+            Look::InDataUnits(look) => Look::InDataUnits(look.edited(edits, time_s)),
+            Look::Relative { .. } => self.clone(),
+        }
+    }
+
+    /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display. The bands of
+    /// `chain` are over data values.
+    pub fn optics(
+        &self,
+        value_range: (f64, f64),
+        longest_m: f64,
+        chain: &[Enhancer],
+    ) -> Result<Optics, SceneError> {
         let result = match self {
-            Look::InDataUnits(look) => look.optics(look.domain.unwrap_or_else(|| interval(value_range))),
+            Look::InDataUnits(look) => {
+                look.optics(look.domain.unwrap_or_else(|| interval(value_range)), chain)
+            }
             Look::Relative { depth_across, colour } => {
-                let per_metre =
-                    depth_across.points().iter().map(|&(s, depth)| (s, depth / longest_m)).collect();
-                Curve::new(per_metre).map_err(|e| e.to_string()).map(|extinction| Optics {
-                    domain: interval(value_range),
-                    extinction,
-                    extinction_unit: ExtinctionUnit::PerMetre,
-                    colour: colour.clone(),
-                    mimda: None,
-                    refraction: None,
-                    materials: None,
-                    enhancers: Vec::new(),
-                })
+                relative(depth_across, colour, longest_m, interval(value_range), chain)
             }
         };
         checked(result, value_range)
     }
+}
+
+fn relative(
+    depth_across: &Curve<f64>,
+    colour: &Curve<DVec3>,
+    longest_m: f64,
+    domain: (f64, f64),
+    chain: &[Enhancer],
+) -> Result<Optics, String> {
+    let per_metre = depth_across.points().iter().map(|&(s, depth)| (s, depth / longest_m)).collect();
+    Ok(Optics {
+        domain,
+        extinction: Curve::new(per_metre).map_err(|e| e.to_string())?,
+        extinction_unit: ExtinctionUnit::PerMetre,
+        colour: colour.clone(),
+        mimda: None,
+        refraction: None,
+        materials: None,
+        enhancers: normalised_chain(chain, domain)?,
+    })
+}
+
+fn normalised_chain(chain: &[Enhancer], domain: (f64, f64)) -> Result<Vec<Enhancer>, String> {
+    let normalised = |enhancer: &Enhancer| normalised_enhancer(*enhancer, domain).map_err(|e| e.to_string());
+    chain.iter().map(normalised).collect()
 }
 
 fn checked(optics: Result<Optics, String>, (low, high): (f64, f64)) -> Result<Optics, SceneError> {
@@ -63,37 +98,62 @@ fn checked(optics: Result<Optics, String>, (low, high): (f64, f64)) -> Result<Op
 }
 
 impl DataLook {
-    /// Optics that show the same data values as this look does of any volume. Where the look has no domain, one that
-    /// reaches beyond all control points will do: outside them curves are constant.
-    pub(super) fn visibility(&self) -> Result<Optics, SceneError> {
-        let importance = self.mimda.iter().flat_map(|mimda| mimda.importance.points());
-        let values = self.extinction.points().iter().chain(importance).map(|point| point.0);
-        let span = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-        let (low, high) = interval(span);
-        let domain = self.domain.unwrap_or((low - (high - low), high + (high - low)));
-        checked(self.optics(domain), domain)
+    /// The look at a time, as keyframes have changed it until then.
+    pub(super) fn edited(&self, edits: &Edits, time_s: f64) -> Self {
+        let mimda = self.mimda.as_ref().map(|mimda| Mimda {
+            importance: edits.importance.at(time_s).unwrap_or(&mimda.importance).clone(),
+            gamma: *edits.gamma.at(time_s).unwrap_or(&mimda.gamma),
+            form: mimda.form,
+        });
+        Self {
+            domain: self.domain,
+            extinction: edits.extinction.at(time_s).unwrap_or(&self.extinction).clone(),
+            extinction_unit: self.extinction_unit,
+            colour: edits.colour.at(time_s).unwrap_or(&self.colour).clone(),
+            mimda,
+            refraction: edits.refraction.at(time_s).or(self.refraction.as_ref()).cloned(),
+            materials: self.materials.clone(),
+        }
     }
 
-    fn optics(&self, domain: (f64, f64)) -> Result<Optics, String> {
+    /// Optics that show the same data values as this look does of any volume. Where the look has no domain, one that
+    /// reaches beyond all control points will do: outside them curves are constant.
+    pub(super) fn visibility(&self, chain: &[Enhancer]) -> Result<Optics, SceneError> {
+        let importance = self.mimda.iter().flat_map(|mimda| mimda.importance.points());
+        let refraction = self.refraction.iter().flat_map(|index| index.points());
+        let values = self.extinction.points().iter().chain(importance).chain(refraction).map(|point| point.0);
+        let corners = chain.iter().filter_map(band_of).flat_map(|band| band.corners());
+        let widen = |(a, b): (f64, f64), v| (a.min(v), b.max(v));
+        let (low, high) = interval(values.chain(corners).fold((f64::INFINITY, f64::NEG_INFINITY), widen));
+        let domain = self.domain.unwrap_or((low - (high - low), high + (high - low)));
+        checked(self.optics(domain, chain), domain)
+    }
+
+    fn optics(&self, domain: (f64, f64), chain: &[Enhancer]) -> Result<Optics, String> {
         let mimda = match &self.mimda {
             None => None,
             Some(mimda) => {
-                let importance =
-                    normalised(&mimda.importance, domain).map_err(|e| format!("importance: {e}"))?;
-                Some(Mimda { importance, ..mimda.clone() })
+                Some(Mimda { importance: named("importance", &mimda.importance, domain)?, ..mimda.clone() })
             }
         };
+        let refraction = self.refraction.as_ref().map(|index| named("refraction", index, domain));
+        let materials = self.materials.as_ref().map(|materials| named("materials", materials, domain));
         Ok(Optics {
             domain,
-            extinction: normalised(&self.extinction, domain).map_err(|e| format!("extinction: {e}"))?,
+            extinction: named("extinction", &self.extinction, domain)?,
             extinction_unit: self.extinction_unit,
-            colour: normalised(&self.colour, domain).map_err(|e| format!("colour: {e}"))?,
+            colour: named("colour", &self.colour, domain)?,
             mimda,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
+            refraction: refraction.transpose()?,
+            materials: materials.transpose()?,
+            enhancers: normalised_chain(chain, domain)?,
         })
     }
+}
+
+/// A curve over data values as one over s; what goes wrong is said with the curve's name.
+fn named<V: CurveValue>(name: &str, curve: &Curve<V>, domain: (f64, f64)) -> Result<Curve<V>, String> {
+    normalised(curve, domain).map_err(|error| format!("{name}: {error}"))
 }
 
 /// A curve over data values as one over s.
@@ -117,13 +177,15 @@ mod tests {
             extinction_unit: ExtinctionUnit::PerMetre,
             colour: Curve::constant(DVec3::ONE),
             mimda: None,
+            refraction: None,
+            materials: None,
         })
     }
 
     #[test]
     fn a_data_value_keeps_its_look_in_any_domain() {
         for domain in [None, Some((-1000.0, 1000.0)), Some((0.0, 100.0))] {
-            let optics = look(domain).optics((-1024.0, 3033.0), 0.7).unwrap();
+            let optics = look(domain).optics((-1024.0, 3033.0), 0.7, &[]).unwrap();
             let at = |v: f64| optics.extinction.at(optics.normalise(v));
             assert!((at(50.0) - 5.5).abs() < 1e-9, "{domain:?}");
         }
@@ -133,7 +195,7 @@ mod tests {
     fn what_a_look_shows_is_known_before_any_volume() {
         for domain in [None, Some((-1000.0, 1000.0))] {
             let Look::InDataUnits(look) = look(domain) else { panic!("it is in data units") };
-            let shown = look.visibility().unwrap();
+            let shown = look.visibility(&[]).unwrap();
             assert!(shown.is_empty_on(-3000.0, -500.0) && !shown.is_empty_on(-3000.0, -499.0), "{domain:?}");
             assert!(!shown.is_empty_on(7000.0, 9000.0), "{domain:?}");
         }
@@ -141,9 +203,9 @@ mod tests {
 
     #[test]
     fn a_constant_volume_and_a_broken_one() {
-        let domain = look(None).optics((7.0, 7.0), 0.7).unwrap().domain;
+        let domain = look(None).optics((7.0, 7.0), 0.7, &[]).unwrap().domain;
         assert_eq!(domain, (6.5, 7.5));
-        let error = look(None).optics((0.0, f64::INFINITY), 0.7).unwrap_err().to_string();
+        let error = look(None).optics((0.0, f64::INFINITY), 0.7, &[]).unwrap_err().to_string();
         assert!(error.contains("domain") || error.contains("finite"), "{error}");
     }
 }

@@ -1,8 +1,11 @@
 //! Scenes: a volume, its place, its look, and how they move.
 
 mod axis;
+mod band;
 mod builtin;
 mod check;
+mod edits;
+mod enhancer;
 mod error;
 mod file;
 mod look;
@@ -14,21 +17,26 @@ mod text;
 mod volume;
 
 pub use axis::{VolumeAxes, VolumeAxis};
+pub use band::Band;
 pub use builtin::PROCEDURAL_NAMES;
+pub use edits::{Edits, Held};
+pub use enhancer::{Anchor, SceneEnhancer};
 pub use error::SceneError;
-pub use look::Look;
+pub use look::{DataLook, Look};
 pub use motion::{Motion, Track};
 pub use placement::{Placement, Size};
 pub use quality::QualityPreset;
 pub use volume::{VolumeFacts, VolumeSource};
 
 use backend::protocol::{FrameState, Tool, ToolKind, VolumeRef};
+use band::normalised_band;
 use display_config::Display;
 use glam::DVec3;
-use shaders::optics::{Light, Optics, Quality};
+use shaders::optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
 use std::path::Path;
 
-/// A scene, read and checked. Everything that is the same in all frames is here; `motion` holds the rest.
+/// A scene, read and checked. Everything that is the same in all frames is here; `motion`
+/// and `edits` hold the rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// What people call it: the argument or the file's stem.
@@ -41,6 +49,10 @@ pub struct Scene {
     pub placement: Placement,
     /// What scalars look like.
     pub look: Look,
+    /// Bands of data values that have a name.
+    pub bands: Vec<Band>,
+    /// The chain of enhancers, in order.
+    pub enhancers: Vec<SceneEnhancer>,
     /// Gradient shading; None shows the plain colours.
     pub light: Option<Light>,
     /// How closely the continuous model is followed.
@@ -53,6 +65,8 @@ pub struct Scene {
     pub tool: Option<Tool>,
     /// What moves.
     pub motion: Motion,
+    /// What keyframes change of the look.
+    pub edits: Edits,
     /// How many frames, from 0.
     pub frame_count: u32,
     /// Frames per second of the scene's clock.
@@ -74,16 +88,18 @@ impl Scene {
         }
     }
 
-    /// What the transfer functions of a scene file show of any volume: of its [`Optics`], only which data values they
-    /// show means anything. The scene's own volume need not be there.
+    /// What a scene file shows of any volume, one [`Optics`] for each look that its keyframes give it: of these, only
+    /// which data values they show means anything. The scene's own volume need not be there.
     ///
     /// # Errors
     /// A file that is no scene, or one whose look depends on the volume.
-    pub fn visibility_in_file(path: &Path) -> Result<Optics, SceneError> {
-        match read::scene_without_volume(path)?.look {
-            Look::InDataUnits(look) => look.visibility(),
-            Look::Relative { .. } => Err(SceneError::RelativeLook { path: path.to_owned() }),
-        }
+    pub fn visibility_in_file(path: &Path) -> Result<Vec<Optics>, SceneError> {
+        let scene = read::scene_without_volume(path)?;
+        let Look::InDataUnits(look) = &scene.look else {
+            return Err(SceneError::RelativeLook { path: path.to_owned() });
+        };
+        let shown = |time_s| look.edited(&scene.edits, time_s).visibility(&scene.chain_at(time_s));
+        scene.edits.times().map(shown).collect()
     }
 
     /// How a back-end is told of the volume.
@@ -117,7 +133,11 @@ impl Scene {
             observer_in_display: self.motion.observer_m.at(time_s).unwrap_or(observer),
             eta: self.eta.unwrap_or(display.eta),
             display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
-            optics: self.look.optics(facts.value_range, extent_m.max_element() * scale)?,
+            optics: self.look.edited(&self.edits, time_s).optics(
+                facts.value_range,
+                extent_m.max_element() * scale,
+                &self.chain_at(time_s),
+            )?,
             light: self.light,
             quality: self.quality,
             tool: self.tool_at(time_s),
@@ -129,6 +149,20 @@ impl Scene {
         let centre_m = self.motion.centre_m.at(time_s).unwrap_or(still.centre_m);
         let rotation = self.motion.rotation.at(time_s).unwrap_or(still.rotation);
         Placement { centre_m, rotation, ..still }
+    }
+
+    /// The bands over s of a domain, in the order of the file.
+    pub fn bands_over(&self, domain: (f64, f64)) -> Result<Vec<Trapezoid>, SceneError> {
+        let failed =
+            |e: TrapezoidError| SceneError::Look { low: domain.0, high: domain.1, reason: e.to_string() };
+        self.bands.iter().map(|band| normalised_band(band.values, domain).map_err(failed)).collect()
+    }
+
+    /// The enhancers in their places, bands over data values.
+    fn chain_at(&self, time_s: f64) -> Vec<Enhancer> {
+        let centre_m = self.placement_at(time_s).centre_m;
+        let (tool, picked) = (self.tool_at(time_s), self.edits.pick.at(time_s).copied());
+        self.enhancers.iter().map(|enhancer| enhancer.placed(centre_m, tool.as_ref(), picked)).collect()
     }
 
     fn tool_at(&self, time_s: f64) -> Option<Tool> {
@@ -144,5 +178,7 @@ fn tool_at_rest(kind: ToolKind) -> Tool {
     Tool { kind, tip_in_display: DVec3::new(0.0, 0.0, 0.5), axis_in_display: DVec3::NEG_Z }
 }
 
+#[cfg(test)]
+mod illustration_tests;
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@ use backend::volume::{Space, VolumeFrame};
 use display_config::{Homography, Projector, Raster};
 use glam::{DAffine3, DMat3, UVec3};
 
-fn display() -> Display {
+pub(super) fn display() -> Display {
     let raster = Raster { width: 8, height: 6, screen_from_pixel: Homography(DMat3::IDENTITY), output: None };
     let projector =
         Projector { name: "p".into(), centre_in_display: DVec3::new(0.0, 0.0, -6.0), raster, backend: 0 };
@@ -22,7 +22,7 @@ fn display() -> Display {
     }
 }
 
-const FACTS: VolumeFacts = VolumeFacts {
+pub(super) const FACTS: VolumeFacts = VolumeFacts {
     dims: UVec3::new(256, 256, 108),
     frame: VolumeFrame {
         axes_m: DMat3::from_cols(
@@ -36,23 +36,24 @@ const FACTS: VolumeFacts = VolumeFacts {
     value_range: (-1024.0, 3033.0),
 };
 
-fn read(text: &str) -> Result<Scene, SceneError> {
+pub(super) fn read(text: &str) -> Result<Scene, SceneError> {
     read::scene_from_text(&SceneText { file: "a.toml".into(), text: text.into() }, "a", Path::new(""))
 }
 
-fn refusal(text: &str) -> String {
+pub(super) fn refusal(text: &str) -> String {
     let said = read(text).unwrap_err().to_string();
     assert!(!said.contains('\n'), "not one sentence: {said}");
     said
 }
 
-const OPTICS: &str = "[volume]\nsource = 'a.lloom'\n[optics]\nextinction_unit = 'per_metre'\n";
+pub(super) const OPTICS: &str = "[volume]\nsource = 'a.lloom'\n[optics]\nextinction_unit = 'per_metre'\n";
 
 #[test]
 fn the_examples_are_scenes() {
     for (name, text) in [
         ("shells", include_str!("../../scenes/shells.toml")),
         ("cranium", include_str!("../../scenes/cranium.toml")),
+        ("illustration", include_str!("../../scenes/illustration.toml")),
     ] {
         let scene = read(text).unwrap_or_else(|e| panic!("{name}: {e}"));
         for index in 0..scene.frame_count {
@@ -182,7 +183,7 @@ fn a_look_relative_to_a_volume_cannot_say_what_is_empty() {
     let said = Scene::visibility_in_file(&path).unwrap_err().to_string();
     assert!(said.contains("[optics]") && said.contains("--empty-below") && !said.contains('\n'), "{said}");
     write(&format!("{OPTICS}extinction = [[100, 0], [101, 5]]\ncolour = [[0, 1, 1, 1]]\n"));
-    let shown = Scene::visibility_in_file(&path).unwrap();
+    let shown = &Scene::visibility_in_file(&path).unwrap()[0];
     assert!(shown.is_empty_on(-5e3, 100.0) && !shown.is_empty_on(100.5, 100.6));
     assert!(Scene::load(&path.to_string_lossy()).is_err(), "its store is not there");
 }

@@ -15,6 +15,7 @@ mod export;
 pub use export::{ExportSummary, export};
 
 use crate::FrontendError;
+use crate::cli::BackendArgs;
 use crate::scene::VolumeFacts;
 use crate::simulate::{Event, FrameSource};
 use backend::protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
@@ -143,4 +144,23 @@ impl FrameSource for Session {
 /// Which projectors each of `backends` back-ends drives: shares as even as can be, neighbours together.
 pub fn assignment(display: &Display, backends: u32) -> Result<Vec<Vec<u32>>, FrontendError> {
     display.assign(backends as usize).map_err(|e| FrontendError::Display(e.to_string()))
+}
+
+/// What each of `backends` back-ends is told before the first frame.
+pub fn setups(
+    args: &BackendArgs,
+    volume: &VolumeRef,
+    display: &Display,
+    backends: u32,
+) -> Result<Vec<Setup>, FrontendError> {
+    let setup = |(projectors, backend)| Setup {
+        display: display.clone(),
+        projectors,
+        backend,
+        volume: volume.clone(),
+        device: args.device.into(),
+        filter: args.filter.into(),
+        cache_bytes: args.cache_mib << 20,
+    };
+    Ok(assignment(display, backends)?.into_iter().zip(0..).map(setup).collect())
 }

@@ -4,9 +4,8 @@ use super::pictures::FramePictures;
 use super::{CONTACT_SHEET, Event, FrameSource, Job};
 use crate::FrontendError;
 use crate::report::FrameSummary;
-use backend::output::{EyePlan, OutputError};
+use backend::output::OutputError;
 use backend::protocol::{FrameReport, FrameState, ProjectorImage};
-use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -16,16 +15,6 @@ use std::time::Instant;
 const WAITING_PICTURES: usize = 2;
 /// Writers at most; a renderer on the same machine wants the cores too.
 const MOST_WRITERS: usize = 4;
-
-/// An eye before the display.
-pub struct Eye {
-    /// Where it is, display frame, metres.
-    pub position_m: DVec3,
-    /// What it sees of which projector.
-    pub plan: EyePlan,
-    /// Where it is outside the viewing zone: a sentence that says so.
-    pub warning: Option<String>,
-}
 
 impl Job {
     /// Draws a frame into its folder and gives its account. `show` is told the part that is done, 0 to 1.

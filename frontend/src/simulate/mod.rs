@@ -1,10 +1,12 @@
 //! A run: frames are drawn, their pictures become files, and a report tells how it went.
 
+mod eyes;
 mod frame;
 mod pictures;
 mod source;
 
-pub use frame::Eye;
+pub use eyes::Eye;
+pub(crate) use eyes::EyeViews;
 pub use source::{Event, FrameSource};
 
 use crate::FrontendError;

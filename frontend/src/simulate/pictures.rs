@@ -1,23 +1,21 @@
 //! The pictures of one frame on their way to files, sheets and eyes.
 
-use super::Job;
+use super::eyes::hold;
+use super::{EyeViews, Job};
 use crate::FrontendError;
-use crate::session::pixel_from_screen;
-use backend::output::{ContactSheet, EyeView, OutputError, Picture, PictureRef, write_exr, write_png};
+use backend::output::{ContactSheet, OutputError, PictureRef, write_exr, write_png};
 use backend::protocol::ProjectorImage;
 use display_config::Display;
 use glam::DVec2;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 
 /// Takes pictures from several threads, in any order, and keeps none of them.
 pub(super) struct FramePictures<'a> {
     job: &'a Job,
     folder: PathBuf,
     sheet: Mutex<ContactSheet>,
-    eyes: Vec<Mutex<EyeView<'a>>>,
-    /// Which projectors' pictures have come.
-    seen: Mutex<Vec<bool>>,
+    eyes: EyeViews<'a>,
     /// The first failure.
     failure: Mutex<Option<OutputError>>,
 }
@@ -29,8 +27,7 @@ impl<'a> FramePictures<'a> {
             job,
             folder: folder.to_owned(),
             sheet: Mutex::new(ContactSheet::new(count as u32, shown_aspect(&job.display))),
-            eyes: job.eyes.iter().map(|eye| Mutex::new(EyeView::new(&eye.plan))).collect(),
-            seen: Mutex::new(vec![false; count]),
+            eyes: EyeViews::new(&job.display, &job.eyes),
             failure: Mutex::new(None),
         }
     }
@@ -64,11 +61,7 @@ impl<'a> FramePictures<'a> {
         }
         self.write(picture, |extension| self.projector_file(projector, extension))?;
         hold(&self.sheet).add(image.projector, picture);
-        if let Some(pixel) = pixel_from_screen(&self.job.display, projector) {
-            self.eyes.iter().try_for_each(|eye| hold(eye).add_image(image, &pixel))?;
-        }
-        hold(&self.seen)[projector] = true;
-        Ok(())
+        self.eyes.add(image)
     }
 
     fn write(&self, picture: PictureRef<'_>, name: impl Fn(&str) -> String) -> Result<(), OutputError> {
@@ -81,13 +74,7 @@ impl<'a> FramePictures<'a> {
         if let Some(error) = hold(&self.failure).take() {
             return Err(error.into());
         }
-        let missing: Vec<usize> =
-            hold(&self.seen).iter().enumerate().filter(|(_, seen)| !**seen).map(|(p, _)| p).collect();
-        if !missing.is_empty() {
-            return Err(FrontendError::MissingPictures { frame, missing });
-        }
-        for (index, eye) in self.eyes.iter().enumerate() {
-            let picture: Picture = hold(eye).picture();
+        for (index, picture) in self.eyes.finish(frame)?.iter().enumerate() {
             self.write(picture.view()?, |extension| Self::eye_file(index, extension))?;
         }
         Ok(())
@@ -97,11 +84,6 @@ impl<'a> FramePictures<'a> {
     pub fn write_sheet(&self, path: &Path) -> Result<(), OutputError> {
         write_png(path, hold(&self.sheet).view()?)
     }
-}
-
-/// A lock is only poisoned by a panic, which ends the run anyway.
-fn hold<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Width / height of what the first projector lights on the screen: its pixels need not be square there.

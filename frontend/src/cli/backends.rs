@@ -1,0 +1,63 @@
+//! The arguments that say with what pictures are drawn.
+
+use backend::protocol::{DeviceChoice, FilterChoice};
+use clap::{Args, ValueEnum};
+
+/// Back-ends, their devices and their caches.
+#[derive(Clone, Debug, Args)]
+pub struct BackendArgs {
+    /// How many back-ends share the projectors; 1 unless a launcher started more.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub backends: Option<u32>,
+    /// Which device casts the rays.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub device: DeviceArg,
+    /// How voxels are interpolated.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub filter: FilterArg,
+    /// Brick cache of each back-end.
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
+    pub cache_mib: u64,
+}
+
+/// See [`DeviceChoice`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DeviceArg {
+    /// The GPU, or the CPU where there is no Vulkan driver.
+    Auto,
+    /// The GPU or nothing.
+    Gpu,
+    /// All cores of the CPU.
+    Cpu,
+}
+
+impl From<DeviceArg> for DeviceChoice {
+    fn from(device: DeviceArg) -> Self {
+        match device {
+            DeviceArg::Auto => DeviceChoice::Auto,
+            DeviceArg::Gpu => DeviceChoice::Gpu,
+            DeviceArg::Cpu => DeviceChoice::Cpu,
+        }
+    }
+}
+
+/// See [`FilterChoice`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FilterArg {
+    /// The texture unit where it is precise, exact otherwise.
+    Auto,
+    /// The texture unit, whatever its precision.
+    Hardware,
+    /// Eight fetches, interpolated in f32.
+    Exact,
+}
+
+impl From<FilterArg> for FilterChoice {
+    fn from(filter: FilterArg) -> Self {
+        match filter {
+            FilterArg::Auto => FilterChoice::Auto,
+            FilterArg::Hardware => FilterChoice::Hardware,
+            FilterArg::Exact => FilterChoice::Exact,
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! The bands and enhancers in a scene file.
+
+use super::Checked;
+use crate::scene::file::{BandTable, EnhancerKind, EnhancerTable, Limits, Number, Triple};
+use crate::scene::text::SceneText;
+use crate::scene::{Anchor, Band, SceneEnhancer};
+use glam::DVec3;
+use shaders::optics::{
+    BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
+};
+use std::ops::Range;
+use toml::Spanned;
+
+/// Cosines of the angles to an axis: none of an effect beyond 37°, all of it within 11°.
+const FACING: Ramp = Ramp { low: 0.8, high: 0.98 };
+/// One minus the cosine of the angle to a clip plane's normal: the same angles.
+const CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
+/// Of the rescaled gradient: homogeneous tissue is no edge.
+const EDGES: Ramp = Ramp { low: 0.2, high: 0.8 };
+/// The scalar's change over a voxel that counts as the strongest edge, parts of the domain.
+const GRADIENT_MOST: f64 = 0.1;
+/// Metres.
+const THICKNESS_M: f64 = 0.01;
+const BOOST: f64 = 3.0;
+/// Metres.
+const RADIUS_M: f64 = 0.1;
+const AWAY: f64 = 1.0;
+const TOWARD: f64 = 0.1;
+
+impl EnhancerKind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::ClipPlane => "clip-plane",
+            Self::Probe => "probe",
+            Self::BandPicker => "band-picker",
+            Self::LayerOpacity => "layer-opacity",
+        }
+    }
+
+    /// Its keys besides `kind` and `carried`.
+    fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::ClipPlane => &["point_m", "normal", "context", "thickness_m", "boost", "strength"],
+            Self::Probe => &["centre_m", "radius_m", "axis", "facing", "gradient_most", "edges", "strength"],
+            Self::BandPicker => &["band", "axis", "facing", "strength"],
+            Self::LayerOpacity => &["band", "axis", "facing", "away", "toward"],
+        }
+    }
+}
+
+/// Keys that say what the tool says of an enhancer that it carries.
+const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];
+
+type Key = (&'static str, Range<usize>);
+
+impl EnhancerTable {
+    /// The keys that are given, with their places; `kind` and `carried` aside.
+    fn given(&self) -> impl Iterator<Item = Key> {
+        fn key<T>(name: &'static str, value: &Option<Spanned<T>>) -> Option<Key> {
+            value.as_ref().map(|value| (name, value.span()))
+        }
+        let keys = [
+            key("band", &self.band),
+            key("point_m", &self.point_m),
+            key("normal", &self.normal),
+            key("context", &self.context),
+            key("thickness_m", &self.thickness_m),
+            key("boost", &self.boost),
+            key("centre_m", &self.centre_m),
+            key("radius_m", &self.radius_m),
+            key("axis", &self.axis),
+            key("facing", &self.facing),
+            key("gradient_most", &self.gradient_most),
+            key("edges", &self.edges),
+            key("away", &self.away),
+            key("toward", &self.toward),
+            key("strength", &self.strength),
+        ];
+        keys.into_iter().flatten()
+    }
+
+    fn is_carried(&self) -> bool {
+        self.carried.as_ref().is_some_and(|carried| *carried.get_ref())
+    }
+}
+
+impl SceneText {
+    pub(super) fn bands(&self, tables: &[BandTable]) -> Checked<Vec<Band>> {
+        let mut bands: Vec<Band> = Vec::with_capacity(tables.len());
+        for table in tables {
+            let name = table.name.get_ref();
+            if bands.iter().any(|band| band.name == *name) {
+                let message = format!("there is a band `{name}` already; give each band its own name");
+                return Err(self.wrong(table.name.span(), message));
+            }
+            let values = Trapezoid::new(*table.corners.get_ref());
+            let values = values.map_err(|error| self.wrong(table.corners.span(), error.to_string()))?;
+            bands.push(Band { name: name.clone(), values });
+        }
+        Ok(bands)
+    }
+
+    /// The band of a name.
+    pub(super) fn band(&self, name: &Spanned<String>, bands: &[Band]) -> Checked<Trapezoid> {
+        let found = bands.iter().find(|band| band.name == *name.get_ref());
+        let names: Vec<&str> = bands.iter().map(|band| band.name.as_str()).collect();
+        let known = if names.is_empty() { "add a [[band]]".to_owned() } else { names.join(", ") };
+        let message =
+            || format!("there is no band `{}`; use one of the scene's bands: {known}", name.get_ref());
+        found.map(|band| band.values).ok_or_else(|| self.wrong(name.span(), message()))
+    }
+
+    /// The chain, in the order of the file.
+    pub(super) fn enhancers(
+        &self,
+        tables: &[EnhancerTable],
+        bands: &[Band],
+        has_tool: bool,
+    ) -> Checked<Vec<SceneEnhancer>> {
+        if let Some(extra) = tables.get(MOST_ENHANCERS) {
+            let message = format!("at most {MOST_ENHANCERS} enhancers can be chained; remove this one");
+            return Err(self.wrong(extra.kind.span(), message));
+        }
+        for (place, table) in tables.iter().enumerate() {
+            self.check_keys(table)?;
+            self.check_carrying(table, &tables[..place], has_tool)?;
+        }
+        tables.iter().map(|table| self.enhancer(table, bands)).collect()
+    }
+
+    fn check_keys(&self, table: &EnhancerTable) -> Checked<()> {
+        let kind = *table.kind.get_ref();
+        let Some((name, span)) = table.given().find(|(name, _)| !kind.keys().contains(name)) else {
+            return Ok(());
+        };
+        let keys = kind.keys().join(", ");
+        Err(self.wrong(span, format!("a {} has no {name}; its keys are {keys}", kind.name())))
+    }
+
+    fn check_carrying(&self, table: &EnhancerTable, before: &[EnhancerTable], has_tool: bool) -> Checked<()> {
+        let Some(carried) = table.carried.as_ref().filter(|_| table.is_carried()) else { return Ok(()) };
+        if !has_tool {
+            return Err(self.wrong(carried.span(), "the scene has no tool to carry it; add a [tool] table"));
+        }
+        let kind = table.kind.get_ref();
+        if before.iter().any(|other| other.is_carried() && other.kind.get_ref() == kind) {
+            let message = format!("the tool carries a {} already; at most one of a kind", kind.name());
+            return Err(self.wrong(carried.span(), message));
+        }
+        match table.given().find(|(name, _)| OF_THE_TOOL.contains(name)) {
+            Some((_, span)) => Err(self.wrong(span, "the tool that carries it says this; remove this line")),
+            None => Ok(()),
+        }
+    }
+
+    fn enhancer(&self, table: &EnhancerTable, bands: &[Band]) -> Checked<SceneEnhancer> {
+        let place = table.point_m.as_ref().or(table.centre_m.as_ref());
+        let anchor = match place.map(|place| self.point(place)).transpose()? {
+            _ if table.is_carried() => Anchor::Tool,
+            Some(point) => Anchor::Point(point),
+            None => Anchor::Volume,
+        };
+        let numbers = match table.kind.get_ref() {
+            EnhancerKind::ClipPlane => Enhancer::ClipPlane(self.clip_plane(table)?),
+            EnhancerKind::Probe => Enhancer::Probe(self.probe(table)?),
+            EnhancerKind::BandPicker => Enhancer::BandPicker(self.band_picker(table, bands)?),
+            EnhancerKind::LayerOpacity => Enhancer::LayerOpacity(self.layer_opacity(table, bands)?),
+        };
+        Ok(SceneEnhancer { numbers, anchor })
+    }
+
+    fn clip_plane(&self, table: &EnhancerTable) -> Checked<ClipPlane> {
+        Ok(ClipPlane {
+            point_in_display: DVec3::ZERO,
+            normal_in_display: self.direction_or(&table.normal, DVec3::Z)?,
+            context: self.ramp_or(&table.context, CONTEXT)?,
+            thickness_m: self.at_least_zero_or(&table.thickness_m, THICKNESS_M)?,
+            boost: self.at_least_zero_or(&table.boost, BOOST)?,
+            strength: self.within_or(&table.strength, 1.0, 0.0..=1.0)?,
+        })
+    }
+
+    fn probe(&self, table: &EnhancerTable) -> Checked<Probe> {
+        Ok(Probe {
+            centre_in_display: DVec3::ZERO,
+            radius_m: self.within_or(&table.radius_m, RADIUS_M, f64::MIN_POSITIVE..=f64::MAX)?,
+            axis_in_display: self.direction_or(&table.axis, DVec3::NEG_Z)?,
+            facing: self.ramp_or(&table.facing, FACING)?,
+            gradient_most: self.within_or(
+                &table.gradient_most,
+                GRADIENT_MOST,
+                f64::MIN_POSITIVE..=f64::MAX,
+            )?,
+            edges: self.ramp_or(&table.edges, EDGES)?,
+            strength: self.within_or(&table.strength, 1.0, 0.0..=1.0)?,
+        })
+    }
+
+    fn band_picker(&self, table: &EnhancerTable, bands: &[Band]) -> Checked<BandPicker> {
+        Ok(BandPicker {
+            band: self.band_of_enhancer(table, bands)?,
+            axis_in_display: self.direction_or(&table.axis, DVec3::NEG_Z)?,
+            facing: self.ramp_or(&table.facing, FACING)?,
+            strength: self.within_or(&table.strength, 1.0, 0.0..=1.0)?,
+        })
+    }
+
+    fn layer_opacity(&self, table: &EnhancerTable, bands: &[Band]) -> Checked<LayerOpacity> {
+        Ok(LayerOpacity {
+            band: self.band_of_enhancer(table, bands)?,
+            axis_in_display: self.direction_or(&table.axis, DVec3::NEG_Z)?,
+            facing: self.ramp_or(&table.facing, FACING)?,
+            away: self.at_least_zero_or(&table.away, AWAY)?,
+            toward: self.at_least_zero_or(&table.toward, TOWARD)?,
+        })
+    }
+
+    fn band_of_enhancer(&self, table: &EnhancerTable, bands: &[Band]) -> Checked<Trapezoid> {
+        let message = || format!("a {} needs the name of a band; add band", table.kind.get_ref().name());
+        let name = table.band.as_ref().ok_or_else(|| self.wrong(table.kind.span(), message()))?;
+        self.band(name, bands)
+    }
+
+    fn direction_or(&self, direction: &Option<Triple>, otherwise: DVec3) -> Checked<DVec3> {
+        direction.as_ref().map_or(Ok(otherwise), |direction| self.direction(direction))
+    }
+
+    fn ramp_or(&self, limits: &Option<Limits>, otherwise: Ramp) -> Checked<Ramp> {
+        let Some(limits) = limits else { return Ok(otherwise) };
+        let (low, high) = self.rising(limits)?;
+        Ok(Ramp { low, high })
+    }
+
+    fn at_least_zero_or(&self, number: &Option<Number>, otherwise: f64) -> Checked<f64> {
+        self.within_or(number, otherwise, 0.0..=f64::MAX)
+    }
+}

@@ -1,0 +1,105 @@
+//! From a scene file's text to a checked scene.
+
+mod enhancer;
+mod light;
+mod motion;
+mod optics;
+mod volume;
+
+use super::file::{DisplayTable, FramesTable, SceneFile, ToolTable};
+use super::text::SceneText;
+use super::{Look, Scene, SceneEnhancer, SceneError, VolumeSource, builtin};
+use backend::protocol::Tool;
+use glam::DVec3;
+use motion::Changeable;
+use shaders::optics::Enhancer;
+use std::path::Path;
+
+type Checked<T> = Result<T, SceneError>;
+
+/// Reads a scene file; its volume must be there.
+pub(super) fn scene_from_file(path: &Path) -> Checked<Scene> {
+    let scene = scene_without_volume(path)?;
+    match &scene.volume {
+        VolumeSource::Store(store) if !store.is_file() => Err(SceneError::NoStore { path: store.clone() }),
+        _ => Ok(scene),
+    }
+}
+
+/// Reads a scene file, whether its volume is there or not.
+pub(super) fn scene_without_volume(path: &Path) -> Checked<Scene> {
+    let read = |source| SceneError::Read { path: path.to_owned(), source };
+    let text =
+        SceneText { file: path.display().to_string(), text: std::fs::read_to_string(path).map_err(read)? };
+    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    scene_from_text(&text, &name, path.parent().unwrap_or(Path::new("")))
+}
+
+/// The scene of a text; stores are looked for from `folder`.
+pub(super) fn scene_from_text(text: &SceneText, name: &str, folder: &Path) -> Checked<Scene> {
+    let file: SceneFile = toml::from_str(&text.text).map_err(|e| text.not_readable(&e))?;
+    let volume = text.volume(&file.volume, folder)?;
+    let still = builtin::default_scene(volume);
+    let tool = file.tool.as_ref().map(|tool| text.tool(tool)).transpose()?;
+    let look = text.look(&file)?;
+    let bands = text.bands(&file.band)?;
+    let enhancers = text.enhancers(&file.enhancer, &bands, tool.is_some())?;
+    let (motion, edits) = text.motion(
+        &file.keyframe,
+        &Changeable {
+            look: look.as_ref(),
+            bands: &bands,
+            has_tool: tool.is_some(),
+            has_picker: enhancers.iter().any(is_picker),
+        },
+    )?;
+    Ok(Scene {
+        name: file.name.clone().unwrap_or_else(|| name.to_owned()),
+        voxel_size_m: file.volume.voxel_size_m.as_ref().map(|v| text.voxel_size(v)).transpose()?,
+        placement: file.placement.as_ref().map_or(Ok(still.placement), |p| text.placement(p))?,
+        look: look.map_or(still.look, Look::InDataUnits),
+        bands,
+        enhancers,
+        light: file.light.as_ref().map(|light| text.light(light)).transpose()?,
+        quality: text.quality(&file.quality)?,
+        eta: file.display.eta.as_ref().map(|eta| text.within(eta, 0.0..=1.0)).transpose()?,
+        observer_m: text.observer(&file.display)?,
+        tool,
+        motion,
+        edits,
+        frame_count: text.frame_count(&file.frames)?,
+        rate_hz: file.frames.rate_hz.as_ref().map_or(Ok(still.rate_hz), |rate| text.above_zero(rate))?,
+        volume: still.volume,
+    })
+}
+
+fn is_picker(enhancer: &SceneEnhancer) -> bool {
+    matches!(enhancer.numbers, Enhancer::BandPicker(_))
+}
+
+impl SceneText {
+    fn observer(&self, table: &DisplayTable) -> Checked<Option<DVec3>> {
+        table.observer_m.as_ref().map(|observer| self.before_screen(observer)).transpose()
+    }
+
+    fn tool(&self, table: &ToolTable) -> Checked<Tool> {
+        let rest = crate::scene::tool_at_rest(table.kind);
+        let tip = self.optional_point(&table.tip_m)?;
+        let axis = table.axis.as_ref().map(|axis| self.direction(axis)).transpose()?;
+        Ok(Tool {
+            tip_in_display: tip.unwrap_or(rest.tip_in_display),
+            axis_in_display: axis.unwrap_or(rest.axis_in_display),
+            ..rest
+        })
+    }
+
+    fn frame_count(&self, table: &FramesTable) -> Checked<u32> {
+        match &table.count {
+            Some(count) if *count.get_ref() == 0 => {
+                Err(self.wrong(count.span(), "it is 0; give at least 1 frame"))
+            }
+            Some(count) => Ok(*count.get_ref()),
+            None => Ok(1),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Eyes before the display, and what they see while pictures come.
+
+use crate::FrontendError;
+use crate::session::{eye_optics, pixel_from_screen};
+use backend::output::{EyePlan, EyeView, OutputError, Picture, ScreenRaster};
+use backend::protocol::ProjectorImage;
+use display_config::Display;
+use glam::DVec3;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// An eye before the display.
+pub struct Eye {
+    /// Where it is, display frame, metres.
+    pub position_m: DVec3,
+    /// What it sees of which projector.
+    pub plan: EyePlan,
+    /// Where it is outside the viewing zone: a sentence that says so.
+    pub warning: Option<String>,
+}
+
+impl Eye {
+    /// The eye at a place, display frame, metres.
+    ///
+    /// # Errors
+    /// A place that is not before the screen.
+    pub fn before(display: &Display, position_m: DVec3) -> Result<Self, FrontendError> {
+        let optics = eye_optics(display, position_m)?;
+        let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), optics.weights);
+        Ok(Self { position_m, plan, warning: optics.warning })
+    }
+}
+
+/// The views of all eyes of one frame, in the making: takes pictures from several threads, in any order.
+pub(crate) struct EyeViews<'a> {
+    display: &'a Display,
+    views: Vec<Mutex<EyeView<'a>>>,
+    /// Which projectors' pictures have come.
+    seen: Mutex<Vec<bool>>,
+}
+
+impl<'a> EyeViews<'a> {
+    pub fn new(display: &'a Display, eyes: &'a [Eye]) -> Self {
+        Self {
+            display,
+            views: eyes.iter().map(|eye| Mutex::new(EyeView::new(&eye.plan))).collect(),
+            seen: Mutex::new(vec![false; display.projectors.len()]),
+        }
+    }
+
+    /// Adds what a projector of the display shows.
+    pub fn add(&self, image: &ProjectorImage) -> Result<(), OutputError> {
+        let projector = image.projector as usize;
+        if let Some(pixel) = pixel_from_screen(self.display, projector) {
+            self.views.iter().try_for_each(|view| hold(view).add_image(image, &pixel))?;
+        }
+        if let Some(seen) = hold(&self.seen).get_mut(projector) {
+            *seen = true;
+        }
+        Ok(())
+    }
+
+    /// All pictures have come: the views, or what is missing.
+    pub fn finish(&self, frame: u32) -> Result<Vec<Picture>, FrontendError> {
+        let missing: Vec<usize> =
+            hold(&self.seen).iter().enumerate().filter(|(_, seen)| !**seen).map(|(p, _)| p).collect();
+        if !missing.is_empty() {
+            return Err(FrontendError::MissingPictures { frame, missing });
+        }
+        Ok(self.views.iter().map(|view| hold(view).picture()).collect())
+    }
+}
+
+/// A lock is only poisoned by a panic, which ends the run anyway.
+pub(super) fn hold<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
