@@ -23,7 +23,7 @@ fn random_scenes_are_light_by_every_device_and_near_the_truth() {
         seed: number("LIGHTLOOM_RANDOM_SEED", SEED),
         first: number("LIGHTLOOM_RANDOM_FIRST", 0),
         cases: number("LIGHTLOOM_RANDOM_CASES", CASES),
-        wanted: Wanted::default(),
+        wanted: Wanted::ALL,
     };
     println!("{plan:?}");
     let summary = run(&plan);

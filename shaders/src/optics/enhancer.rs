@@ -207,11 +207,13 @@ impl Enhancer {
         }
     }
 
-    /// The largest importance that it may give to scalars in [lo, hi].
-    pub fn most_importance(&self, lo: f64, hi: f64) -> f64 {
+    /// The largest importance that it may leave to scalars in [lo, hi] of which none had more than `told`.
+    pub fn most_importance(&self, lo: f64, hi: f64, told: f64) -> f64 {
         match self {
-            Self::BandPicker(picker) if picker.strength > 0.0 => picker.band.max_on(lo, hi),
-            Self::BandPicker(_) | Self::ClipPlane(_) | Self::Probe(_) | Self::LayerOpacity(_) => 0.0,
+            Self::BandPicker(picker) => {
+                told.max(told + (picker.band.max_on(lo, hi) - told) * picker.strength)
+            }
+            Self::ClipPlane(_) | Self::Probe(_) | Self::LayerOpacity(_) => told,
         }
     }
 }

@@ -173,8 +173,8 @@ impl Optics {
     /// The largest importance that acts for scalars in [lo, hi]; 0 where importance does nothing.
     pub fn most_importance_on(&self, lo: f64, hi: f64) -> f64 {
         let Some(mimda) = self.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0) else { return 0.0 };
-        let given = self.enhancers.iter().map(|enhancer| enhancer.most_importance(lo, hi));
-        given.fold(mimda.importance.max_on(lo, hi), f64::max)
+        let own = mimda.importance.max_on(lo, hi);
+        self.enhancers.iter().fold(own, |told, enhancer| enhancer.most_importance(lo, hi, told))
     }
 
     /// The largest factor that the chain may multiply an extinction by, at least 1.

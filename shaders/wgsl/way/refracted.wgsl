@@ -2,8 +2,11 @@
 
 @group(0) @binding(13) var<storage, read> index_table: array<f32>;
 
-// A pair over which the index changes by more than this is taken as a surface: Snell's law, and a mirror beyond the
-// critical angle. Over smaller changes the ray equation is followed: ν v changes by ∇ν times the way.
+// Pairs over which the index changes by more than this are halved, as often as MOST_HALVINGS tells.
+const LARGE_CHANGE: f32 = 0.004;
+const MOST_HALVINGS: u32 = 4u;
+// A pair that still changes it by more than this is taken as a surface: Snell's law, and a mirror beyond the critical
+// angle. Over smaller changes the ray equation is followed: ν v changes by ∇ν times the way.
 const SURFACE: f32 = 0.02;
 // Ways that are longer than this many diagonals of the volume end.
 const LONGEST_WAY_DIAGONALS: f32 = 4.0;
@@ -37,8 +40,9 @@ struct Bent {
     // Metres since that turn, and of the whole way.
     t: f32,
     way: f32,
-    // Whether it was turned by a surface that it may not have passed yet, and the index beyond.
+    // Whether it was turned by a surface that it may not have passed yet, and the indices on both sides.
     is_passing: bool,
+    index_before: f32,
     index_beyond: f32,
 }
 
@@ -51,7 +55,8 @@ fn direction_beyond(bent: ptr<function, Bent>, gradient: vec3<f32>, s0: f32, s2:
     let was_passing = (*bent).is_passing;
     (*bent).is_passing = false;
     let square = dot(gradient, gradient);
-    if square < LEAST_SQUARE || (was_passing && abs((*bent).index_beyond - n0) > SURFACE) {
+    let is_before = was_passing && abs(n0 - (*bent).index_before) < abs(n0 - (*bent).index_beyond);
+    if square < LEAST_SQUARE || is_before {
         return v;
     }
     if abs(n2 - n0) <= SURFACE {
@@ -66,6 +71,7 @@ fn direction_beyond(bent: ptr<function, Bent>, gradient: vec3<f32>, s0: f32, s2:
         return normalize(v - normal * (2.0 * abs(towards)));
     }
     (*bent).is_passing = true;
+    (*bent).index_before = n0;
     (*bent).index_beyond = n2;
     return normalize(v * n0 + normal * (sqrt(beyond) - along));
 }
@@ -113,7 +119,6 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     bent.t = 0.0;
     bent.way = 0.0;
     bent.is_passing = false;
-    bent.index_beyond = 0.0;
     follow_chain(bent.ray);
     let longest_way = params.resolution.w * LONGEST_WAY_DIAGONALS;
     var at = leaf_at(bent.ray.origin_in_volume, bent.ray);
@@ -145,7 +150,7 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
         let span_left = max(min(t_out, next_break(bent.t)) - bent.t, LEAST_PAIR * voxel);
         let pairs = max(1.0, ceil(span_left / (2.0 * longest_step(node, bent.ray))));
-        let step = 0.5 * span_left / pairs;
+        var step = 0.5 * span_left / pairs;
         let t0 = bent.t;
         let middle = point_in(brick.own, t0 + step);
         if !is_visible_at(brick, middle) {
@@ -165,8 +170,13 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         if !known {
             s0 = scalar_at(brick, bent.ray, t0);
         }
-        let s1 = scalar_at(brick, bent.ray, t0 + step);
         s2 = scalar_at(brick, bent.ray, t0 + 2.0 * step);
+        for (var halved = 0u; halved < MOST_HALVINGS && abs(index_at(s2) - index_at(s0)) > LARGE_CHANGE; halved++) {
+            step *= 0.5;
+            s2 = scalar_at(brick, bent.ray, t0 + 2.0 * step);
+            *count += 1u;
+        }
+        let s1 = scalar_at(brick, bent.ray, t0 + step);
         known = true;
         *count += 3u;
         let ray = bent.ray;

@@ -13,7 +13,9 @@ use crate::twin::tables::is_vacant;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
 use crate::twin::{Cast, Real, Scene, vector::Vec3};
 
-/// See `wgsl/way/refracted.wgsl` for these four.
+/// See `wgsl/way/refracted.wgsl` for these six.
+const LARGE_CHANGE: f64 = 0.004;
+const MOST_HALVINGS: u32 = 4;
 const SURFACE: f64 = 0.02;
 const LONGEST_WAY_DIAGONALS: f64 = 4.0;
 const LEAST_PAIR: f64 = 1e-3;
@@ -27,8 +29,8 @@ struct Bent<F> {
     t: F,
     /// Metres of the whole way.
     way: F,
-    /// The index beyond a surface that turned the ray and that it may not have passed yet.
-    passing: Option<F>,
+    /// The indices before and beyond a surface that turned the ray and that it may not have passed yet.
+    passing: Option<(F, F)>,
 }
 
 /// The refraction index at a scalar.
@@ -71,7 +73,8 @@ impl<F: Real> Bent<F> {
         let table = &scene.tables.index;
         let v = self.ray.direction_in_display;
         let (n0, n2) = (index_at(table, s0), index_at(table, s2));
-        let is_before = self.passing.take().is_some_and(|beyond| (beyond - n0).abs() > F::of(SURFACE));
+        let passing = self.passing.take();
+        let is_before = passing.is_some_and(|(before, beyond)| (n0 - before).abs() < (n0 - beyond).abs());
         let square = gradient.dot(gradient);
         if square < F::of(LEAST_SQUARE) || is_before {
             return v;
@@ -91,7 +94,7 @@ impl<F: Real> Bent<F> {
         if beyond < F::ZERO {
             return normalize(v - normal * (F::of(2.0) * towards.abs()));
         }
-        self.passing = Some(n2);
+        self.passing = Some((n0, n2));
         normalize(v * n0 + normal * (beyond.sqrt() - along))
     }
 }
@@ -177,7 +180,7 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
         let span_left = (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel);
         let two = F::of(2.0);
         let pairs = (span_left / (two * longest_step::<F, K>(scene, node, &bent.ray))).ceil().most(F::ONE);
-        let step = F::of(0.5) * span_left / pairs;
+        let mut step = F::of(0.5) * span_left / pairs;
         let t0 = bent.t;
         let middle = brick.own.point(t0 + step);
         if !brick.is_visible_at(middle) {
@@ -196,13 +199,22 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
         }
         let ray = bent.ray;
         let s0 = known.unwrap_or_else(|| brick.scalar_at::<K>(scene, &ray, t0));
+        let table = &scene.tables.index;
+        let mut s2 = brick.scalar_at::<K>(scene, &ray, t0 + two * step);
+        for _ in 0..MOST_HALVINGS {
+            if (index_at(table, s2) - index_at(table, s0)).abs() <= F::of(LARGE_CHANGE) {
+                break;
+            }
+            step = F::of(0.5) * step;
+            s2 = brick.scalar_at::<K>(scene, &ray, t0 + two * step);
+            cast.samples += 1;
+        }
         let mut t1 = t0 + step;
         let s1 = brick.scalar_at::<K>(scene, &ray, t1);
-        let mut s2 = brick.scalar_at::<K>(scene, &ray, t0 + two * step);
         cast.samples += 3;
         let mut next_brick = brick;
         let mut is_turned = false;
-        if bends(&scene.tables.index, s0, s2) {
+        if bends(table, s0, s2) {
             let gradient = Gradients::new::<K>(scene, &brick, &ray, t1).at;
             let direction = bent.direction_beyond(scene, gradient, (s0, s2), two * step);
             is_turned = direction != ray.direction_in_display;
