@@ -29,7 +29,7 @@ pub fn open_device(
             reason: reason.into(),
             filter: "exact".into(),
         };
-        Ok(ChosenDevice { device: Device::Cpu(CpuDevice::new(slots)), info })
+        Ok(ChosenDevice { device: Device::Cpu(Box::new(CpuDevice::new(slots))), info })
     };
     match (choice, open_gpu(filter, cache_bytes, slots_needed)) {
         (DeviceChoice::Cpu, _) => cpu("it was asked for"),

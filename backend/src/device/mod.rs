@@ -22,7 +22,7 @@ pub struct DeviceError(pub String);
 #[derive(Debug)]
 pub enum Device {
     /// The twin, on all cores.
-    Cpu(CpuDevice),
+    Cpu(Box<CpuDevice>),
     /// A wgpu device.
     #[cfg(feature = "gpu")]
     Gpu(Box<gpu::GpuDevice>),

@@ -102,7 +102,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     };
     let mut cut = limited_cut(&*source, &rules, broken);
     let leaves: Vec<u32> = cut.walk().filter(|&p| !rules.is_empty(cut.node(p))).collect();
-    let mut device = Device::Cpu(CpuDevice::new(leaves.len() as u32));
+    let mut device = Device::Cpu(Box::new(CpuDevice::new(leaves.len() as u32)));
     let mut cells = Vec::new();
     for (slot, &place) in (0..).zip(&leaves) {
         let brick = source.brick(cut.node(place).key).unwrap();

@@ -1,34 +1,39 @@
 //! View-dependent band picker (LFD section 4).
 
 use super::band::{band_between, band_most};
-use super::chain::{scaled, xyz};
+use super::chain::{Hooks, scaled, xyz};
 use super::{Constants, LinkState, Place};
 use crate::twin::composite::Sample;
 use crate::twin::importance::Importance;
 use crate::twin::{Real, vector::Vec3};
 
-/// x: weight of the change.
-#[inline(always)]
-pub(super) fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-    let aligned = xyz(&link[1]).dot(view).most(F::ZERO).smoothstep(link[2][0], link[2][1]);
-    [link[1][3] * aligned, F::ZERO, F::ZERO, F::ZERO]
-}
+/// Twin of `wgsl/enhance/band_picker.wgsl`.
+pub struct BandPicker;
 
-#[inline(always)]
-pub(super) fn at<F: Real>(
-    link: &Constants<F>,
-    state: &LinkState<F>,
-    sample: Sample<F>,
-    place: &Place<F>,
-) -> Sample<F> {
-    let weight = state.weights[0];
-    let picked = band_between(&link[0], place.scalars);
-    let changed = scaled(sample, F::ONE - weight * (F::ONE - picked));
-    if !place.has_importance {
-        return changed;
+impl Hooks for BandPicker {
+    /// x: weight of the change.
+    #[inline(always)]
+    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
+        let aligned = xyz(&link[1]).dot(view).most(F::ZERO).smoothstep(link[2][0], link[2][1]);
+        [link[1][3] * aligned, F::ZERO, F::ZERO, F::ZERO]
     }
-    let toward = |from: F, to: F| from + (to - from) * weight;
-    let Importance { mean, most } = sample.importance;
-    let most = toward(most, band_most(&link[0], place.scalars));
-    Sample { importance: Importance { mean: toward(mean, picked), most }, ..changed }
+
+    #[inline(always)]
+    fn at<F: Real>(
+        link: &Constants<F>,
+        state: &LinkState<F>,
+        sample: Sample<F>,
+        place: &Place<F>,
+    ) -> Sample<F> {
+        let weight = state.weights[0];
+        let picked = band_between(&link[0], place.scalars);
+        let changed = scaled(sample, F::ONE - weight * (F::ONE - picked));
+        if !place.has_importance {
+            return changed;
+        }
+        let toward = |from: F, to: F| from + (to - from) * weight;
+        let Importance { mean, most } = sample.importance;
+        let most = toward(most, band_most(&link[0], place.scalars));
+        Sample { importance: Importance { mean: toward(mean, picked), most }, ..changed }
+    }
 }

@@ -1,6 +1,6 @@
 //! The chain of enhancers along one ray: each hook calls the links in order.
 
-use super::{Constants, band_picker, clip_plane, layer_opacity, probe};
+use super::{BandPicker, ClipPlane, Constants, LayerOpacity, Probe};
 use crate::compose::EnhancerKind;
 use crate::optics::MOST_ENHANCERS;
 use crate::twin::composite::{Accumulated, Composite, Sample};
@@ -33,6 +33,53 @@ pub struct Place<F> {
     pub has_importance: bool,
 }
 
+/// An enhancer's hooks: at the ray's start, at its samples and at its end.
+pub(super) trait Hooks {
+    /// What it makes of the ray's direction, for the other hooks.
+    #[inline(always)]
+    fn start<F: Real>(_: &Constants<F>, _view: Vec3<F>) -> [F; 4] {
+        [F::ZERO; 4]
+    }
+
+    /// Where its law is not smooth on a straight way; far where there is no such place.
+    #[inline(always)]
+    fn breaks<F: Real>(_: &Constants<F>, _view: Vec3<F>, _: &Ray<F>) -> [F; 3] {
+        [far(); 3]
+    }
+
+    /// How much it makes samples vary within a step, for the estimate of a step's error.
+    #[inline(always)]
+    fn spread<F: Real>(_: &Constants<F>) -> F {
+        F::ZERO
+    }
+
+    /// What it makes of a sample.
+    fn at<F: Real>(
+        link: &Constants<F>,
+        state: &LinkState<F>,
+        sample: Sample<F>,
+        place: &Place<F>,
+    ) -> Sample<F>;
+
+    /// What it makes of all that a ray has gathered.
+    #[inline(always)]
+    fn end<F: Real>(_: &Constants<F>, _: &LinkState<F>, front: Accumulated<F>) -> Accumulated<F> {
+        front
+    }
+}
+
+/// A call of a hook of the enhancer of a kind.
+macro_rules! hook {
+    ($kind:expr, $name:ident($($argument:expr),*)) => {
+        match $kind {
+            EnhancerKind::ClipPlane => ClipPlane::$name($($argument),*),
+            EnhancerKind::Probe => Probe::$name($($argument),*),
+            EnhancerKind::BandPicker => BandPicker::$name($($argument),*),
+            EnhancerKind::LayerOpacity => LayerOpacity::$name($($argument),*),
+        }
+    };
+}
+
 /// The chain of one ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<F> {
@@ -55,7 +102,7 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     fn start_links(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            self.links[i].weights = start(kind, &scene.view.links[i], self.view);
+            self.links[i].weights = hook!(kind, start(&scene.view.links[i], self.view));
         }
         self.follow(scene, ray);
     }
@@ -64,7 +111,7 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     pub fn follow(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            self.links[i].breaks = breaks(kind, &scene.view.links[i], self.view, ray);
+            self.links[i].breaks = hook!(kind, breaks(&scene.view.links[i], self.view, ray));
         }
     }
 
@@ -86,7 +133,7 @@ impl<F: Real> Chain<F> {
         let mut sum = F::ZERO;
         if K::IS_FULL {
             for (i, kind) in scene.needs.chain.kinds().enumerate() {
-                sum = sum + spread(kind, &scene.view.links[i]);
+                sum = sum + hook!(kind, spread(&scene.view.links[i]));
             }
         }
         sum
@@ -115,58 +162,20 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     fn enhance_at(&self, scene: &Scene<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            sample = at(kind, &scene.view.links[i], &self.links[i], sample, place);
+            sample = hook!(kind, at(&scene.view.links[i], &self.links[i], sample, place));
         }
         sample
     }
 
-    /// What the links make of a ray at its end. None of today's changes it.
+    /// What the links make of a ray at its end.
     #[inline(always)]
-    pub fn end(&self, front: Accumulated<F>) -> Accumulated<F> {
+    pub fn end<K: Kernel>(&self, scene: &Scene<F>, mut front: Accumulated<F>) -> Accumulated<F> {
+        if K::IS_FULL {
+            for (i, kind) in scene.needs.chain.kinds().enumerate() {
+                front = hook!(kind, end(&scene.view.links[i], &self.links[i], front));
+            }
+        }
         front
-    }
-}
-
-#[inline(always)]
-fn start<F: Real>(kind: EnhancerKind, link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-    match kind {
-        EnhancerKind::ClipPlane => clip_plane::start(link, view),
-        EnhancerKind::Probe => probe::start(link, view),
-        EnhancerKind::BandPicker => band_picker::start(link, view),
-        EnhancerKind::LayerOpacity => layer_opacity::start(link, view),
-    }
-}
-
-#[inline(always)]
-fn breaks<F: Real>(kind: EnhancerKind, link: &Constants<F>, view: Vec3<F>, ray: &Ray<F>) -> [F; 3] {
-    match kind {
-        EnhancerKind::ClipPlane => clip_plane::breaks(link, ray),
-        EnhancerKind::Probe => probe::breaks(link, view, ray),
-        EnhancerKind::BandPicker | EnhancerKind::LayerOpacity => [far(); 3],
-    }
-}
-
-#[inline(always)]
-fn spread<F: Real>(kind: EnhancerKind, link: &Constants<F>) -> F {
-    match kind {
-        EnhancerKind::Probe => probe::spread(link),
-        EnhancerKind::ClipPlane | EnhancerKind::BandPicker | EnhancerKind::LayerOpacity => F::ZERO,
-    }
-}
-
-#[inline(always)]
-fn at<F: Real>(
-    kind: EnhancerKind,
-    link: &Constants<F>,
-    state: &LinkState<F>,
-    sample: Sample<F>,
-    place: &Place<F>,
-) -> Sample<F> {
-    match kind {
-        EnhancerKind::ClipPlane => clip_plane::at(link, state, sample, place),
-        EnhancerKind::Probe => probe::at(link, state, sample, place),
-        EnhancerKind::BandPicker => band_picker::at(link, state, sample, place),
-        EnhancerKind::LayerOpacity => layer_opacity::at(link, state, sample, place),
     }
 }
 

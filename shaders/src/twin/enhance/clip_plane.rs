@@ -1,44 +1,49 @@
 //! Clip plane with view-dependent context (LFD section 4).
 
-use super::chain::{scaled, xyz};
+use super::chain::{Hooks, scaled, xyz};
 use super::{Constants, LinkState, Place};
 use crate::twin::composite::Sample;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Real, vector::Vec3};
 
-/// x: factor of what is cut away.
-#[inline(always)]
-pub(super) fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-    let aside = F::ONE - (-xyz(&link[0]).dot(view)).most(F::ZERO);
-    let context = aside.smoothstep(link[1][0], link[1][1]);
-    [F::ONE + (context - F::ONE) * link[2][0], F::ZERO, F::ZERO, F::ZERO]
-}
+/// Twin of `wgsl/enhance/clip_plane.wgsl`.
+pub struct ClipPlane;
 
-#[inline(always)]
-pub(super) fn breaks<F: Real>(link: &Constants<F>, ray: &Ray<F>) -> [F; 3] {
-    if link[2][0] <= F::ZERO {
-        return [far(); 3];
+impl Hooks for ClipPlane {
+    /// x: factor of what is cut away.
+    #[inline(always)]
+    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
+        let aside = F::ONE - (-xyz(&link[0]).dot(view)).most(F::ZERO);
+        let context = aside.smoothstep(link[1][0], link[1][1]);
+        [F::ONE + (context - F::ONE) * link[2][0], F::ZERO, F::ZERO, F::ZERO]
     }
-    let (normal, offset) = (xyz(&link[0]), link[0][3]);
-    [ray.plane_crossing(normal, offset), ray.plane_crossing(normal, offset - link[1][2]), far()]
-}
 
-#[inline(always)]
-pub(super) fn at<F: Real>(
-    link: &Constants<F>,
-    state: &LinkState<F>,
-    sample: Sample<F>,
-    place: &Place<F>,
-) -> Sample<F> {
-    let [_, _, thickness, boost] = link[1];
-    let above = xyz(&link[0]).dot(place.point) - link[0][3];
-    if above > F::ZERO {
-        return scaled(sample, state.weights[0]);
+    #[inline(always)]
+    fn breaks<F: Real>(link: &Constants<F>, _: Vec3<F>, ray: &Ray<F>) -> [F; 3] {
+        if link[2][0] <= F::ZERO {
+            return [far(); 3];
+        }
+        let (normal, offset) = (xyz(&link[0]), link[0][3]);
+        [ray.plane_crossing(normal, offset), ray.plane_crossing(normal, offset - link[1][2]), far()]
     }
-    if above <= -thickness {
-        return sample;
+
+    #[inline(always)]
+    fn at<F: Real>(
+        link: &Constants<F>,
+        state: &LinkState<F>,
+        sample: Sample<F>,
+        place: &Place<F>,
+    ) -> Sample<F> {
+        let [_, _, thickness, boost] = link[1];
+        let above = xyz(&link[0]).dot(place.point) - link[0][3];
+        if above > F::ZERO {
+            return scaled(sample, state.weights[0]);
+        }
+        if above <= -thickness {
+            return sample;
+        }
+        let sliced = link[2][0] * above.smoothstep(-thickness, F::ZERO);
+        let changed = scaled(sample, F::ONE + (boost - F::ONE) * sliced);
+        Sample { lit: changed.lit * (F::ONE - sliced), ..changed }
     }
-    let sliced = link[2][0] * above.smoothstep(-thickness, F::ZERO);
-    let changed = scaled(sample, F::ONE + (boost - F::ONE) * sliced);
-    Sample { lit: changed.lit * (F::ONE - sliced), ..changed }
 }

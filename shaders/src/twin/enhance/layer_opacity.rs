@@ -1,25 +1,30 @@
 //! Layer opacity by view direction (LFD section 4).
 
 use super::band::band_between;
-use super::chain::{scaled, xyz};
+use super::chain::{Hooks, scaled, xyz};
 use super::{Constants, LinkState, Place};
 use crate::twin::composite::Sample;
 use crate::twin::{Real, vector::Vec3};
 
-/// x: μ − 1.
-#[inline(always)]
-pub(super) fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-    let [low, high, away, toward] = link[2];
-    let aligned = xyz(&link[1]).dot(view).smoothstep(low, high);
-    [away + (toward - away) * aligned - F::ONE, F::ZERO, F::ZERO, F::ZERO]
-}
+/// Twin of `wgsl/enhance/layer_opacity.wgsl`.
+pub struct LayerOpacity;
 
-#[inline(always)]
-pub(super) fn at<F: Real>(
-    link: &Constants<F>,
-    state: &LinkState<F>,
-    sample: Sample<F>,
-    place: &Place<F>,
-) -> Sample<F> {
-    scaled(sample, F::ONE + band_between(&link[0], place.scalars) * state.weights[0])
+impl Hooks for LayerOpacity {
+    /// x: μ − 1.
+    #[inline(always)]
+    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
+        let [low, high, away, toward] = link[2];
+        let aligned = xyz(&link[1]).dot(view).smoothstep(low, high);
+        [away + (toward - away) * aligned - F::ONE, F::ZERO, F::ZERO, F::ZERO]
+    }
+
+    #[inline(always)]
+    fn at<F: Real>(
+        link: &Constants<F>,
+        state: &LinkState<F>,
+        sample: Sample<F>,
+        place: &Place<F>,
+    ) -> Sample<F> {
+        scaled(sample, F::ONE + band_between(&link[0], place.scalars) * state.weights[0])
+    }
 }

@@ -8,5 +8,9 @@ mod layer_opacity;
 mod link;
 mod probe;
 
+pub use band_picker::BandPicker;
 pub use chain::{Chain, LinkState, Place};
+pub use clip_plane::ClipPlane;
+pub use layer_opacity::LayerOpacity;
 pub use link::{Constants, constants};
+pub use probe::Probe;

@@ -1,63 +1,68 @@
 //! Context-preserving probe (LFD eq. 4 and 5).
 
-use super::chain::{scaled, xyz};
+use super::chain::{Hooks, scaled, xyz};
 use super::{Constants, LinkState, Place};
 use crate::twin::composite::Sample;
 use crate::twin::gradient::LEAST_SQUARE;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Real, vector::Vec3};
 
-/// x: ω_a.
-#[inline(always)]
-pub(super) fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-    let aligned = xyz(&link[1]).dot(view).most(F::ZERO).smoothstep(link[2][0], link[2][1]);
-    [aligned, F::ZERO, F::ZERO, F::ZERO]
-}
+/// Twin of `wgsl/enhance/probe.wgsl`.
+pub struct Probe;
 
-/// The factors vary with the gradient, from sample to sample.
-#[inline(always)]
-pub(super) fn spread<F: Real>(link: &Constants<F>) -> F {
-    F::of(0.1) * link[1][3]
-}
+impl Hooks for Probe {
+    /// x: ω_a.
+    #[inline(always)]
+    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
+        let aligned = xyz(&link[1]).dot(view).most(F::ZERO).smoothstep(link[2][0], link[2][1]);
+        [aligned, F::ZERO, F::ZERO, F::ZERO]
+    }
 
-/// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.
-#[inline(always)]
-pub(super) fn breaks<F: Real>(link: &Constants<F>, view: Vec3<F>, ray: &Ray<F>) -> [F; 3] {
-    let (centre, radius) = (xyz(&link[0]), link[0][3]);
-    let from_centre = ray.origin_in_display - centre;
-    let nearest = -from_centre.dot(ray.direction_in_display);
-    let aside = from_centre + ray.direction_in_display * nearest;
-    let square = radius * radius - aside.dot(aside);
-    if link[1][3] <= F::ZERO || square <= F::ZERO {
-        return [far(); 3];
+    /// The factors vary with the gradient, from sample to sample.
+    #[inline(always)]
+    fn spread<F: Real>(link: &Constants<F>) -> F {
+        F::of(0.1) * link[1][3]
     }
-    let half = square.sqrt();
-    [nearest - half, ray.plane_crossing(view, view.dot(centre)), nearest + half]
-}
 
-#[inline(always)]
-pub(super) fn at<F: Real>(
-    link: &Constants<F>,
-    state: &LinkState<F>,
-    sample: Sample<F>,
-    place: &Place<F>,
-) -> Sample<F> {
-    let (from_centre, radius) = (place.point - xyz(&link[0]), link[0][3]);
-    if from_centre.dot(from_centre) >= radius * radius {
-        return sample;
+    /// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.
+    #[inline(always)]
+    fn breaks<F: Real>(link: &Constants<F>, view: Vec3<F>, ray: &Ray<F>) -> [F; 3] {
+        let (centre, radius) = (xyz(&link[0]), link[0][3]);
+        let from_centre = ray.origin_in_display - centre;
+        let nearest = -from_centre.dot(ray.direction_in_display);
+        let aside = from_centre + ray.direction_in_display * nearest;
+        let square = radius * radius - aside.dot(aside);
+        if link[1][3] <= F::ZERO || square <= F::ZERO {
+            return [far(); 3];
+        }
+        let half = square.sqrt();
+        [nearest - half, ray.plane_crossing(view, view.dot(centre)), nearest + half]
     }
-    let past = from_centre.dot(place.view);
-    let near = F::ONE - (past * past) / (radius * radius);
-    let edge = edge(link, state.weights[0], &sample, place);
-    let (mut opacity, mut intensity) = (edge * near, F::ONE - edge);
-    if past >= F::ZERO {
-        opacity = edge + (F::ONE - edge) * (F::ONE - near);
-        intensity = F::ONE - edge + edge * (F::ONE - near);
+
+    #[inline(always)]
+    fn at<F: Real>(
+        link: &Constants<F>,
+        state: &LinkState<F>,
+        sample: Sample<F>,
+        place: &Place<F>,
+    ) -> Sample<F> {
+        let (from_centre, radius) = (place.point - xyz(&link[0]), link[0][3]);
+        if from_centre.dot(from_centre) >= radius * radius {
+            return sample;
+        }
+        let past = from_centre.dot(place.view);
+        let near = F::ONE - (past * past) / (radius * radius);
+        let edge = edge(link, state.weights[0], &sample, place);
+        let (mut opacity, mut intensity) = (edge * near, F::ONE - edge);
+        if past >= F::ZERO {
+            opacity = edge + (F::ONE - edge) * (F::ONE - near);
+            intensity = F::ONE - edge + edge * (F::ONE - near);
+        }
+        let strength = link[1][3];
+        let changed = scaled(sample, F::ONE + (opacity - F::ONE) * strength);
+        let brightness = changed.brightness * (F::ONE + (intensity - F::ONE) * strength);
+        Sample { brightness, ..changed }
     }
-    let strength = link[1][3];
-    let changed = scaled(sample, F::ONE + (opacity - F::ONE) * strength);
-    let brightness = changed.brightness * (F::ONE + (intensity - F::ONE) * strength);
-    Sample { brightness, ..changed }
 }
 
 /// η: how much of an edge a sample is.

@@ -262,5 +262,5 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
             at = scene.leaf_beyond(node, exit.axis, point, &bent.ray);
         }
     }
-    cast.with_colours(chain.end(front))
+    cast.with_colours(chain.end::<K>(scene, front))
 }

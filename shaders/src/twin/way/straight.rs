@@ -117,5 +117,5 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Ca
         t = t_out;
         at = scene.leaf_beyond(node, exit.axis, ray.point(t), ray);
     }
-    cast.with_colours(chain.end(front))
+    cast.with_colours(chain.end::<K>(scene, front))
 }
