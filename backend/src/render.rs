@@ -41,6 +41,12 @@ pub enum RenderError {
     /// The optical model is no optical model.
     #[error(transparent)]
     Optics(#[from] shaders::optics::OpticsError),
+    /// The light is no light.
+    #[error(transparent)]
+    Light(#[from] shaders::optics::LightError),
+    /// The quality is no quality.
+    #[error("the quality's {0}")]
+    Quality(#[from] shaders::optics::QualityError),
 }
 
 /// What a renderer tells while it draws.

@@ -36,5 +36,7 @@ fn importance_between(s0: f32, s1: f32) -> Importance {
     let right = (importance_table[c1].value + last) * (0.5 * (u1 - f32(c1)));
     let whole = (importance_table[c1].integral - importance_table[c0 + 1u].integral)
         + (importance_table[c1].integral_rest - importance_table[c0 + 1u].integral_rest);
-    return Importance((left + whole + right) / (u1 - u0), max(at_ends, inside));
+    // The mean is a rounded quotient.
+    let most = max(at_ends, inside);
+    return Importance(min((left + whole + right) / (u1 - u0), most), most);
 }

@@ -33,7 +33,8 @@ impl TwinScene {
         let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
         let shape = source.shape();
         let lod = lod_rule(display, frame);
-        let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics };
+        let is_quadrilinear = frame.quality.quadrilinear;
+        let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear };
         let mut cut = Cut::new(source.summary(NodeKey::ROOT));
         let mut atlas = Vec::new();
         let mut places = vec![0];

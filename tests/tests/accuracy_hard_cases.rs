@@ -228,9 +228,11 @@ fn other() -> Vec<Case> {
         // On the outline of the jump a pixel loses all that lies before it or nothing.
         case("importance that jumps").with(|f| f.optics.mimda = mimda(0.8)).within(0.8, 4.0, ALL),
         case("importance that jumps, gamma 1").with(|f| f.optics.mimda = mimda(1.0)).within(0.8, 4.0, ALL),
-        // The kernel knows importance at the ends of its parts, not the peak between them: there it keeps a little of what
-        // the truth erases, and where the ray meets the peak once more it erases what the truth keeps.
-        case("importance that rises to 1, gamma 1").with(|f| f.optics.mimda = rising()).within(8.0, ALL, ALL),
+        // Where the ray turns below the peak, between two samples, the kernel keeps a little of what the truth erases, and
+        // where it meets the peak once more it erases that.
+        case("importance that rises to 1, gamma 1")
+            .with(|f| f.optics.mimda = rising())
+            .within(0.5, 6.0, 80.0),
         case("3e4 steps").with(|f| f.quality.step_voxels = 2.4e-3).within(0.05, 0.3, 1.0).few_pixels(),
         Case {
             is_beyond_llvmpipe: true,

@@ -92,7 +92,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
     let tables = Tables::new(&frame.optics, &needs);
     let lod = LodRule::new(&display, frame);
-    let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics };
+    let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear: false };
     let frame_rules = FrameRules {
         lod,
         optics: &frame.optics,

@@ -73,7 +73,12 @@ impl Residency {
     }
 
     fn rules<'a>(&'a self, rules: &'a FrameRules) -> IndexRules<'a> {
-        IndexRules { shape: &self.shape, lod: &rules.lod, optics: rules.optics }
+        IndexRules {
+            shape: &self.shape,
+            lod: &rules.lod,
+            optics: rules.optics,
+            is_quadrilinear: rules.is_quadrilinear,
+        }
     }
 
     /// Starts a frame: counters at zero, and a brick for every node of the cut that this frame's transfer functions

@@ -15,6 +15,8 @@ pub struct IndexRules<'a> {
     pub lod: &'a LodRule,
     /// Which values are visible, and how they map to the scalar.
     pub optics: &'a Optics,
+    /// Whether samples are blended with those of ancestors, whose values lie beyond the node's own bounds.
+    pub is_quadrilinear: bool,
 }
 
 impl IndexRules<'_> {
@@ -48,8 +50,12 @@ impl IndexRules<'_> {
         }
     }
 
-    /// Steps may grow where extinction is low; not where importance or refraction acts, which have no part in it.
+    /// Steps may grow where extinction is low; not where importance or refraction acts, which have no part in
+    /// it, nor where ancestors' values are blended in.
     fn most_extinction(&self, node: &CutNode) -> f64 {
+        if self.is_quadrilinear {
+            return f64::from(f32::MAX);
+        }
         match (node.summary, Compositing::for_optics(self.optics), Way::for_optics(self.optics)) {
             (Some(NodeSummary { min, max }), Compositing::Over, Way::Straight) => {
                 let [low, high] = [min, max].map(|value| self.optics.normalise(f64::from(value)));
@@ -159,7 +165,7 @@ mod tests {
                 }
             }
             let optics = optics();
-            let records = build_index(&cut, &IndexRules { shape: &shape, lod: &lod, optics: &optics });
+            let records = build_index(&cut, &IndexRules { shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false });
             for place in cut.walk() {
                 let key = cut.node(place).key;
                 for face in 0..6usize {

@@ -53,9 +53,10 @@ impl fmt::Display for Setting {
         let Quality { step_voxels, termination, lod_scale, .. } = self.quality;
         write!(
             f,
-            "step {step_voxels}, tolerance {}, termination {}, levels {lod_scale}, {}, {} bits",
+            "step {step_voxels}, tolerance {}, termination {}, levels {lod_scale}{}, {}, {} bits",
             small(self.quality.tolerance),
             small(termination),
+            if self.quality.quadrilinear { " blended" } else { "" },
             filter_name(self.filter),
             self.bits
         )

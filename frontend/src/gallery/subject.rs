@@ -113,7 +113,8 @@ impl Subject {
         let optics = &self.frame.optics;
         let per_metre = optics.extinction_per_metre(self.frame.voxel_m());
         let densest = most(&over_band(&optics.extinction, self.outer, 0.0, 1.0)) * per_metre * self.longest_m;
-        let factor = if densest > 0.0 { depth / densest } else { 1.0 };
+        // A curve that is next to nothing stays finite.
+        let factor = if densest > 0.0 { (depth / densest).min(1e12) } else { 1.0 };
         self.with_extinction(over_band(&optics.extinction, self.outer, 1.0, factor))
     }
 

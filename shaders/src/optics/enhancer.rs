@@ -153,6 +153,9 @@ pub struct EnhancerError {
 
 type Checked = Result<(), EnhancerError>;
 
+/// Kernels compute in f32: beyond this, products of numbers that are each fine would not be.
+const LARGEST: f64 = 1e6;
+
 impl Enhancer {
     /// Checks what the types do not.
     pub fn check(&self) -> Checked {
@@ -223,7 +226,8 @@ fn held(holds: bool, name: &'static str, value: f64, expected: &'static str) -> 
 }
 
 fn is_point(name: &'static str, point: DVec3) -> Checked {
-    point.to_array().into_iter().try_for_each(|c| held(c.is_finite(), name, c, "a finite number"))
+    let is_near = |c: f64| c.abs() <= LARGEST;
+    point.to_array().into_iter().try_for_each(|c| held(is_near(c), name, c, "a number of at most a million"))
 }
 
 fn is_unit(name: &'static str, vector: DVec3) -> Checked {
@@ -232,16 +236,22 @@ fn is_unit(name: &'static str, vector: DVec3) -> Checked {
 }
 
 fn is_ramp(ramp: &Ramp) -> Checked {
-    let is_good = ramp.low.is_finite() && ramp.high.is_finite() && ramp.low < ramp.high;
-    held(is_good, "a ramp's lower limit", ramp.low, "a finite number below its upper limit")
+    let is_good =
+        ramp.low.abs() <= LARGEST && ramp.high.abs() <= LARGEST && (ramp.low as f32) < ramp.high as f32;
+    held(
+        is_good,
+        "a ramp's lower limit",
+        ramp.low,
+        "below its upper limit in single precision, and within a million",
+    )
 }
 
 fn is_at_least_zero(name: &'static str, value: f64) -> Checked {
-    held(value.is_finite() && value >= 0.0, name, value, "a finite number of at least 0")
+    held((0.0..=LARGEST).contains(&value), name, value, "a number from 0 to a million")
 }
 
 fn is_above_zero(name: &'static str, value: f64) -> Checked {
-    held(value.is_finite() && value > 0.0, name, value, "a finite number above 0")
+    held((1.0 / LARGEST..=LARGEST).contains(&value), name, value, "a number from a millionth to a million")
 }
 
 fn is_share(name: &'static str, value: f64) -> Checked {

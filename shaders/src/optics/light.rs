@@ -32,7 +32,46 @@ pub struct Light {
     pub detail: Detail,
 }
 
+/// What is wrong with a light.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the light's {name} is {value}; it must be {expected}")]
+pub struct LightError {
+    /// Which number.
+    pub name: &'static str,
+    /// What it is.
+    pub value: f64,
+    /// What it must be.
+    pub expected: &'static str,
+}
+
 impl Light {
+    /// Checks what the types do not.
+    pub fn check(&self) -> Result<(), LightError> {
+        let held = |holds: bool, name, value, expected| {
+            if holds { Ok(()) } else { Err(LightError { name, value, expected }) }
+        };
+        let strength = match self.detail {
+            Detail::None => 0.0,
+            Detail::Unsharp { strength } => strength,
+            Detail::Exaggerated { contrast } => contrast,
+        };
+        let factors = [
+            ("ambient", self.ambient),
+            ("diffuse", self.diffuse),
+            ("specular", self.specular),
+            ("strength of detail", strength),
+        ];
+        for (name, value) in factors {
+            held((0.0..=1e6).contains(&value), name, value, "a number from 0 to a million")?;
+        }
+        let exponent = (1.0..=1e6).contains(&self.shininess);
+        held(exponent, "shininess", self.shininess, "a number from 1 to a million")?;
+        let half = (1e-12..=1e6).contains(&self.gradient_half);
+        held(half, "gradient_half", self.gradient_half, "a number from 1e-12 to a million")?;
+        let length = self.toward_light_in_display.length();
+        held((length - 1.0).abs() < 1e-5, "direction's length", length, "1")
+    }
+
     /// The material of a scene that has no factors per scalar.
     pub fn material(&self) -> Material {
         let Self { ambient, diffuse, specular, shininess, .. } = *self;

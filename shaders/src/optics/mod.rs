@@ -12,8 +12,8 @@ pub use curve::{Curve, CurveError, CurveValue};
 pub use enhancer::{
     BandPicker, ClipPlane, Enhancer, EnhancerError, LayerOpacity, MOST_ENHANCERS, Probe, Ramp,
 };
-pub use light::{Detail, Light};
+pub use light::{Detail, Light, LightError};
 pub use material::Material;
 pub use model::{ExtinctionUnit, Mimda, MimdaForm, Optics, OpticsError};
-pub use quality::Quality;
+pub use quality::{Quality, QualityError};
 pub use trapezoid::{Trapezoid, TrapezoidError};

@@ -82,11 +82,23 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
-    /// A refraction index is zero.
-    #[error("refraction control point {index} is 0; refraction indices are above 0")]
+    /// A refraction index is out of reach.
+    #[error("refraction control point {index} is {value}; refraction indices lie in [0.001, 1000]")]
     Refraction {
         /// Which control point, from 0.
         index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A number is too large for kernels, which compute in f32.
+    #[error("{curve} control point {index} is beyond {largest:e}; correct it, or take another unit")]
+    TooLarge {
+        /// Which curve.
+        curve: &'static str,
+        /// Which control point, from 0.
+        index: usize,
+        /// The largest there may be.
+        largest: f64,
     },
     /// A material's highlight has an exponent below 1.
     #[error("material control point {index} has a shininess of {value}; it must be at least 1")]
@@ -109,6 +121,22 @@ pub enum OpticsError {
     },
 }
 
+/// Times a colour, and summed over a table, it must stay an f32.
+const LARGEST_EXTINCTION: f64 = 1e24;
+/// Of colours, and of the factors of materials and lights.
+const LARGEST_LIGHT: f64 = 1e6;
+
+fn too_large(
+    curve: &'static str,
+    largest: f64,
+    mut values: impl Iterator<Item = f64>,
+) -> Result<(), OpticsError> {
+    match values.position(|value| value > largest) {
+        Some(index) => Err(OpticsError::TooLarge { curve, index, largest }),
+        None => Ok(()),
+    }
+}
+
 impl Optics {
     /// Checks what the types do not.
     pub fn check(&self) -> Result<(), OpticsError> {
@@ -116,6 +144,14 @@ impl Optics {
         if !(lo.is_finite() && hi.is_finite() && lo < hi) {
             return Err(OpticsError::Domain(lo, hi));
         }
+        too_large("extinction", LARGEST_EXTINCTION, self.extinction.points().iter().map(|p| p.1))?;
+        too_large("colour", LARGEST_LIGHT, self.colour.points().iter().map(|p| p.1.max_element()))?;
+        let factors = self.materials.iter().flat_map(|m| m.points());
+        too_large(
+            "material",
+            LARGEST_LIGHT,
+            factors.map(|p| p.1.to_array().into_iter().fold(0.0, f64::max)),
+        )?;
         if let Some(mimda) = &self.mimda {
             if !(0.0..=1.0).contains(&mimda.gamma) {
                 return Err(OpticsError::Gamma(mimda.gamma));
@@ -130,9 +166,10 @@ impl Optics {
 
     /// Checks refraction, materials and enhancers.
     fn check_illustration(&self) -> Result<(), OpticsError> {
-        let zero = |curve: &Curve<f64>| curve.points().iter().position(|p| p.1 <= 0.0);
-        if let Some(index) = self.refraction.as_ref().and_then(zero) {
-            return Err(OpticsError::Refraction { index });
+        for (index, &(_, value)) in self.refraction.iter().flat_map(|index| index.points()).enumerate() {
+            if !(1e-3..=1e3).contains(&value) {
+                return Err(OpticsError::Refraction { index, value });
+            }
         }
         for (index, (_, material)) in self.materials.iter().flat_map(|m| m.points()).enumerate() {
             if material.shininess < 1.0 {

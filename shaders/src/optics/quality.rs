@@ -22,6 +22,42 @@ pub struct Quality {
     pub quadrilinear: bool,
 }
 
+/// Why numbers are no quality.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{name} is {value}; it must be {expected}")]
+pub struct QualityError {
+    /// Which number.
+    pub name: &'static str,
+    /// What it is.
+    pub value: f64,
+    /// What it must be.
+    pub expected: &'static str,
+}
+
+impl Quality {
+    /// The shortest and the longest `step_voxels`. Shorter ones add less to a ray than it can hold in f32; longer ones
+    /// are of no use.
+    pub const STEPS_VOXELS: (f64, f64) = (1e-4, 16.0);
+    /// The smallest `tolerance`: f32 holds no less.
+    pub const LEAST_TOLERANCE: f64 = 1e-9;
+
+    /// Checks what the types do not.
+    pub fn check(&self) -> Result<(), QualityError> {
+        let held = |holds: bool, name, value, expected| {
+            if holds { Ok(()) } else { Err(QualityError { name, value, expected }) }
+        };
+        let (shortest, longest) = Self::STEPS_VOXELS;
+        let step = self.step_voxels;
+        held((shortest..=longest).contains(&step), "step_voxels", step, "a number from 0.0001 to 16")?;
+        let tolerance = self.tolerance >= Self::LEAST_TOLERANCE;
+        held(tolerance, "tolerance", self.tolerance, "a number of at least 1e-9")?;
+        let share = (0.0..=1.0).contains(&self.termination);
+        held(share, "termination", self.termination, "a number from 0 to 1")?;
+        let scale = (0.0..=1e6).contains(&self.lod_scale);
+        held(scale, "lod_scale", self.lod_scale, "a number from 0 to 1e6")
+    }
+}
+
 impl Default for Quality {
     fn default() -> Self {
         Self {

@@ -45,5 +45,7 @@ pub fn importance_between<F: Real>(table: &[ImportanceEntry], most: &[f32], s0: 
     let right = (F::of_f32(before.value) + last) * (half * (u1 - F::of_u32(c1 as u32)));
     let whole = (F::of_f32(before.integral) - F::of_f32(after.integral))
         + (F::of_f32(before.integral_rest) - F::of_f32(after.integral_rest));
-    Importance { mean: (left + whole + right) / (u1 - u0), most: at_ends.most(F::of_f32(inside)) }
+    // The mean is a rounded quotient.
+    let most = at_ends.most(F::of_f32(inside));
+    Importance { mean: ((left + whole + right) / (u1 - u0)).least(most), most }
 }

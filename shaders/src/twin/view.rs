@@ -6,7 +6,7 @@ use crate::layout::{Link, Params};
 use crate::optics::{Detail, Light, MOST_ENHANCERS, Optics, Quality};
 use crate::tables::TABLE_ENTRIES;
 use display_config::{BeamLaw, Raster};
-use glam::{DAffine3, DVec3, UVec3};
+use glam::{DAffine3, DMat3, DVec3, UVec3};
 
 /// See [`Params`]; one field for each that the twin needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +79,13 @@ fn detail_strength(light: &Light) -> f64 {
     }
 }
 
+/// The longest of a box's four diagonals.
+fn longest_diagonal(display_from_volume: DMat3, dims: DVec3) -> f64 {
+    let signs =
+        [DVec3::ONE, DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, -1.0)];
+    signs.iter().map(|sign| (display_from_volume * (dims * *sign)).length()).fold(0.0, f64::max)
+}
+
 /// The constants of the links that do anything, in order.
 fn links(optics: &Optics) -> [Constants<f64>; MOST_ENHANCERS] {
     let mut links = optics.enhancers.iter().filter(|e| !e.is_neutral()).map(constants);
@@ -117,7 +124,7 @@ impl View<f64> {
             finest_depth: u32::from(place.finest_depth),
             resolution: [place.resolution.0 * per_finest, place.resolution.1 * per_finest],
             detail: detail_strength(&light),
-            diagonal_m: (m3 * place.dims.as_dvec3()).length(),
+            diagonal_m: longest_diagonal(m3, place.dims.as_dvec3()),
             links: links(optics),
             raster: [place.raster.width, place.raster.height],
         }

@@ -6,8 +6,6 @@ fn band_picker_spread(link: Link) -> f32 {
     return 0.0;
 }
 
-const BAND_PICKER_NEEDS_GRADIENT: bool = false;
-
 // x: weight of the change.
 fn band_picker_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     let aligned = smoothstep(link.c.x, link.c.y, max(0.0, dot(link.b.xyz, view)));

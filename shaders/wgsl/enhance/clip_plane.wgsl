@@ -6,8 +6,6 @@ fn clip_plane_spread(link: Link) -> f32 {
     return 0.0;
 }
 
-const CLIP_PLANE_NEEDS_GRADIENT: bool = false;
-
 // x: factor of what is cut away.
 fn clip_plane_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     let aside = 1.0 - max(0.0, -dot(link.a.xyz, view));

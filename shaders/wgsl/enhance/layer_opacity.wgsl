@@ -6,8 +6,6 @@ fn layer_opacity_spread(link: Link) -> f32 {
     return 0.0;
 }
 
-const LAYER_OPACITY_NEEDS_GRADIENT: bool = false;
-
 // x: μ − 1.
 fn layer_opacity_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     let aligned = smoothstep(link.c.x, link.c.y, dot(link.b.xyz, view));

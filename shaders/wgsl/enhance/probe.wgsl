@@ -6,8 +6,6 @@ fn probe_spread(link: Link) -> f32 {
     return 0.1 * link.b.w;
 }
 
-const PROBE_NEEDS_GRADIENT: bool = true;
-
 // x: ω_a.
 fn probe_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(smoothstep(link.c.x, link.c.y, max(0.0, dot(link.b.xyz, view))), 0.0, 0.0, 0.0);

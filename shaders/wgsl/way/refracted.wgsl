@@ -10,6 +10,11 @@ const MOST_HALVINGS: u32 = 4u;
 const SURFACE: f32 = 0.02;
 // Ways that are longer than this many diagonals of the volume end.
 const LONGEST_WAY_DIAGONALS: f32 = 4.0;
+// Steps are at most this long, voxels of the node: after a turn a step may lead out of the brick, as far as its overlap
+// holds samples for gradients.
+const MOST_STEP: f32 = 0.5;
+// Ways straight on are measured from a new origin after this many voxels, so that no step is lost to rounding.
+const LONGEST_STRAIGHT: f32 = 1024.0;
 // A pair is at least this long, voxels of the node, however near the node's border is.
 const LEAST_PAIR: f32 = 1e-3;
 // Difference quotients over less than this many table cells are replaced by the slope of the cell.
@@ -23,14 +28,15 @@ fn index_at(s: f32) -> f32 {
     return mix(index_table[cell], index_table[cell + 1u], u - f32(cell));
 }
 
-// Its mean slope between two scalars.
+// Its mean slope between two scalars. The cell of a jump has none: surfaces are met by crossing them.
 fn index_slope(s0: f32, s1: f32) -> f32 {
     let cells = f32(params.tables.x - 1u);
     if abs(s1 - s0) * cells >= LEAST_CELLS {
         return (index_at(s1) - index_at(s0)) / (s1 - s0);
     }
     let cell = min(u32(0.5 * (s0 + s1) * cells), params.tables.x - 2u);
-    return (index_table[cell + 1u] - index_table[cell]) * cells;
+    let change = index_table[cell + 1u] - index_table[cell];
+    return select(change * cells, 0.0, abs(change) > SURFACE);
 }
 
 // What a bent ray carries along.
@@ -52,11 +58,17 @@ fn direction_beyond(bent: ptr<function, Bent>, gradient: vec3<f32>, s0: f32, s2:
     let v = (*bent).ray.direction_in_display;
     let n0 = index_at(s0);
     let n2 = index_at(s2);
-    let was_passing = (*bent).is_passing;
-    (*bent).is_passing = false;
+    // A ray that was turned by a surface and has not passed it yet goes straight on; then it has the index beyond.
+    var own = n0;
+    if (*bent).is_passing {
+        if abs(n0 - (*bent).index_before) < abs(n0 - (*bent).index_beyond) {
+            return v;
+        }
+        own = (*bent).index_beyond;
+        (*bent).is_passing = false;
+    }
     let square = dot(gradient, gradient);
-    let is_before = was_passing && abs(n0 - (*bent).index_before) < abs(n0 - (*bent).index_beyond);
-    if square < LEAST_SQUARE || is_before {
+    if square < LEAST_SQUARE {
         return v;
     }
     if abs(n2 - n0) <= SURFACE {
@@ -65,15 +77,16 @@ fn direction_beyond(bent: ptr<function, Bent>, gradient: vec3<f32>, s0: f32, s2:
     var normal = gradient / sqrt(square);
     let towards = dot(normal, v);
     normal = select(-normal, normal, towards >= 0.0);
-    let along = n0 * abs(towards);
-    let beyond = along * along + n2 * n2 - n0 * n0;
+    // From the index that the direction belongs to, so that the turns of a steep rise add up to Snell's law.
+    let along = own * abs(towards);
+    let beyond = along * along + n2 * n2 - own * own;
     if beyond < 0.0 {
         return normalize(v - normal * (2.0 * abs(towards)));
     }
     (*bent).is_passing = true;
     (*bent).index_before = n0;
     (*bent).index_beyond = n2;
-    return normalize(v * n0 + normal * (sqrt(beyond) - along));
+    return normalize(v * own + normal * (sqrt(beyond) - along));
 }
 
 // The same ray, turned at t.
@@ -127,6 +140,11 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     var s2 = 0.0;
     while at != NO_NODE && bent.way < longest_way {
         let node = nodes[at];
+        if bent.t * bent.ray.speed > LONGEST_STRAIGHT {
+            bent.ray = turned_at(bent.ray, bent.t, bent.ray.direction_in_display);
+            bent.t = 0.0;
+            follow_chain(bent.ray);
+        }
         let exit = exit_of(node, bent.ray);
         let t_out = min(exit.t, exit_of_volume(bent.ray));
         if node.slot == NO_SLOT {
@@ -149,7 +167,8 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         let voxel = voxel_edge(node.depth) / bent.ray.speed;
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
         let span_left = max(min(t_out, next_break(bent.t)) - bent.t, LEAST_PAIR * voxel);
-        let pairs = max(1.0, ceil(span_left / (2.0 * longest_step(node, bent.ray))));
+        let longest = min(longest_step(node, bent.ray), MOST_STEP * voxel);
+        let pairs = max(1.0, ceil(span_left / (2.0 * longest)));
         var step = 0.5 * span_left / pairs;
         let t0 = bent.t;
         let middle = point_in(brick.own, t0 + step);

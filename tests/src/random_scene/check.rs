@@ -12,8 +12,8 @@ use display_config::Display;
 const PROJECTORS: [u32; 2] = [1, 5];
 /// Odd, so that one column and one row look straight ahead.
 const RASTER: [u32; 2] = [17, 13];
-/// Mean of a picture, in parts of the brightest, from which on its canaries must be found out.
-const CANARY_LIGHT: f64 = 0.06;
+/// A spoilt picture that differs on average by this much more than is allowed must be found out.
+const CANARY_MARGIN: f64 = 1.5;
 /// Opacities are composited in f32: a few hundred steps of 1e-7 each.
 const OPACITY_ROUNDING: f32 = 1e-5;
 
@@ -99,9 +99,9 @@ impl Found {
             self.wrong.push(format!("kernel and twin differ: {found}"));
         }
         self.rounding = Some(found);
-        // The canary: a thousandth more light, where there is enough of it to show.
+        // The canary: a thousandth more light, where that is more than is allowed on average.
         let brighter = difference(kernel().map(|p| p.map(|n| 1.001 * n)).zip(kernel()), scale, limit.pixel);
-        if 1e-3 * CANARY_LIGHT < brighter.mean && scene.is_tame() && limit.holds(&brighter) {
+        if 1e-3 * mean_light(kernel(), scale) > CANARY_MARGIN * limit.mean && limit.holds(&brighter) {
             self.wrong.push("a picture brighter by a thousandth passes for the twin's".into());
         }
     }
@@ -119,16 +119,23 @@ impl Found {
         if !limit.holds(&found) {
             self.wrong.push(format!("{device:?} is off the truth: {found}"));
         }
-        // The canary: every other pixel dark, where there is enough to see.
+        // The canary: every other pixel dark, where that is more than is allowed on average.
         let dark = |(i, (found, truth))| (if i % 2 == 0 { [0.0; 4] } else { found }, truth);
         let half = difference(pairs().enumerate().map(dark), scale, limit.pixel);
-        if 0.5 * CANARY_LIGHT < half.mean && limit.holds(&half) {
+        let true_light = pairs().map(|(_, truth)| truth);
+        if 0.25 * mean_light(true_light, scale) > CANARY_MARGIN * limit.mean && limit.holds(&half) {
             self.wrong.push(format!("{device:?}: half a picture passes"));
         }
         if self.truth.is_none_or(|worst| worst.mean < found.mean) {
             self.truth = Some(found);
         }
     }
+}
+
+/// The mean of all numbers of some pixels, times `scale`.
+fn mean_light(pixels: impl Iterator<Item = [f64; 4]>, scale: f64) -> f64 {
+    let (sum, count) = pixels.fold((0.0, 0), |(sum, count), p| (sum + p.iter().sum::<f64>(), count + 4));
+    scale * sum / f64::from(count.max(1))
 }
 
 /// The first number that is no light, if any.

@@ -19,6 +19,9 @@ pub(super) struct Context {
     turn: Mutex<()>,
 }
 
+/// Storage buffers of the kernel that uses everything.
+const MOST_STORAGE_BUFFERS: u32 = 12;
+
 static CONTEXT: OnceLock<Result<Arc<Context>, DeviceError>> = OnceLock::new();
 
 /// The process's context, made on first use.
@@ -53,10 +56,17 @@ impl Context {
             & (wgpu::Features::TEXTURE_FORMAT_16BIT_NORM
                 | wgpu::Features::FLOAT32_FILTERABLE
                 | PipelineCache::FEATURES);
+        let limits = adapter.limits();
+        if limits.max_storage_buffers_per_shader_stage < MOST_STORAGE_BUFFERS {
+            return Err(DeviceError(format!(
+                "{name} binds {} storage buffers at a time and kernels need up to {MOST_STORAGE_BUFFERS}; take --device cpu",
+                limits.max_storage_buffers_per_shader_stage
+            )));
+        }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("lightloom"),
             required_features: features,
-            required_limits: adapter.limits(),
+            required_limits: limits,
             ..Default::default()
         };
         let (device, queue) = adapter

@@ -36,7 +36,7 @@ fn row(report: &AccuracyReport, index: usize, one: &Measured) -> Vec<String> {
         quality.step_voxels.to_string(),
         small(quality.tolerance),
         small(quality.termination),
-        quality.lod_scale.to_string(),
+        format!("{}{}", quality.lod_scale, if quality.quadrilinear { ", blended" } else { "" }),
         filter_name(setting.filter).to_owned(),
         setting.bits.to_string(),
         digits(one.seconds),

@@ -48,9 +48,14 @@ impl SceneText {
 
     pub(super) fn quality(&self, table: &QualityTable) -> Checked<Quality> {
         let preset = table.preset.map_or(Quality::default(), |preset| preset.quality());
+        let (shortest, longest) = Quality::STEPS_VOXELS;
         Ok(Quality {
-            step_voxels: self.within_or(&table.step_voxels, preset.step_voxels, ABOVE_ZERO)?,
-            tolerance: self.within_or(&table.tolerance, preset.tolerance, ABOVE_ZERO)?,
+            step_voxels: self.within_or(&table.step_voxels, preset.step_voxels, shortest..=longest)?,
+            tolerance: self.within_or(
+                &table.tolerance,
+                preset.tolerance,
+                Quality::LEAST_TOLERANCE..=f64::MAX,
+            )?,
             termination: self.within_or(&table.termination, preset.termination, 0.0..=1.0)?,
             lod_scale: self.within_or(&table.lod_scale, preset.lod_scale, AT_LEAST_ZERO)?,
             quadrilinear: table.quadrilinear.unwrap_or(preset.quadrilinear),

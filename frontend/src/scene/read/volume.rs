@@ -11,6 +11,9 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
+/// Of a volume, metres or times its own: what f32 tells apart from nothing and from everything.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
 impl SceneText {
     pub(super) fn volume(&self, table: &VolumeTable, folder: &Path) -> Checked<VolumeSource> {
         let source = table.source.get_ref();
@@ -47,8 +50,8 @@ impl SceneText {
     pub(super) fn placement(&self, table: &Spanned<PlacementTable>) -> Checked<Placement> {
         let place = table.get_ref();
         let size = match (&place.longest_m, &place.scale) {
-            (Some(longest), None) => Size::LongestM(self.above_zero(longest)?),
-            (None, Some(scale)) => Size::Scale(self.above_zero(scale)?),
+            (Some(longest), None) => Size::LongestM(self.within(longest, SIZES)?),
+            (None, Some(scale)) => Size::Scale(self.within(scale, SIZES)?),
             (Some(_), Some(scale)) => {
                 return Err(self.wrong(scale.span(), "longest_m is given too; keep exactly one of the two"));
             }

@@ -1,6 +1,6 @@
 //! How each enhancer packs its constants: as its WGSL module says.
 
-use crate::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Probe};
+use crate::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Probe, Trapezoid};
 use glam::DVec3;
 
 /// The four vectors of a link.
@@ -20,6 +20,11 @@ const UNUSED: [f64; 4] = [0.0; 4];
 
 fn with(v: DVec3, w: f64) -> [f64; 4] {
     [v.x, v.y, v.z, w]
+}
+
+/// Corners that f32 can tell from each other's flanks: a flank that begins a million domains away is level.
+fn corners(band: &Trapezoid) -> [f64; 4] {
+    band.corners().map(|corner| corner.clamp(-1e6, 1e6))
 }
 
 fn clip_plane(plane: &ClipPlane) -> Constants<f64> {
@@ -43,7 +48,7 @@ fn of_probe(probe: &Probe) -> Constants<f64> {
 
 fn band_picker(picker: &BandPicker) -> Constants<f64> {
     [
-        picker.band.corners(),
+        corners(&picker.band),
         with(picker.axis_in_display, picker.strength),
         [picker.facing.low, picker.facing.high, 0.0, 0.0],
         UNUSED,
@@ -52,7 +57,7 @@ fn band_picker(picker: &BandPicker) -> Constants<f64> {
 
 fn layer_opacity(layer: &LayerOpacity) -> Constants<f64> {
     [
-        layer.band.corners(),
+        corners(&layer.band),
         with(layer.axis_in_display, 0.0),
         [layer.facing.low, layer.facing.high, layer.away, layer.toward],
         UNUSED,

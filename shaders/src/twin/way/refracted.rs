@@ -13,7 +13,9 @@ use crate::twin::tables::is_vacant;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
 use crate::twin::{Cast, Real, Scene, vector::Vec3};
 
-/// See `wgsl/way/refracted.wgsl` for these six.
+/// See `wgsl/way/refracted.wgsl` for these eight.
+const MOST_STEP: f64 = 0.5;
+const LONGEST_STRAIGHT: f64 = 1024.0;
 const LARGE_CHANGE: f64 = 0.004;
 const MOST_HALVINGS: u32 = 4;
 const SURFACE: f64 = 0.02;
@@ -42,7 +44,7 @@ fn index_at<F: Real>(table: &[f32], s: F) -> F {
     a + (b - a) * (u - F::of_u32(cell as u32))
 }
 
-/// Its mean slope between two scalars.
+/// Its mean slope between two scalars. The cell of a jump has none: surfaces are met by crossing them.
 #[inline(always)]
 fn index_slope<F: Real>(table: &[f32], s0: F, s1: F) -> F {
     let cells = F::of_u32(table.len() as u32 - 1);
@@ -50,7 +52,8 @@ fn index_slope<F: Real>(table: &[f32], s0: F, s1: F) -> F {
         return (index_at(table, s1) - index_at(table, s0)) / (s1 - s0);
     }
     let cell = ((F::of(0.5) * (s0 + s1) * cells).to_index() as usize).min(table.len() - 2);
-    (F::of_f32(table[cell + 1]) - F::of_f32(table[cell])) * cells
+    let change = F::of_f32(table[cell + 1]) - F::of_f32(table[cell]);
+    if change.abs() > F::of(SURFACE) { F::ZERO } else { change * cells }
 }
 
 #[inline(always)]
@@ -73,10 +76,17 @@ impl<F: Real> Bent<F> {
         let table = &scene.tables.index;
         let v = self.ray.direction_in_display;
         let (n0, n2) = (index_at(table, s0), index_at(table, s2));
-        let passing = self.passing.take();
-        let is_before = passing.is_some_and(|(before, beyond)| (n0 - before).abs() < (n0 - beyond).abs());
+        // A ray that was turned by a surface and has not passed it yet goes straight on; then it has the index beyond.
+        let mut own = n0;
+        if let Some((before, beyond)) = self.passing {
+            if (n0 - before).abs() < (n0 - beyond).abs() {
+                return v;
+            }
+            own = beyond;
+            self.passing = None;
+        }
         let square = gradient.dot(gradient);
-        if square < F::of(LEAST_SQUARE) || is_before {
+        if square < F::of(LEAST_SQUARE) {
             return v;
         }
         if (n2 - n0).abs() <= F::of(SURFACE) {
@@ -89,13 +99,14 @@ impl<F: Real> Bent<F> {
         if towards < F::ZERO {
             normal = normal * -F::ONE;
         }
-        let along = n0 * towards.abs();
-        let beyond = along * along + n2 * n2 - n0 * n0;
+        // From the index that the direction belongs to, so that the turns of a steep rise add up to Snell's law.
+        let along = own * towards.abs();
+        let beyond = along * along + n2 * n2 - own * own;
         if beyond < F::ZERO {
             return normalize(v - normal * (F::of(2.0) * towards.abs()));
         }
         self.passing = Some((n0, n2));
-        normalize(v * n0 + normal * (beyond.sqrt() - along))
+        normalize(v * own + normal * (beyond.sqrt() - along))
     }
 }
 
@@ -156,6 +167,11 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
     let mut known = None;
     while at != NO_NODE && bent.way < longest_way {
         let node = &scene.nodes[at as usize];
+        if bent.t * bent.ray.speed > F::of(LONGEST_STRAIGHT) {
+            bent.ray = turned_at(scene, &bent.ray, bent.t, bent.ray.direction_in_display);
+            bent.t = F::ZERO;
+            chain.follow(scene, &bent.ray);
+        }
         let exit = scene.exit_of(node, &bent.ray);
         let t_out = exit.t.least(exit_of_volume(scene, &bent.ray));
         if node.slot == NO_SLOT {
@@ -179,7 +195,8 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
         let span_left = (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel);
         let two = F::of(2.0);
-        let pairs = (span_left / (two * longest_step::<F, K>(scene, node, &bent.ray))).ceil().most(F::ONE);
+        let longest = longest_step::<F, K>(scene, node, &bent.ray).least(F::of(MOST_STEP) * voxel);
+        let pairs = (span_left / (two * longest)).ceil().most(F::ONE);
         let mut step = F::of(0.5) * span_left / pairs;
         let t0 = bent.t;
         let middle = brick.own.point(t0 + step);
