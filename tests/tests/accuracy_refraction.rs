@@ -50,13 +50,17 @@ fn the_error_falls_with_the_square_of_the_step_on_a_smooth_field() {
     let _turn = draw::turn();
     let display = test_display();
     // An index without kinks within the field's values, 0.2 to 0.8, so that all is smooth.
-    let scene = bent(techniques::bumps(&display), vec![(0.0, 1.0), (1.0, 1.3)]);
+    let mut scene = bent(techniques::bumps(&display), vec![(0.0, 1.0), (1.0, 2.5)]);
+    scene.frame.light = None;
     let truth = compare::truth(&display, &scene.frame, &scene.source, &PROJECTORS, 4);
-    let errors = [1.6, 0.8, 0.4].map(|step| errors_at(&display, &scene, step, &truth));
+    // Shorter steps meet the rounding of the index's table, whose slope is a difference of two f32: 0.008/255.
+    let errors = [0.5, 0.25].map(|step| errors_at(&display, &scene, step, &truth));
     errors.iter().for_each(|errors| println!("{errors}"));
-    // A second-order method gains 4 from a halving; trilinear cells have kinks, which take a part of that.
+    // A second-order method gains 4 from a halving; the reference's own tolerance, 1e-5, lies below all of them.
+    const TOLERANCE: f64 = 1e-5;
     for pair in errors.windows(2) {
-        assert!(pair[0].rms > 2.5 * pair[1].rms, "{} after {}", pair[1], pair[0]);
+        let gain = (pair[0].rms - TOLERANCE) / (pair[1].rms - TOLERANCE).max(1e-7);
+        assert!(gain > 2.8, "{} after {}: a gain of {gain}", pair[1], pair[0]);
     }
 }
 
@@ -79,9 +83,9 @@ fn interface(display: &Display, slant_rad: f64) -> TestScene {
     TestScene { name: "interface", source, frame: scenes::frame(display, place, optics, None) }
 }
 
-/// What a surface errs that is met up to half a pair of the shortest steps early or late; the pixel where the mirror
-/// begins goes one way or the other.
-const KEPT_AT_A_SURFACE: Limits = Limits::of_255(1.0, 20.0, 160.0);
+/// What a surface errs that is met up to half a pair of the shortest steps early or late; seen at a slant, along a steep
+/// change of colour, that shows, and the pixel where the mirror begins goes one way or the other.
+const KEPT_AT_A_SURFACE: Limits = Limits::of_255(3.0, 50.0, 80.0);
 
 #[test]
 fn a_surface_breaks_light_and_mirrors_it_beyond_the_critical_angle() {
@@ -110,7 +114,7 @@ fn wild_indices_give_light_on_every_device() {
     let wild = [
         vec![(0.3, 0.1), (0.35, 5.0), (0.5, 0.2), (0.5, 3.0), (0.7, 0.01)],
         vec![(0.5, 1e-3), (0.5, 1e3)],
-        vec![(0.49, 1.0), (0.5, 1e-6), (0.51, 1.0)],
+        vec![(0.49, 1.0), (0.5, 1e-3), (0.51, 1.0)],
     ];
     let mut bases = techniques::bases(&display);
     bases.push(scenes::shells(&display));
