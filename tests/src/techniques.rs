@@ -26,8 +26,8 @@ pub fn clip_plane() -> ClipPlane {
 /// A probe in the front half of what floats around the screen's centre.
 pub fn probe() -> Probe {
     Probe {
-        centre_in_display: DVec3::new(0.005, 0.01, 0.03),
-        radius_m: 0.045,
+        centre_in_display: DVec3::new(0.005, 0.01, 0.07),
+        radius_m: 0.09,
         axis_in_display: DVec3::NEG_Z,
         facing: Ramp { low: 0.4, high: 0.98 },
         gradient_most: 0.08,

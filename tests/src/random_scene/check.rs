@@ -43,14 +43,14 @@ fn limit_of_rounding(scene: &RandomScene) -> Limit {
 }
 
 /// Device and truth. Where nothing is steep it is what default quality promises at the worst pixel, and half a code on
-/// average. Between two samples the kernel takes the scalar as straight, and importance as what it is at both ends. So
-/// where the scalar turns just beyond a sample, importance is met too low, and what lies before is erased too little: a
-/// pixel in two hundred. And where importance has a peak, the scalar jumps from voxel to voxel, or a transfer function has
+/// average. Between two samples the kernel takes the scalar as straight. So where it turns just beyond a sample, importance
+/// is met too low, and what lies before is erased too little: a pixel in two hundred. As many bent rays pass a corner of
+/// the volume that they should have met. And where importance has a peak, the scalar jumps from voxel to voxel, or a transfer function has
 /// a jump or a spike or makes a skin thinner than a step, a pixel on an outline shows what is there or what lies behind.
 /// White noise under a spike has such outlines in every voxel, and a skin of 1e-5 voxels shows the mean colour of the part
 /// of a step that it begins in.
 fn limit_of_truth(scene: &RandomScene) -> Limit {
-    match (scene.is_tame(), scene.optics.mimda.is_some()) {
+    match (scene.is_tame(), scene.optics.mimda.is_some() || scene.optics.refraction.is_some()) {
         (true, false) => Limit { pixel: 4.0 / 255.0, share: 0.0, mean: 0.5 / 255.0 },
         (true, true) => Limit { pixel: 4.0 / 255.0, share: 0.005, mean: 0.5 / 255.0 },
         (false, _) => Limit { pixel: 4.0 / 255.0, share: 0.15, mean: 4.0 / 255.0 },
