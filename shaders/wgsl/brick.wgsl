@@ -77,7 +77,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
         if !is_clear(plain.k.w) {
             let middle = t - 0.5 * part;
             var gradients = NO_GRADIENTS;
-            if plain.k.w > 0.0 {
+            if plain.k.w > 0.0 && (SHADES || (CHAIN_NEEDS_GRADIENT && chain_spread(middle) > 0.0)) {
                 gradients = gradients_at(brick, ray, middle);
             }
             let sample = enhance(plain, ray, middle, from_s, to_s, gradients);
@@ -105,7 +105,10 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
     var pair = pair_of(s0, s1, s2, range);
     let middle = t0 + step;
     var gradients = NO_GRADIENTS;
-    if CHAIN_NEEDS_GRADIENT && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
+    // Only enhancers whose samples vary with the gradient look at it.
+    let spread = chain_spread(middle);
+    let enhancers_look = CHAIN_NEEDS_GRADIENT && spread > 0.0;
+    if enhancers_look && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
         gradients = gradients_at(brick, ray, middle);
     }
     pair.first = enhance(pair.first, ray, t0 + 0.5 * step, s0, s1, gradients);
@@ -113,10 +116,10 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
     pair.both = enhance(pair.both, ray, middle, s0, s2, gradients);
     pair.reach = enhance(pair.reach, ray, middle, range.x, range.y, gradients);
     let visible = still_to_come(*front);
-    let parts = max(parts_of_step(pair, thickness, visible), parts_of_rise(*front, pair.reach));
+    let parts = max(parts_of_step(pair, thickness, visible, spread), parts_of_rise(*front, pair.reach));
     if parts == 1.0 {
         // The light in the middle of the pair serves both steps.
-        if !CHAIN_NEEDS_GRADIENT && max(pair.first.k.w, pair.second.k.w) > 0.0 {
+        if SHADES && !enhancers_look && max(pair.first.k.w, pair.second.k.w) > 0.0 {
             gradients = gradients_at(brick, ray, middle);
         }
         let light = lighting(gradients, ray, material_at(s1));

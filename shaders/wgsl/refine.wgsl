@@ -45,11 +45,12 @@ fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>) -> Pair {
         sample_between(locate(reach.x), locate(reach.y), reach.x, reach.y));
 }
 
-// Parts of each step of a pair, where a step has `thickness` and `visible` is the opacity that may still be added.
+// Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
+// `spread` how much enhancers make samples vary within a step.
 // Three things err: where the scalar bends, `both` differs from the mean of the two steps, and something between the
 // samples may not have been seen at all; where colours differ, light taken as if it came from anywhere in a step errs by
 // up to the product of both depths; and so does what varies with the place. The first falls with the square of the parts.
-fn parts_of_step(pair: Pair, thickness: f32, visible: f32) -> f32 {
+fn parts_of_step(pair: Pair, thickness: f32, visible: f32, spread: f32) -> f32 {
     let first = pair.first.k;
     let second = pair.second.k;
     let both = pair.both.k;
@@ -57,7 +58,7 @@ fn parts_of_step(pair: Pair, thickness: f32, visible: f32) -> f32 {
     let order_scale = thickness * thickness / (1.0 + depth * depth);
     let bend = max(abs(first + second - 2.0 * both), abs(pair.reach.k - both) * UNSEEN);
     let order = abs(first.xyz * second.w - second.xyz * first.w) * order_scale;
-    let uneven = first.w * second.w * order_scale * (SHADE_SPREAD + chain_spread());
+    let uneven = first.w * second.w * order_scale * (SHADE_SPREAD + spread);
     let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, uneven)));
     return clamp(ceil(sqrt(worst * visible / params.quality.w)), 1.0, MOST_PARTS);
 }

@@ -129,8 +129,12 @@ impl Chain {
                 .enumerate()
                 .fold(String::new(), |text, (i, name)| text + "    " + &line(i, name) + "\n")
         };
+        let spread = |(i, kind): (usize, EnhancerKind)| {
+            let name = kind.prefix();
+            kind.needs_gradient().then(|| format!("{name}_spread(links[{i}], chain.link{i}.breaks, t)"))
+        };
         let spreads: Vec<String> =
-            links.iter().enumerate().map(|(i, name)| format!("{name}_spread(links[{i}])")).collect();
+            std::iter::once("0.0".to_owned()).chain(self.kinds().enumerate().filter_map(spread)).collect();
         let mut text = String::new();
         write!(
             text,
@@ -144,7 +148,7 @@ var<private> chain: Chain;
 
 const CHAIN_NEEDS_GRADIENT: bool = {needs_gradient};
 
-fn chain_spread() -> f32 {{
+fn chain_spread(t: f32) -> f32 {{
     return {spreads};
 }}
 

@@ -146,7 +146,8 @@ fn add_parts_here<F: Real, K: Kernel>(
         if !K::Composite::is_clear(plain.k[3]) {
             let middle = t - half * part;
             let mut gradients = Gradients::NONE;
-            if reads_gradients::<F, K>(scene) && plain.k[3] > F::ZERO {
+            let enhancers_look = chain.spread::<K>(scene, middle) > F::ZERO;
+            if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(scene.needs) || enhancers_look) {
                 gradients = Gradients::new::<K>(scene, brick, ray, middle);
             }
             let sample = chain.enhance::<K>(scene, plain, (ray, middle), (from, to), &gradients);
@@ -172,17 +173,6 @@ fn add_parts_here<F: Real, K: Kernel>(
     }
 }
 
-/// Whether shading or an enhancer looks at gradients.
-#[inline(always)]
-fn reads_gradients<F: Real, K: Kernel>(scene: &Scene<F>) -> bool {
-    K::Shade::reads_gradients(scene.needs) || chain_needs_gradient::<F, K>(scene)
-}
-
-#[inline(always)]
-fn chain_needs_gradient<F: Real, K: Kernel>(scene: &Scene<F>) -> bool {
-    K::IS_FULL && scene.needs.chain.needs_gradient()
-}
-
 /// Adds a pair of steps. Yields what was gathered, and the number of parts that each step was cut into.
 #[inline(always)]
 pub(super) fn add_pair<F: Real, K: Kernel>(
@@ -197,7 +187,9 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     let mut pair = Pair::new::<K::Composite>(scene, [s0, s1, s2], range);
     let middle = t0 + length;
     let mut gradients = Gradients::NONE;
-    let enhancers_look = chain_needs_gradient::<F, K>(scene);
+    // Only enhancers whose samples vary with the gradient look at it.
+    let chain_spread = chain.spread::<K>(scene, middle);
+    let enhancers_look = chain_spread > F::ZERO;
     if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
         gradients = Gradients::new::<K>(scene, first.brick, first.ray, middle);
     }
@@ -207,7 +199,7 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     pair.both = chain.enhance::<K>(scene, pair.both, (first.ray, middle), (s0, s2), &gradients);
     pair.reach = chain.enhance::<K>(scene, pair.reach, (first.ray, middle), range, &gradients);
     let visible = K::Composite::still_to_come(scene, front);
-    let spread = F::of(K::Shade::spread(scene.needs)) + Chain::spread::<K>(scene);
+    let spread = F::of(K::Shade::spread(scene.needs)) + chain_spread;
     let parts = parts_of_step(&pair, thickness, visible, spread, view.tolerance)
         .most(K::Composite::parts_of_rise(scene, front, &pair.reach));
     if parts > F::ONE {

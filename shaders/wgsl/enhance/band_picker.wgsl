@@ -1,11 +1,6 @@
 // View-dependent band picker (LFD section 4).
 // a: corners of the band; b: axis, strength; c: limits of the alignment.
 
-// How much it makes samples vary within a step, for the estimate of a step's error.
-fn band_picker_spread(link: Link) -> f32 {
-    return 0.0;
-}
-
 // x: weight of the change.
 fn band_picker_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     let aligned = smoothstep(link.c.x, link.c.y, max(0.0, dot(link.b.xyz, view)));

@@ -1,11 +1,6 @@
 // Clip plane with view-dependent context (LFD section 4).
 // a: normal, offset; b: limits of the context, thickness, boost; c.x: strength.
 
-// How much it makes samples vary within a step, for the estimate of a step's error.
-fn clip_plane_spread(link: Link) -> f32 {
-    return 0.0;
-}
-
 // x: factor of what is cut away.
 fn clip_plane_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     let aside = 1.0 - max(0.0, -dot(link.a.xyz, view));

@@ -1,11 +1,6 @@
 // Layer opacity by view direction (LFD section 4).
 // a: corners of the layer's band; b.xyz: axis; c: limits of the alignment, factors away from it and toward it.
 
-// How much it makes samples vary within a step, for the estimate of a step's error.
-fn layer_opacity_spread(link: Link) -> f32 {
-    return 0.0;
-}
-
 // x: μ − 1.
 fn layer_opacity_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     let aligned = smoothstep(link.c.x, link.c.y, dot(link.b.xyz, view));

@@ -2,7 +2,7 @@
 
 const CHAIN_NEEDS_GRADIENT: bool = false;
 
-fn chain_spread() -> f32 {
+fn chain_spread(t: f32) -> f32 {
     return 0.0;
 }
 

@@ -1,5 +1,7 @@
 // The shading law: two-sided Phong, weighted by the strength of the gradient.
 
+// Whether it looks at gradients.
+const SHADES: bool = true;
 // Steps may grow while the optical depth of one stays below this.
 const SAFE_DEPTH: f32 = 0.01;
 // How much the shaded colour may vary within a step, for the estimate of a step's error.

@@ -1,5 +1,7 @@
 // No shading: a segment shows its own colour.
 
+// Whether it looks at gradients.
+const SHADES: bool = false;
 // How much the shaded colour may vary within a step, for the estimate of a step's error.
 const SHADE_SPREAD: f32 = 0.0;
 // Steps may grow while the optical depth of one stays below this.

@@ -47,9 +47,10 @@ pub(super) trait Hooks {
         [far(); 3]
     }
 
-    /// How much it makes samples vary within a step, for the estimate of a step's error.
+    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 where it does not look
+    /// at gradients.
     #[inline(always)]
-    fn spread<F: Real>(_: &Constants<F>) -> F {
+    fn spread<F: Real>(_: &Constants<F>, _: &LinkState<F>, _t: F) -> F {
         F::ZERO
     }
 
@@ -127,13 +128,13 @@ impl<F: Real> Chain<F> {
         next
     }
 
-    /// How much the links make samples vary within a step.
+    /// How much the links make samples around t vary within a step; 0 where none looks at gradients.
     #[inline(always)]
-    pub fn spread<K: Kernel>(scene: &Scene<F>) -> F {
+    pub fn spread<K: Kernel>(&self, scene: &Scene<F>, t: F) -> F {
         let mut sum = F::ZERO;
         if K::IS_FULL {
             for (i, kind) in scene.needs.chain.kinds().enumerate() {
-                sum = sum + hook!(kind, spread(&scene.view.links[i]));
+                sum = sum + hook!(kind, spread(&scene.view.links[i], &self.links[i], t));
             }
         }
         sum

@@ -18,10 +18,11 @@ impl Hooks for Probe {
         [aligned, F::ZERO, F::ZERO, F::ZERO]
     }
 
-    /// The factors vary with the gradient, from sample to sample.
+    /// Inside the sphere the factors vary with the gradient, from sample to sample.
     #[inline(always)]
-    fn spread<F: Real>(link: &Constants<F>) -> F {
-        F::of(0.1) * link[1][3]
+    fn spread<F: Real>(link: &Constants<F>, state: &LinkState<F>, t: F) -> F {
+        let is_inside = t > state.breaks[0] && t < state.breaks[2];
+        if is_inside { F::of(0.1) * link[1][3] } else { F::ZERO }
     }
 
     /// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.

@@ -23,7 +23,7 @@ impl<F: Real> Gradients<F> {
     /// At t.
     #[inline(always)]
     pub fn new<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
-        if K::IS_FULL {
+        if K::IS_FULL && scene.needs.reads_ancestors() {
             return Self::over_levels(scene, brick, ray, t);
         }
         Self { at: gradient_in(scene, &brick.own, t), ..Self::NONE }

@@ -78,7 +78,11 @@ impl<'a, F: Real> Brick<'a, F> {
     /// The scalar at t.
     #[inline(always)]
     pub fn scalar_at<K: Kernel>(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        let s = if K::IS_FULL { self.scalar_over_levels(scene, ray, t) } else { self.own.scalar(t) };
+        let s = if K::IS_FULL && self.filters_levels {
+            self.scalar_over_levels(scene, ray, t)
+        } else {
+            self.own.scalar(t)
+        };
         s.most(F::ZERO).least(F::ONE)
     }
 
