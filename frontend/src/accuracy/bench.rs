@@ -112,7 +112,7 @@ pub(super) fn offer(study: &Study) -> Result<(Offer, DeviceInfo), AccuracyError>
         Codes::U16(_) => vec![16, 8],
         Codes::U8(_) => vec![8],
     };
-    Ok((Offer { filters, bits }, info))
+    Ok((Offer { filters, bits, is_finest: study.is_finest }, info))
 }
 
 /// More bits than any store has.

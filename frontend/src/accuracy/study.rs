@@ -27,6 +27,8 @@ pub struct Study {
     pub repetitions: u32,
     /// Whether every combination is tried.
     pub is_full: bool,
+    /// Whether the default setting, and those around it, are taken at the finest level.
+    pub is_finest: bool,
     /// The device.
     pub device: DeviceChoice,
     /// Its brick cache, bytes.

@@ -23,12 +23,17 @@ pub struct Offer {
     pub filters: Vec<FilterChoice>,
     /// Bits per sample that the volume can be had in: as it is stored, and fewer.
     pub bits: Vec<u8>,
+    /// Whether everything is tried at the finest level: levels then hide nothing of what steps err.
+    pub is_finest: bool,
 }
 
 impl Offer {
     /// The default setting.
     pub fn default_setting(&self) -> Setting {
-        Setting { quality: Quality::default(), filter: self.filters[0], bits: self.bits[0] }
+        let default = Quality::default();
+        let lod_scale = if self.is_finest { 0.0 } else { default.lod_scale };
+        let quality = Quality { lod_scale, ..default };
+        Setting { quality, filter: self.filters[0], bits: self.bits[0] }
     }
 }
 
@@ -117,7 +122,11 @@ mod tests {
     use super::*;
 
     fn offer() -> Offer {
-        Offer { filters: vec![FilterChoice::Hardware, FilterChoice::Exact], bits: vec![16, 8] }
+        Offer {
+            filters: vec![FilterChoice::Hardware, FilterChoice::Exact],
+            bits: vec![16, 8],
+            is_finest: false,
+        }
     }
 
     #[test]

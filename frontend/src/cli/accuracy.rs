@@ -33,6 +33,9 @@ pub struct AccuracyArgs {
     /// Try every combination of the settings, not one at a time around the default: hundreds.
     #[arg(long)]
     pub full: bool,
+    /// Take the default, and what is tried around it, at the finest level: errors of levels then hide no others.
+    #[arg(long)]
+    pub finest: bool,
     /// Brick cache.
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
     pub cache_mib: u64,

@@ -49,6 +49,7 @@ fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), Fro
         stride: args.stride,
         repetitions: args.repetitions,
         is_full: args.full,
+        is_finest: args.finest,
         device: args.device.into(),
         cache_bytes: args.cache_mib << 20,
         display,
