@@ -63,7 +63,7 @@ impl Default for Quality {
         Self {
             step_voxels: 0.4,
             tolerance: 1e-4,
-            termination: 1.0 / 1024.0,
+            termination: 1.0 / 4096.0,
             lod_scale: 1.0,
             quadrilinear: false,
         }
