@@ -8,7 +8,7 @@
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
-//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of [`Chain::wgsl`] |
+//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`] |
 //! | way | `way/straight`, `way/refracted` |
 
 mod chain;
