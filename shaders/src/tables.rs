@@ -42,14 +42,15 @@ impl Tables {
             }
             Some(_) | None => Vec::new(),
         };
-        let occupied = occupancy(&optics_table(optics), |cell| {
+        let table = optics_table(optics);
+        let occupied = occupancy(&table, |cell| {
             let bends = index.get(cell..cell + 2).is_some_and(|pair| pair[0] != pair[1]);
             let [lo, hi] = [cell, cell + 1].map(|node| node as f64 / (TABLE_ENTRIES - 1) as f64);
             // In f32, as kernels know it.
             bends || optics.most_importance_on(lo, hi) as f32 > 0.0
         });
         let importance_most = largest_of_spans(&importance);
-        Self { optics: optics_table(optics), importance, importance_most, index, materials, occupied }
+        Self { optics: table, importance, importance_most, index, materials, occupied }
     }
 
     /// Whether nothing within scalars [low, high] changes a picture. A scalar that rounds into the next cell is
