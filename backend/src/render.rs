@@ -42,11 +42,11 @@ pub enum RenderError {
     #[error(transparent)]
     Optics(#[from] shaders::optics::OpticsError),
     /// The light is no light.
-    #[error(transparent)]
-    Light(#[from] shaders::optics::LightError),
+    #[error("the light's {0}")]
+    Light(shaders::optics::OutOfBounds),
     /// The quality is no quality.
     #[error("the quality's {0}")]
-    Quality(#[from] shaders::optics::QualityError),
+    Quality(shaders::optics::OutOfBounds),
 }
 
 /// What a renderer tells while it draws.

@@ -3,7 +3,7 @@
 use super::Cubic;
 use super::enhancer::Chain;
 use glam::{DVec3, DVec4};
-use shaders::optics::{Curve, CurveValue, MOST_ENHANCERS, Material, Mimda, MimdaForm, Optics};
+use shaders::optics::{Curve, CurveValue, MOST_ENHANCERS, Material, MimdaForm, Optics};
 
 /// A function that is linear over a band: its value at the band's start, and its change over the band.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,7 @@ impl Medium {
             points: knots.iter().map(|&knot| band(knot, knot)).collect(),
             knots,
             bands,
-            erasure: acting(optics).map(|m| Erasure { gamma: m.gamma, form: m.form, largest }),
+            erasure: optics.accumulation().map(|m| Erasure { gamma: m.gamma, form: m.form, largest }),
             brightest: optics.colour.points().iter().fold(0.0, |most, p| p.1.max_element().max(most)),
             optics: optics.clone(),
         }
@@ -208,11 +208,6 @@ impl Medium {
     }
 }
 
-/// Importance accumulation, where it does anything.
-fn acting(optics: &Optics) -> Option<&Mimda> {
-    optics.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0)
-}
-
 /// All positions at which a curve or a link of the chain may bend or jump, with the clamps of the scalar at 0 and 1.
 fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
     let mut knots = vec![0.0, 1.0];
@@ -220,7 +215,7 @@ fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
     knots.extend(optics.colour.knots_between(0.0, 1.0));
     knots.extend(optics.materials.iter().flat_map(|curve| curve.knots_between(0.0, 1.0)));
     // Without a chain, importance that does not erase does nothing.
-    let told = acting(optics);
+    let told = optics.accumulation();
     knots.extend(told.iter().flat_map(|m| m.importance.knots_between(0.0, 1.0)));
     knots.extend(chain.knots().filter(|&s| s > 0.0 && s < 1.0));
     knots.sort_by(f64::total_cmp);
@@ -231,14 +226,14 @@ fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
 fn band(optics: &Optics, chain: &Chain, voxel_m: f64, s0: f64, s1: f64) -> Band {
     let per_metre = optics.extinction_per_metre(voxel_m);
     let Linear(extinction, change) = linear(&optics.extinction, s0, s1);
-    let told = acting(optics).map_or(Linear(1.0, 0.0), |m| linear(&m.importance, s0, s1));
+    let told = optics.accumulation().map_or(Linear(1.0, 0.0), |m| linear(&m.importance, s0, s1));
     let shares = chain.shares(s0, s1);
     Band {
         start: s0,
         width: if s1 > s0 { s1 - s0 } else { 1.0 },
         extinction: Linear(extinction * per_metre, change * per_metre),
         colour: linear(&optics.colour, s0, s1),
-        importance: acting(optics).map_or(Linear(0.0, 0.0), |_| chain.importance(told, &shares)),
+        importance: optics.accumulation().map_or(Linear(0.0, 0.0), |_| chain.importance(told, &shares)),
         told,
         shares,
         material: optics.materials.as_ref().map(|curve| materials(curve, s0, s1)),

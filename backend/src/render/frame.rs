@@ -43,8 +43,8 @@ pub(super) fn draw(
 ) -> Result<FrameReport, RenderError> {
     let started = Instant::now();
     frame.optics.check()?;
-    frame.light.map_or(Ok(()), |light| light.check())?;
-    frame.quality.check()?;
+    frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
+    frame.quality.check().map_err(RenderError::Quality)?;
     let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
     let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
     let tables = Tables::new(&frame.optics, &needs);

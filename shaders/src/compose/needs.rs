@@ -67,10 +67,7 @@ impl Compositing {
 
     /// What an optical model needs: γ = 0 is ordinary compositing.
     pub fn for_optics(optics: &Optics) -> Self {
-        match &optics.mimda {
-            Some(mimda) if mimda.gamma > 0.0 => Self::Mimda(mimda.form),
-            Some(_) | None => Self::Over,
-        }
+        optics.accumulation().map_or(Self::Over, |mimda| Self::Mimda(mimda.form))
     }
 }
 

@@ -8,6 +8,7 @@
 //! t² (3 − 2 t) with t = clamp((x − low) / (high − low), 0, 1).
 
 use super::Trapezoid;
+use super::bounds::{OutOfBounds, held};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -139,19 +140,7 @@ pub enum Enhancer {
     LayerOpacity(LayerOpacity),
 }
 
-/// What is wrong with an enhancer: the name of the number, and what it must be.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{name} is {value}; it must be {expected}")]
-pub struct EnhancerError {
-    /// Which number.
-    pub name: &'static str,
-    /// What it is.
-    pub value: f64,
-    /// What it must be.
-    pub expected: &'static str,
-}
-
-type Checked = Result<(), EnhancerError>;
+type Checked = Result<(), OutOfBounds>;
 
 /// Kernels compute in f32: beyond this, products of numbers that are each fine would not be.
 const LARGEST: f64 = 1e6;
@@ -219,10 +208,6 @@ impl Enhancer {
             Self::ClipPlane(_) | Self::Probe(_) | Self::LayerOpacity(_) => told,
         }
     }
-}
-
-fn held(holds: bool, name: &'static str, value: f64, expected: &'static str) -> Checked {
-    if holds { Ok(()) } else { Err(EnhancerError { name, value, expected }) }
 }
 
 fn is_point(name: &'static str, point: DVec3) -> Checked {

@@ -1,6 +1,7 @@
 //! The one directional light of a scene, with the material's answer to it.
 
 use super::Material;
+use super::bounds::{OutOfBounds, held};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -32,24 +33,9 @@ pub struct Light {
     pub detail: Detail,
 }
 
-/// What is wrong with a light.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the light's {name} is {value}; it must be {expected}")]
-pub struct LightError {
-    /// Which number.
-    pub name: &'static str,
-    /// What it is.
-    pub value: f64,
-    /// What it must be.
-    pub expected: &'static str,
-}
-
 impl Light {
     /// Checks what the types do not.
-    pub fn check(&self) -> Result<(), LightError> {
-        let held = |holds: bool, name, value, expected| {
-            if holds { Ok(()) } else { Err(LightError { name, value, expected }) }
-        };
+    pub fn check(&self) -> Result<(), OutOfBounds> {
         let strength = match self.detail {
             Detail::None => 0.0,
             Detail::Unsharp { strength } => strength,

@@ -1,5 +1,6 @@
 //! The optical model of a scene: what a scalar value looks like.
 
+mod bounds;
 mod curve;
 mod enhancer;
 mod light;
@@ -8,12 +9,11 @@ mod model;
 mod quality;
 mod trapezoid;
 
+pub use bounds::OutOfBounds;
 pub use curve::{Curve, CurveError, CurveValue};
-pub use enhancer::{
-    BandPicker, ClipPlane, Enhancer, EnhancerError, LayerOpacity, MOST_ENHANCERS, Probe, Ramp,
-};
-pub use light::{Detail, Light, LightError};
+pub use enhancer::{BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp};
+pub use light::{Detail, Light};
 pub use material::Material;
 pub use model::{ExtinctionUnit, Mimda, MimdaForm, Optics, OpticsError};
-pub use quality::{Quality, QualityError};
+pub use quality::Quality;
 pub use trapezoid::{Trapezoid, TrapezoidError};

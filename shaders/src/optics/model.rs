@@ -1,6 +1,6 @@
 //! Everything that turns a scalar into light: transfer functions, importance, accumulation.
 
-use super::{Curve, Enhancer, EnhancerError, MOST_ENHANCERS, Material};
+use super::{Curve, Enhancer, MOST_ENHANCERS, Material, OutOfBounds};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -117,7 +117,7 @@ pub enum OpticsError {
         /// Which one, from 1.
         number: usize,
         /// What is wrong with it.
-        error: EnhancerError,
+        error: OutOfBounds,
     },
 }
 
@@ -207,9 +207,14 @@ impl Optics {
         self.extinction.max_on(lo, hi) == 0.0 && self.most_importance_on(lo, hi) == 0.0 && !bends
     }
 
+    /// Importance accumulation, where it does anything: γ = 0 is ordinary compositing.
+    pub fn accumulation(&self) -> Option<&Mimda> {
+        self.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0)
+    }
+
     /// The largest importance that acts for scalars in [lo, hi]; 0 where importance does nothing.
     pub fn most_importance_on(&self, lo: f64, hi: f64) -> f64 {
-        let Some(mimda) = self.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0) else { return 0.0 };
+        let Some(mimda) = self.accumulation() else { return 0.0 };
         let own = mimda.importance.max_on(lo, hi);
         self.enhancers.iter().fold(own, |told, enhancer| enhancer.most_importance(lo, hi, told))
     }

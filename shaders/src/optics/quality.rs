@@ -1,5 +1,6 @@
 //! How closely a kernel follows the continuous optical model.
 
+use super::bounds::{OutOfBounds, held};
 use serde::{Deserialize, Serialize};
 
 /// The knobs that trade time for error.
@@ -22,18 +23,6 @@ pub struct Quality {
     pub quadrilinear: bool,
 }
 
-/// Why numbers are no quality.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{name} is {value}; it must be {expected}")]
-pub struct QualityError {
-    /// Which number.
-    pub name: &'static str,
-    /// What it is.
-    pub value: f64,
-    /// What it must be.
-    pub expected: &'static str,
-}
-
 impl Quality {
     /// The shortest and the longest `step_voxels`. Shorter ones add less to a ray than it can hold in f32; longer ones
     /// are of no use.
@@ -42,10 +31,7 @@ impl Quality {
     pub const LEAST_TOLERANCE: f64 = 1e-9;
 
     /// Checks what the types do not.
-    pub fn check(&self) -> Result<(), QualityError> {
-        let held = |holds: bool, name, value, expected| {
-            if holds { Ok(()) } else { Err(QualityError { name, value, expected }) }
-        };
+    pub fn check(&self) -> Result<(), OutOfBounds> {
         let (shortest, longest) = Self::STEPS_VOXELS;
         let step = self.step_voxels;
         held((shortest..=longest).contains(&step), "step_voxels", step, "a number from 0.0001 to 16")?;

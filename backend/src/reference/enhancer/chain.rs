@@ -76,7 +76,7 @@ impl Chain {
             Enhancer::BandPicker(picker) => Link::Picker(Picker::new(picker, view), picker.band),
             Enhancer::LayerOpacity(layer) => Link::Layer(Layer::new(layer, view), layer.band),
         };
-        let accumulates = optics.mimda.as_ref().is_some_and(|mimda| mimda.gamma > 0.0);
+        let accumulates = optics.accumulation().is_some();
         Self { links: optics.enhancers.iter().map(link).collect(), accumulates }
     }
 

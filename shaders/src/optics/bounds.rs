@@ -1,0 +1,23 @@
+//! What a number of the optical model must be.
+
+/// A number that is out of its bounds.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{name} is {value}; it must be {expected}")]
+pub struct OutOfBounds {
+    /// Which number.
+    pub name: &'static str,
+    /// What it is.
+    pub value: f64,
+    /// What it must be.
+    pub expected: &'static str,
+}
+
+/// An error where the number called `name` does not hold.
+pub(super) fn held(
+    holds: bool,
+    name: &'static str,
+    value: f64,
+    expected: &'static str,
+) -> Result<(), OutOfBounds> {
+    if holds { Ok(()) } else { Err(OutOfBounds { name, value, expected }) }
+}
