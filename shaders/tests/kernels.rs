@@ -92,6 +92,7 @@ fn host_structs_and_wgsl_structs_agree() {
         scale,
         neighbours,
         most_extinction,
+        weights,
         padding
     );
     assert_layout!(&module, OpticsEntry, value, integral, integral_rest);

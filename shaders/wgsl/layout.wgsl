@@ -27,7 +27,8 @@ struct NodeRecord {
     scale: f32,
     neighbours: array<u32, 6>,
     most_extinction: f32,
-    padding: array<u32, 3>,
+    weights: array<u32, 2>,
+    padding: u32,
 }
 
 struct OpticsEntry {

@@ -1,7 +1,7 @@
 //! The scenes that pictures are tested on.
 
 use crate::data;
-use backend::protocol::FrameState;
+use backend::protocol::{FrameState, Pace};
 use backend::store::BrickSource;
 use backend::volume::procedural::ProceduralVolume;
 use display_config::{Display, Homography, Raster};
@@ -71,6 +71,7 @@ pub fn frame(
         light,
         quality: Quality::default(),
         tool: None,
+        pace: Pace::Complete,
     }
 }
 

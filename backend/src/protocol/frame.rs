@@ -25,6 +25,22 @@ pub struct Tool {
     pub axis_in_display: DVec3,
 }
 
+/// How a frame gets its detail.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Pace {
+    /// It waits until nothing is missing.
+    #[default]
+    Complete,
+    /// It shows what there is; detail comes with later frames.
+    Live {
+        /// Bytes of bricks that one frame may move to the device.
+        upload_bytes: u64,
+        /// Time in which detail appears or goes, seconds; 0 is at once.
+        fade_s: f64,
+    },
+}
+
 /// One frame, the same for every back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameState {
@@ -46,6 +62,8 @@ pub struct FrameState {
     pub quality: Quality,
     /// The tool, where the scene has one.
     pub tool: Option<Tool>,
+    /// How it gets its detail.
+    pub pace: Pace,
 }
 
 impl FrameState {

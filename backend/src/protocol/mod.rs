@@ -7,8 +7,8 @@ mod report;
 mod setup;
 pub mod wire;
 
-pub use frame::{FrameState, Tool, ToolKind};
+pub use frame::{FrameState, Pace, Tool, ToolKind};
 pub use image::ProjectorImage;
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
-pub use report::{FrameReport, Stages};
+pub use report::{FrameReport, Stages, Upkeep};
 pub use setup::{DeviceChoice, DeviceInfo, FilterChoice, Hello, Setup, VolumeRef};

@@ -17,6 +17,31 @@ pub struct Stages {
     pub readback_ms: f64,
 }
 
+/// What a live frame did to the working set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Upkeep {
+    /// Nodes of the cut when the frame was done, ancestors included.
+    pub nodes: u64,
+    /// Leaves that rays could meet.
+    pub leaves: u64,
+    /// Families of eight that came, and that went.
+    pub splits: u64,
+    /// Families of eight that went.
+    pub collapses: u64,
+    /// Bricks asked of the loader and not there yet.
+    pub in_flight: u64,
+    /// Bricks that were asked for and are not wanted any more.
+    pub cancelled: u64,
+    /// Leaves that blend with their parent because detail comes or goes.
+    pub fading: u64,
+    /// The largest level-of-detail deficit that a ray met, levels; 0 where none was too coarse.
+    pub largest_deficit: f64,
+    /// The mean over all rays and the leaves they met, levels; what is fine enough counts 0.
+    pub mean_deficit: f64,
+    /// Milliseconds of feedback, priorities, restriction and weights, on one core.
+    pub update_ms: f64,
+}
+
 /// One back-end's account of one frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameReport {
@@ -50,6 +75,8 @@ pub struct FrameReport {
     pub damaged_bricks: u64,
     /// What is wrong with the first of these: a sentence each, which names file and brick.
     pub damaged: Vec<String>,
+    /// What became of the working set; None in a complete frame.
+    pub upkeep: Option<Upkeep>,
     /// Time per stage.
     pub stages: Stages,
     /// Wall-clock milliseconds of the whole frame.

@@ -54,6 +54,7 @@ prop_compose! {
             light: lit.then(Light::default),
             quality: Quality::default(),
             tool: tool.map(|p| Tool { kind: ToolKind::Light, tip_in_display: p, axis_in_display: at }),
+            pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },
         }))
     }
 }
@@ -102,7 +103,7 @@ prop_compose! {
         FromBackend::Done(Box::new(FrameReport {
             frame: 3, backend: 1, projectors, rays: n[0], samples: n[1], bricks_wanted: n[2], bricks_resident: n[3],
             bricks_loaded: n[4], bytes_loaded: n[5], working_set_union: n[6], working_set_sum: 0,
-            complete: shortfall.is_empty(), damaged_bricks: n[0], damaged: vec![shortfall.clone(); 2], shortfall,
+            complete: shortfall.is_empty(), upkeep: None, damaged_bricks: n[0], damaged: vec![shortfall.clone(); 2], shortfall,
             stages: Stages { cast_ms: ms, ..Stages::default() }, total_ms: ms,
         }))
     }

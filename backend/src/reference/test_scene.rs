@@ -1,7 +1,7 @@
 //! Scenes for the tests: a brick source from a closure, and frames around an optical model.
 
 use super::{Integrator, Tracer};
-use crate::protocol::FrameState;
+use crate::protocol::{FrameState, Pace};
 use crate::store::{
     BRICK_EDGE, Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OVERLAP, OWN_EDGE, OctreeShape,
 };
@@ -109,6 +109,7 @@ pub fn frame(optics: Optics, light: Option<Light>) -> FrameState {
         light,
         quality: Quality::default(),
         tool: None,
+        pace: Pace::Complete,
     }
 }
 

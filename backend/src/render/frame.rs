@@ -202,6 +202,7 @@ impl<'a> Drawing<'a> {
             shortfall,
             damaged_bricks: residency.damage.missed(),
             damaged: residency.damage.sentences(MOST_DAMAGES),
+            upkeep: None,
             stages: self.stages,
             total_ms,
         }

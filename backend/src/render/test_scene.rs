@@ -1,7 +1,7 @@
 //! A small display and a cloud, for the tests of the renderer.
 
 use super::{RenderError, RenderEvent, Renderer};
-use crate::protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Setup, VolumeRef};
+use crate::protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, Setup, VolumeRef};
 use crate::store::BrickSource;
 use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
@@ -60,6 +60,7 @@ pub(super) fn frame(least: f64) -> FrameState {
         light: Some(Light::default()),
         quality: Quality { lod_scale: 0.0, ..Quality::default() },
         tool: None,
+        pace: Pace::Complete,
     }
 }
 

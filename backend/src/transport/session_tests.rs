@@ -1,7 +1,7 @@
 //! A session with back-ends in threads, and with back-ends that follow a script.
 
 use super::*;
-use crate::protocol::{DeviceChoice, FilterChoice, Hello, Stages, VolumeRef};
+use crate::protocol::{DeviceChoice, FilterChoice, Hello, Pace, Stages, VolumeRef};
 use crate::transport::threads::{self, ThreadLink};
 use crate::transport::worker::{Draw, DrawEvent, Opened};
 use display_config::Display;
@@ -54,6 +54,7 @@ fn frame(index: u32) -> FrameState {
         light: None,
         quality: Quality::default(),
         tool: None,
+        pace: Pace::Complete,
     }
 }
 
@@ -72,6 +73,7 @@ fn report(frame: u32, backend: u32) -> FrameReport {
         working_set_sum: 0,
         complete: true,
         shortfall: String::new(),
+        upkeep: None,
         damaged_bricks: 0,
         damaged: Vec::new(),
         stages: Stages::default(),

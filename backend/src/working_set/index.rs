@@ -3,7 +3,7 @@
 use super::{Cut, CutNode, LodRule};
 use crate::store::{NodeSummary, OctreeShape};
 use shaders::compose::{Compositing, Way};
-use shaders::layout::{NO_NODE, NO_SLOT, NodeRecord};
+use shaders::layout::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord};
 use shaders::optics::Optics;
 
 /// What turns a cut into an index for one frame.
@@ -46,7 +46,8 @@ impl IndexRules<'_> {
             scale: visible.map_or(0.0, |brick| brick.span * per_value) as f32,
             neighbours,
             most_extinction: self.most_extinction(node) as f32,
-            padding: [0; 3],
+            weights: FULL_WEIGHTS,
+            padding: 0,
         }
     }
 

@@ -1,7 +1,7 @@
 //! How fine a node must be: the display's resolution at its depth.
 
 use crate::protocol::FrameState;
-use crate::store::{NodeKey, OctreeShape};
+use crate::store::{NodeKey, OWN_EDGE, OctreeShape};
 use display_config::Display;
 use glam::{DAffine3, DVec3};
 
@@ -33,13 +33,33 @@ impl LodRule {
     /// Levels that `node` is too coarse by: log2(voxel edge / (lod_scale · s(z))) with s(z) = s0 + 2 |z| tan(Φ/2) at
     /// the |z| of the node's region nearest to the screen, and the longest voxel edge. At or below 0 it is fine
     /// enough. +∞ where the finest level is asked for.
+    ///
+    /// Where lod_scale · s(z) rises with |z| faster than a restricted cut can follow, its slope is held to what it can:
+    /// see [`LodRule::steepest`].
     pub fn deficit(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
+        let voxel_m = self.finest_voxel_m() * f64::from(1u32 << shape.level(node.depth));
+        let slope = (self.lod_scale * 2.0 * (0.5 * self.angular_accuracy).tan()).min(self.steepest());
+        let wanted_m = self.lod_scale * self.pixel_size_m + slope * self.nearest_z_m(shape, node);
+        (voxel_m / wanted_m).log2()
+    }
+
+    /// The steepest slope of the wanted voxel edge over |z| at which touching leaves of the cut differ by one level at
+    /// most: a node of voxel edge V reaches over at most 28 V g along z, with g the sum of the voxel axes' parts along z
+    /// over the longest voxel edge, and on this way V may not double.
+    ///
+    /// Proof. Let a leaf of voxel edge 4 V' or more, fine enough, touch a leaf of V', whose parent (2 V') is not. At the
+    /// point where they touch 4 V' is wanted or more; on the way to the parent's point nearest to the screen this falls
+    /// by 2 V' at most. So the parent is fine enough, too.
+    pub fn steepest(&self) -> f64 {
         let linear = self.display_from_volume.matrix3;
-        let finest_m = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
-        let voxel_m = finest_m * f64::from(1u32 << shape.level(node.depth));
-        let resolution_m =
-            self.pixel_size_m + 2.0 * self.nearest_z_m(shape, node) * (0.5 * self.angular_accuracy).tan();
-        (voxel_m / (self.lod_scale * resolution_m)).log2()
+        let along_z = linear.x_axis.z.abs() + linear.y_axis.z.abs() + linear.z_axis.z.abs();
+        self.finest_voxel_m() / (OWN_EDGE as f64 * along_z)
+    }
+
+    /// The longest edge of the finest voxel, metres.
+    fn finest_voxel_m(&self) -> f64 {
+        let linear = self.display_from_volume.matrix3;
+        linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length())
     }
 
     /// Whether a ray may take its samples from `node`: it is at the finest level or fine enough.

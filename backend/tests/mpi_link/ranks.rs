@@ -2,7 +2,7 @@
 
 use crate::job::{CASE, CASE_LIMIT, DIRECTORY};
 use backend::protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend,
+    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace,
     ProjectorImage, Setup, Stages, VolumeRef, wire,
 };
 use backend::transport::*;
@@ -82,6 +82,7 @@ fn report(frame: u32, backend: u32) -> FrameReport {
         working_set_sum: 8,
         complete: true,
         shortfall: String::new(),
+        upkeep: None,
         damaged_bricks: 0,
         damaged: Vec::new(),
         stages: Stages::default(),
@@ -142,6 +143,7 @@ fn frame(index: u32, knots: usize) -> FrameState {
         light: None,
         quality: Quality::default(),
         tool: None,
+        pace: Pace::Complete,
     }
 }
 

@@ -81,6 +81,7 @@ fn account(frame: u32) -> FrameReport {
         working_set_sum: 1,
         complete: false,
         shortfall: "the cache is full <b>".into(),
+        upkeep: None,
         damaged_bricks: 0,
         damaged: Vec::new(),
         stages: Stages::default(),

@@ -172,6 +172,7 @@ pub(super) struct QualityTable {
     pub termination: Option<Number>,
     pub lod_scale: Option<Number>,
     pub quadrilinear: Option<bool>,
+    pub blended: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -28,7 +28,7 @@ pub use placement::{Placement, Size};
 pub use quality::QualityPreset;
 pub use volume::{VolumeFacts, VolumeSource};
 
-use backend::protocol::{FrameState, Tool, ToolKind, VolumeRef};
+use backend::protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
 use band::normalised_band;
 use display_config::Display;
 use glam::DVec3;
@@ -141,6 +141,7 @@ impl Scene {
             light: self.light,
             quality: self.quality,
             tool: self.tool_at(time_s),
+            pace: Pace::Complete,
         })
     }
 

@@ -124,7 +124,9 @@ impl KernelKey {
                         for way in [Way::Straight, Way::Refracted] {
                             for &chain in &chains {
                                 let has_materials = shading != Shading::Plain && chain.is_empty();
-                                let needs = Needs { levels, shading, has_materials, compositing, way, chain };
+                                let blends = false;
+                                let needs =
+                                    Needs { levels, blends, shading, has_materials, compositing, way, chain };
                                 keys.push(Self { filter, needs });
                             }
                         }

@@ -48,6 +48,8 @@ pub enum Way {
 pub struct Needs {
     /// Filtering over levels.
     pub levels: Levels,
+    /// Whether nodes blend into their parents by the weights of their corners.
+    pub blends: bool,
     /// Shading.
     pub shading: Shading,
     /// Whether each scalar has a material of its own.
@@ -105,6 +107,7 @@ impl Needs {
     /// Nothing but plain colours, composited front to back.
     pub const PLAIN: Self = Self {
         levels: Levels::Single,
+        blends: false,
         shading: Shading::Plain,
         has_materials: false,
         compositing: Compositing::Over,
@@ -112,11 +115,12 @@ impl Needs {
         chain: Chain::EMPTY,
     };
 
-    /// What a scene needs.
+    /// What a scene needs; whether nodes blend, too, is the working set's to say.
     pub fn of(optics: &Optics, light: Option<&Light>, quality: &Quality) -> Self {
         let shading = Shading::for_light(light);
         Self {
             levels: if quality.quadrilinear { Levels::Quadrilinear } else { Levels::Single },
+            blends: false,
             shading,
             has_materials: optics.materials.is_some() && shading != Shading::Plain,
             compositing: Compositing::for_optics(optics),
@@ -137,6 +141,6 @@ impl Needs {
 
     /// Whether it reads the bricks of ancestors.
     pub fn reads_ancestors(&self) -> bool {
-        self.levels == Levels::Quadrilinear || self.shading.has_detail()
+        self.levels == Levels::Quadrilinear || self.blends || self.shading.has_detail()
     }
 }

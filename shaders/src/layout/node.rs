@@ -32,6 +32,31 @@ pub struct NodeRecord {
     /// The largest extinction that any of the node's values has, in units of the table; beyond all bounds where steps
     /// may not be longer than the shortest.
     pub most_extinction: f32,
+    /// Share of the node's own samples at its eight corners, the parent's having the rest: unorm8 each, corner
+    /// x + 2 y + 4 z in byte x + 2 y of word z. See [`pack_weights`].
+    pub weights: [u32; 2],
     /// Fills the struct to a multiple of 16 bytes.
-    pub padding: [u32; 3],
+    pub padding: u32,
+}
+
+/// The weights of a node whose samples are all its own.
+pub const FULL_WEIGHTS: [u32; 2] = [u32::MAX; 2];
+
+/// The weights of corners x + 2 y + 4 z, each in [0, 1], as a record holds them; 0 and 1 are exact.
+pub fn pack_weights(corners: [f32; 8]) -> [u32; 2] {
+    let code = |weight: f32| (weight.clamp(0.0, 1.0) * 255.0).round() as u32;
+    let word = |first: usize| (0..4).fold(0, |word, i| word | code(corners[first + i]) << (8 * i));
+    [word(0), word(4)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn full_and_empty_weights_are_exact() {
+        assert_eq!(pack_weights([1.0; 8]), FULL_WEIGHTS);
+        assert_eq!(pack_weights([0.0; 8]), [0; 2]);
+        assert_eq!(pack_weights([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]), [0xff00, 0xff00_0000]);
+    }
 }

@@ -21,6 +21,9 @@ pub struct Quality {
     /// S(clamp(λ − ℓ, 0, 2)), linear between node (0), parent (1) and grandparent (2), constant from the coarsest
     /// ancestor on. A node that shows nothing by its own values shows nothing.
     pub quadrilinear: bool,
+    /// Whether samples blend into the parent's toward coarser neighbours and while detail appears or goes, so that no
+    /// border between bricks is seen.
+    pub blended: bool,
 }
 
 impl Quality {
@@ -52,6 +55,7 @@ impl Default for Quality {
             termination: 1.0 / 4096.0,
             lod_scale: 1.0,
             quadrilinear: false,
+            blended: true,
         }
     }
 }

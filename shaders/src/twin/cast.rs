@@ -54,8 +54,9 @@ pub fn cast_pixel<F: Real>(scene: &Scene<F>, x: u32, y: u32) -> Cast<F> {
 
 /// Whether shading and compositing are all that a scene needs.
 fn is_lean(needs: &Needs) -> bool {
-    let Needs { levels, shading, has_materials, compositing: _, way, chain } = *needs;
+    let Needs { levels, blends, shading, has_materials, compositing: _, way, chain } = *needs;
     levels == Levels::Single
+        && !blends
         && !shading.has_detail()
         && !has_materials
         && way == Way::Straight
