@@ -76,6 +76,7 @@ fn case(display: &Display, name: &'static str, light: Option<Light>, form: Optio
         lod_scale: 0.0,
         step_voxels: STEPS_VOXELS[0],
         quadrilinear: false,
+        blended: false,
     };
     Case { name, source, frame }
 }
