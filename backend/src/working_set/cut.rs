@@ -20,6 +20,49 @@ pub struct CutNode {
     pub brick: Option<ResidentBrick>,
     /// Number of the cast that last sampled it.
     pub last_used: u64,
+    /// Whether the frame's transfer functions show any of its values.
+    pub is_visible: bool,
+    /// Levels it is too coarse by, as of the last frame; at most 0 where no finer level exists.
+    pub deficit: f64,
+    /// Its share of its own samples, its parent having the rest: t of the spatiotemporal blend.
+    pub shown: f32,
+    /// As a leaf: how far it lets finer neighbours show themselves at shared corners. 0 where they must blend down to
+    /// it, 1 where nobody sees a border.
+    pub permits: f32,
+    /// What becomes of its children.
+    pub family: Family,
+    /// Whether its children are to go, to make room for others.
+    pub is_leaving: bool,
+    /// What rays told of it.
+    pub met: Meeting,
+}
+
+/// The eight children of a node, as rays meet them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Family {
+    /// There are none, or rays do not meet them.
+    #[default]
+    Hidden,
+    /// Rays meet them, and they appear.
+    Shown,
+    /// Rays meet them, and they go.
+    Going,
+}
+
+/// When and how rays met a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// When a ray last sampled it, seconds; −∞ where none did.
+    pub time_s: f64,
+    /// When rays could first have met it, seconds.
+    pub since_s: f64,
+    /// Rays that did in that frame.
+    pub rays: u32,
+}
+
+impl Meeting {
+    /// No ray yet.
+    pub const NEVER: Self = Self { time_s: f64::NEG_INFINITY, since_s: f64::NEG_INFINITY, rays: 0 };
 }
 
 /// A brick in the cache.
@@ -42,14 +85,39 @@ pub struct Cut {
 
 impl CutNode {
     fn leaf(key: NodeKey, summary: Option<NodeSummary>, parent: Option<u32>) -> Self {
-        Self { key, summary, parent, first_child: None, brick: None, last_used: 0 }
+        Self {
+            key,
+            summary,
+            parent,
+            first_child: None,
+            brick: None,
+            last_used: 0,
+            is_visible: false,
+            deficit: 0.0,
+            shown: 0.0,
+            permits: 0.0,
+            family: Family::Hidden,
+            is_leaving: false,
+            met: Meeting::NEVER,
+        }
+    }
+
+    /// Whether it shows something, and as fine as the display resolves.
+    pub fn is_fine_enough(&self) -> bool {
+        self.is_visible && self.deficit <= 0.0
+    }
+
+    /// The first of its children, where rays meet them.
+    pub fn shown_child(&self) -> Option<u32> {
+        self.first_child.filter(|_| self.family != Family::Hidden)
     }
 }
 
 impl Cut {
     /// The root alone, without its brick.
     pub fn new(root: NodeSummary) -> Self {
-        Self { nodes: vec![CutNode::leaf(NodeKey::ROOT, Some(root), None)], free_families: Vec::new() }
+        let root = CutNode { shown: 1.0, ..CutNode::leaf(NodeKey::ROOT, Some(root), None) };
+        Self { nodes: vec![root], free_families: Vec::new() }
     }
 
     /// All places, those of collapsed families included: no link leads there.
@@ -60,6 +128,11 @@ impl Cut {
     /// The node at a place.
     pub fn node(&self, place: u32) -> &CutNode {
         &self.nodes[place as usize]
+    }
+
+    /// The node at a place, to be changed.
+    pub(super) fn node_mut(&mut self, place: u32) -> &mut CutNode {
+        &mut self.nodes[place as usize]
     }
 
     /// Gives a node its brick.
@@ -98,13 +171,15 @@ impl Cut {
                 (self.nodes.len() - 8) as u32
             }
         };
-        self.nodes[place as usize].first_child = Some(first);
+        let parent = &mut self.nodes[place as usize];
+        (parent.first_child, parent.family, parent.is_leaving) = (Some(first), Family::Hidden, false);
         first
     }
 
     /// Drops the eight children of a node, which must be leaves; yields the slots of their bricks.
     pub fn collapse(&mut self, place: u32) -> Vec<u32> {
         let first = self.nodes[place as usize].first_child.take().expect("only an inner node is collapsed");
+        self.nodes[place as usize].family = Family::Hidden;
         self.free_families.push(first);
         let children = &mut self.nodes[first as usize..first as usize + 8];
         children.iter_mut().filter_map(|child| child.brick.take().map(|brick| brick.slot)).collect()
@@ -148,14 +223,43 @@ impl Cut {
 
     /// The places of all live nodes, parents before children.
     pub fn walk(&self) -> impl Iterator<Item = u32> + '_ {
+        self.walk_by(|node| node.first_child)
+    }
+
+    /// The places of all nodes that rays meet or that stand above such, parents before children.
+    pub fn walk_shown(&self) -> impl Iterator<Item = u32> + '_ {
+        self.walk_by(CutNode::shown_child)
+    }
+
+    fn walk_by(&self, first_child: impl Fn(&CutNode) -> Option<u32>) -> impl Iterator<Item = u32> {
         let mut queue = std::collections::VecDeque::from([0u32]);
         std::iter::from_fn(move || {
             let place = queue.pop_front()?;
-            if let Some(first) = self.node(place).first_child {
+            if let Some(first) = first_child(self.node(place)) {
                 queue.extend(first..first + 8);
             }
             Some(place)
         })
+    }
+
+    /// The node at the key's depth, or the leaf above it.
+    pub fn find(&self, key: NodeKey) -> u32 {
+        self.find_by(key, |node| node.first_child)
+    }
+
+    /// The same among the nodes that rays meet.
+    pub fn find_shown(&self, key: NodeKey) -> u32 {
+        self.find_by(key, CutNode::shown_child)
+    }
+
+    fn find_by(&self, key: NodeKey, first_child: impl Fn(&CutNode) -> Option<u32>) -> u32 {
+        let mut at = 0;
+        for depth in 1..=key.depth {
+            let Some(first) = first_child(self.node(at)) else { break };
+            let bits = (key.cell >> glam::UVec3::splat(u32::from(key.depth - depth))) & glam::UVec3::ONE;
+            at = first + (bits.x | bits.y << 1 | bits.z << 2);
+        }
+        at
     }
 }
 

@@ -2,14 +2,29 @@
 
 mod cut;
 mod index;
+mod live;
+#[cfg(test)]
+mod live_tests;
 mod loader;
 mod lod;
+mod presence;
+mod priority;
+mod room;
 mod slots;
 mod touched;
+mod touching;
+mod vertices;
+mod weights;
 
-pub use cut::{Cut, CutNode, ResidentBrick};
+pub use cut::{Cut, CutNode, Family, Meeting, ResidentBrick};
 pub use index::{IndexRules, build_index, is_shown};
+pub use live::{Arrival, Met, Moment, WorkingSet};
 pub use loader::{Fetched, LoadedBrick, Loader};
 pub use lod::LodRule;
+pub use presence::{Tick, advance, refresh, settle};
+pub use priority::priorities;
 pub use slots::SlotPool;
 pub use touched::{Touched, Wanted};
+pub use touching::neighbours;
+pub use vertices::{Around, visit_vertices};
+pub use weights::corner_weights;

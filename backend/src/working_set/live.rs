@@ -1,0 +1,288 @@
+//! The live working set: what rays met in, what to load out, a little every frame.
+//!
+//! Pure: it knows no device, no file and no clock of its own. Each frame is one [`WorkingSet::update`], after which
+//! [`WorkingSet::wanted`] tells which bricks to fetch, most needed first; what became of them comes back through
+//! [`WorkingSet::arrived`] and [`WorkingSet::failed`], and [`WorkingSet::show`] moves what rays meet.
+
+use super::presence::{Tick, advance, refresh};
+use super::room::Room;
+use super::{Cut, CutNode, Family, IndexRules, Meeting, ResidentBrick, SlotPool, priorities};
+use crate::store::{NodeKey, NodeSummary};
+use std::collections::HashMap;
+
+/// Rays that met a node within this many seconds still count, for views that move.
+const MEMORY_S: f64 = 0.5;
+
+/// What is asked of an update besides the rules of the frame.
+#[derive(Clone, Copy)]
+pub struct Moment<'a> {
+    /// The rules of the frame.
+    pub rules: IndexRules<'a>,
+    /// Bounds of the values of a node inside the volume.
+    pub summary: &'a dyn Fn(NodeKey) -> NodeSummary,
+    /// Now, seconds on a clock that does not run back.
+    pub now_s: f64,
+    /// Whether nothing has changed since the last frame but the time.
+    pub is_still: bool,
+    /// Time in which detail appears or goes, seconds; 0 is at once.
+    pub fade_s: f64,
+    /// Bricks that may be asked for and not be there yet.
+    pub most_in_flight: usize,
+}
+
+/// A leaf that rays of the last frame met, on whatever view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Met {
+    /// Which node.
+    pub key: NodeKey,
+    /// Rays that sampled it.
+    pub rays: u32,
+}
+
+/// What became of a brick that has arrived.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrival {
+    /// It belongs into this slot.
+    Slot(u32),
+    /// Nobody wants it any more.
+    Unwanted,
+}
+
+/// The cut, the slots of its bricks, and what is on its way.
+#[derive(Clone, Debug)]
+pub struct WorkingSet {
+    /// The cut.
+    pub cut: Cut,
+    /// The slots.
+    pub slots: SlotPool,
+    /// When the view came to rest; the present while it moves.
+    still_since_s: f64,
+    now_s: f64,
+    last_s: Option<f64>,
+    /// Nodes whose children cannot be read, until when.
+    lost: HashMap<NodeKey, f64>,
+    /// Of families that were split because finer neighbours needed it: how urgent that was.
+    forced: HashMap<NodeKey, f64>,
+    wanted: Vec<NodeKey>,
+    /// Families that came and that went in the last update.
+    pub splits: u64,
+    /// Families that went in the last update.
+    pub collapses: u64,
+}
+
+impl WorkingSet {
+    /// The root alone, with `slots` slots for bricks.
+    pub fn new(root: NodeSummary, slots: u32) -> Self {
+        Self {
+            cut: Cut::new(root),
+            slots: SlotPool::new(slots),
+            still_since_s: 0.0,
+            now_s: 0.0,
+            last_s: None,
+            lost: HashMap::new(),
+            forced: HashMap::new(),
+            wanted: Vec::new(),
+            splits: 0,
+            collapses: 0,
+        }
+    }
+
+    /// Takes in what rays met, and splits and collapses within the cache: the largest deficit first, then the most rays,
+    /// then by key. Touching nodes differ by one level at most, before and after.
+    pub fn update(&mut self, moment: &Moment, met: &[Met]) {
+        self.tell_time(moment);
+        (self.splits, self.collapses) = (0, 0);
+        let mut order: Vec<u32> = self.cut.walk().collect();
+        refresh(&mut self.cut, &moment.rules, &order);
+        self.note(met);
+        self.drop_unwanted(moment, &order);
+        order.clear();
+        order.extend(self.cut.walk());
+        let met = |place| self.is_met(place).then(|| self.cut.node(place).deficit);
+        let priority = priorities(&self.cut, &order, met);
+        self.split_all(moment, &order, &priority);
+        self.wanted = self.missing(&priority);
+    }
+
+    /// Bricks to fetch, most needed first.
+    pub fn wanted(&self) -> &[NodeKey] {
+        &self.wanted
+    }
+
+    /// Gives a brick that has come its slot.
+    pub fn arrived(&mut self, key: NodeKey, low: f64, span: f64) -> Arrival {
+        let place = self.cut.find(key);
+        if self.cut.node(place).key != key || !self.cut.lacks(place) {
+            return Arrival::Unwanted;
+        }
+        let Some(slot) = self.slots.take() else { return Arrival::Unwanted };
+        self.cut.set_brick(place, ResidentBrick { slot, low, span });
+        Arrival::Slot(slot)
+    }
+
+    /// Gives up the family of a brick that cannot be read, until `retry_s` on the clock.
+    pub fn failed(&mut self, key: NodeKey, retry_s: f64) {
+        let Some(parent) = key.parent() else { return };
+        self.lost.insert(parent, retry_s);
+    }
+
+    /// Moves what rays meet on to the present, `fade_s` being the time of a whole fade.
+    pub fn show(&mut self, moment: &Moment) {
+        let order: Vec<u32> = self.cut.walk().collect();
+        let step = match self.last_s {
+            _ if moment.fade_s <= 0.0 => 1.0,
+            None => 0.0,
+            Some(last) => ((moment.now_s - last) / moment.fade_s).clamp(0.0, 1.0) as f32,
+        };
+        self.last_s = Some(moment.now_s);
+        let tick = Tick { now_s: self.now_s, step, seen_since_s: self.seen_since() };
+        let lost = &self.lost;
+        let is_lost = |key| lost.get(&key).is_some_and(|&until| tick.now_s < until);
+        advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
+    }
+
+    /// Whether the detail below a node is known not to be had now.
+    pub fn is_lost(&self, key: NodeKey) -> bool {
+        self.lost.get(&key).is_some_and(|&until| self.now_s < until)
+    }
+
+    /// Bricks that slots are kept for.
+    pub fn reserved(&self) -> usize {
+        self.cut.walk().filter(|&place| self.awaits(place)).count()
+    }
+
+    fn tell_time(&mut self, moment: &Moment) {
+        self.now_s = self.now_s.max(moment.now_s);
+        if !moment.is_still {
+            self.still_since_s = self.now_s;
+        }
+    }
+
+    /// Since when rays count: while nothing changes, all of them do, so that what is chosen by them comes to rest.
+    pub(super) fn seen_since(&self) -> f64 {
+        self.still_since_s.min(self.now_s - MEMORY_S)
+    }
+
+    /// Whether a node is a leaf that rays meet.
+    fn is_met(&self, place: u32) -> bool {
+        let node = self.cut.node(place);
+        node.is_visible && node.shown_child().is_none() && node.met.time_s >= self.seen_since()
+    }
+
+    fn note(&mut self, met: &[Met]) {
+        for &Met { key, rays } in met {
+            let place = self.cut.find(key);
+            let now_s = self.now_s;
+            let node = self.cut.node_mut(place);
+            if node.key == key {
+                node.met = Meeting { time_s: now_s, rays, ..node.met };
+            }
+        }
+    }
+
+    /// Whether a slot is kept for a node's brick.
+    pub(super) fn awaits(&self, place: u32) -> bool {
+        let parent = self.cut.node(place).parent;
+        self.cut.lacks(place) && parent.is_none_or(|parent| !self.is_lost(self.cut.node(parent).key))
+    }
+
+    /// Gives up families that are on their way and that nobody wants any more, fine ones first.
+    fn drop_unwanted(&mut self, moment: &Moment, order: &[u32]) {
+        let since = self.seen_since();
+        for &place in order.iter().rev() {
+            let node = self.cut.node(place);
+            let Some(first) = node.first_child else { continue };
+            let lacks = (first..first + 8).any(|child| self.cut.lacks(child));
+            let is_wanted = node.deficit > 0.0 && node.met.time_s >= since && !self.is_lost(node.key);
+            let is_leaving = node.is_leaving && node.family == Family::Hidden;
+            if ((lacks && !is_wanted) || is_leaving) && self.cut.may_collapse(moment.rules.shape, place) {
+                self.collapse(place);
+            }
+        }
+    }
+
+    /// Makes a node a leaf again. What its children knew of rays it knows then, and neighbours
+    /// find at their corners what they found there before.
+    pub(super) fn collapse(&mut self, place: u32) {
+        let node = self.cut.node(place);
+        let (key, was_shown) = (node.key, node.family != Family::Hidden);
+        let first = node.first_child.expect("only an inner node is collapsed");
+        let shown = self.cut.node(first).shown;
+        let latest = (first..first + 8).map(|child| self.cut.node(child).met);
+        let latest = latest.max_by(|a, b| a.time_s.total_cmp(&b.time_s)).expect("there are eight");
+        for slot in self.cut.collapse(place) {
+            self.slots.give(slot);
+        }
+        let node = self.cut.node_mut(place);
+        if latest.time_s > node.met.time_s {
+            node.met = latest;
+        }
+        if was_shown {
+            node.permits = shown;
+        }
+        self.forced.remove(&key);
+        self.collapses += 1;
+    }
+
+    /// Splits all that rays found too coarse, as far as there is room.
+    fn split_all(&mut self, moment: &Moment, order: &[u32], priority: &[f64]) {
+        let mut candidates: Vec<u32> = order.iter().copied().filter(|&p| self.is_candidate(p)).collect();
+        let rank = |place: u32| (priority[place as usize], self.cut.node(place));
+        candidates.sort_by(|&a, &b| {
+            let ((p, a), (q, b)) = (rank(a), rank(b));
+            q.total_cmp(&p).then(b.met.rays.cmp(&a.met.rays)).then(a.key.cmp(&b.key))
+        });
+        let mut room = Room::new(self, moment, priority);
+        room.pay_debts(self);
+        for place in candidates {
+            let urgency = priority[place as usize];
+            for split in room.make(self, place, urgency) {
+                self.split(moment, split);
+                self.forced.insert(self.cut.node(split).key, urgency);
+            }
+            if room.is_exhausted() {
+                break;
+            }
+        }
+    }
+
+    fn is_candidate(&self, place: u32) -> bool {
+        let node: &CutNode = self.cut.node(place);
+        node.first_child.is_none()
+            && node.is_visible
+            && node.brick.is_some()
+            && node.deficit > 0.0
+            && self.is_met(place)
+            && !self.is_lost(node.key)
+    }
+
+    fn split(&mut self, moment: &Moment, place: u32) {
+        let rules = &moment.rules;
+        let contains = |key| rules.shape.contains(key).then(|| (moment.summary)(key));
+        let first = self.cut.split(place, contains);
+        let family: Vec<u32> = (first..first + 8).collect();
+        refresh(&mut self.cut, rules, &family);
+        self.splits += 1;
+    }
+
+    /// Visible nodes without a brick, most urgent families first.
+    fn missing(&self, priority: &[f64]) -> Vec<NodeKey> {
+        let mut missing: Vec<(f64, u32, u32)> = Vec::new();
+        for place in self.cut.walk().filter(|&place| self.awaits(place)) {
+            let node = self.cut.node(place);
+            let (urgency, rays) = match node.parent {
+                None => (f64::INFINITY, 0),
+                Some(parent) => {
+                    let above = self.cut.node(parent);
+                    let forced = self.forced.get(&above.key).copied().unwrap_or(f64::NEG_INFINITY);
+                    let own = priority.get(parent as usize).copied().unwrap_or(f64::NEG_INFINITY);
+                    (own.max(forced), above.met.rays)
+                }
+            };
+            missing.push((urgency, rays, place));
+        }
+        let key = |place: u32| self.cut.node(place).key;
+        missing.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)).then_with(|| key(a.2).cmp(&key(b.2))));
+        missing.into_iter().map(|(.., place)| key(place)).collect()
+    }
+}

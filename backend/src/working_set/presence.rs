@@ -1,0 +1,124 @@
+//! Which nodes rays meet, and how much of them: detail appears and goes in time, and never beside a border it would show.
+//!
+//! What is resident and what is shown are two things. The cut tells what is resident. Of it a family is shown where its
+//! parent is too coarse for the display; every node has its share t of the blend with its parent, which rises or falls in
+//! time. So a family that is no longer needed fades away and stays in the cache until others need the room.
+
+use super::{Cut, Family, IndexRules};
+use crate::store::{NodeKey, OctreeShape};
+
+/// A moment on the working set's clock.
+#[derive(Clone, Copy, Debug)]
+pub struct Tick {
+    /// Now, seconds.
+    pub now_s: f64,
+    /// By how much shares may change until now, 0 to 1.
+    pub step: f32,
+    /// Nodes that rays met since then count as seen, seconds.
+    pub seen_since_s: f64,
+}
+
+/// Tells every node of the cut what the frame thinks of it.
+pub fn refresh(cut: &mut Cut, rules: &IndexRules, order: &[u32]) {
+    for &place in order {
+        let node = cut.node(place);
+        let (is_visible, deficit) = (!rules.is_empty(node), rules.deficit(node));
+        let node = cut.node_mut(place);
+        (node.is_visible, node.deficit) = (is_visible, deficit);
+    }
+}
+
+/// Shows at once what the rule of detail asks for, as far as it is resident. The outcome depends on nothing else: not on
+/// what rays met, nor on what was shown before.
+pub fn settle(cut: &mut Cut) {
+    for place in cut.walk().collect::<Vec<_>>() {
+        let is_shown = cut.wants_children(place);
+        let node = cut.node_mut(place);
+        node.family = if is_shown { Family::Shown } else { Family::Hidden };
+        node.permits = permitted(node.is_visible, node.deficit, false);
+        if let Some(first) = node.first_child {
+            (first..first + 8).for_each(|child| cut.node_mut(child).shown = f32::from(u8::from(is_shown)));
+        }
+    }
+}
+
+/// Moves all shares toward what the rule of detail asks for. Families begin and end one by one, each in sight of what the
+/// ones before it did; `order` has parents before children. `is_lost` tells whether the detail below a node cannot be had.
+pub fn advance(
+    cut: &mut Cut,
+    shape: &OctreeShape,
+    order: &[u32],
+    tick: &Tick,
+    is_lost: impl Fn(NodeKey) -> bool,
+) {
+    for &place in order {
+        let wants = cut.wants_children(place);
+        let node = cut.node(place);
+        let is_seen = node.met.time_s.max(node.met.since_s) >= tick.seen_since_s;
+        let is_ready = node.permits == 0.0 || !is_seen;
+        let family = match node.family {
+            Family::Hidden if wants && is_ready && cut.may_show(shape, place) => {
+                cut.begin_family(place, is_seen, tick.now_s);
+                Family::Shown
+            }
+            Family::Shown if !wants && cut.may_go(shape, place) => Family::Going,
+            Family::Going if wants => Family::Shown,
+            same => same,
+        };
+        cut.node_mut(place).family = family;
+        cut.move_family(place, tick.step);
+        let lost = is_lost(cut.node(place).key);
+        let node = cut.node_mut(place);
+        if node.shown_child().is_none() {
+            let target = permitted(node.is_visible, node.deficit, is_seen && !lost);
+            node.permits += (target - node.permits).clamp(-tick.step, tick.step);
+        }
+    }
+}
+
+/// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they
+/// blend down to it; where it is not, it will be split as soon as anybody sees it, and until then nobody sees a border.
+fn permitted(is_visible: bool, deficit: f64, is_seen: bool) -> f32 {
+    if is_visible && (deficit <= 0.0 || is_seen) { 0.0 } else { 1.0 }
+}
+
+impl Cut {
+    /// Whether a node's children are resident and wanted.
+    fn wants_children(&self, place: u32) -> bool {
+        let node = self.node(place);
+        let is_wanted = node.is_visible && node.deficit > 0.0 && !node.is_leaving;
+        is_wanted && node.first_child.is_some_and(|first| (first..first + 8).all(|child| !self.lacks(child)))
+    }
+
+    /// Whether a node shows something and its brick is not there.
+    pub(super) fn lacks(&self, place: u32) -> bool {
+        let node = self.node(place);
+        node.is_visible && node.brick.is_none()
+    }
+
+    /// Children begin as their parent: seen, with no share of their own; unseen, with what finer neighbours found there.
+    fn begin_family(&mut self, place: u32, is_seen: bool, now_s: f64) {
+        let node = self.node(place);
+        let permits = node.permits;
+        let first = node.first_child.expect("only what has children can show them");
+        for child in first..first + 8 {
+            let child = self.node_mut(child);
+            (child.shown, child.permits) = (permits, permits);
+            child.met.since_s = if is_seen { now_s } else { f64::NEG_INFINITY };
+        }
+    }
+
+    fn move_family(&mut self, place: u32, step: f32) {
+        let Some(first) = self.node(place).shown_child() else { return };
+        let shown = self.node(first).shown;
+        let moved = match self.node(place).family {
+            Family::Going => (shown - step).max(0.0),
+            Family::Shown | Family::Hidden => (shown + step).min(1.0),
+        };
+        (first..first + 8).for_each(|child| self.node_mut(child).shown = moved);
+        if moved == 0.0 && self.node(place).family == Family::Going {
+            let node = self.node_mut(place);
+            (node.family, node.permits) = (Family::Hidden, 0.0);
+        }
+    }
+}
