@@ -3,7 +3,7 @@
 use super::{Cut, CutNode, LodRule};
 use crate::store::{NodeSummary, OctreeShape};
 use shaders::compose::{Compositing, Way};
-use shaders::layout::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord};
+use shaders::layout::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 use shaders::optics::Optics;
 
 /// What turns a cut into an index for one frame.
@@ -17,6 +17,21 @@ pub struct IndexRules<'a> {
     pub optics: &'a Optics,
     /// Whether samples are blended with those of ancestors, whose values lie beyond the node's own bounds.
     pub is_quadrilinear: bool,
+    /// A slot that holds no brick and all of whose cells show something; nodes that have no brick of their own and
+    /// blend with their parent stand in it. None where nodes do not blend.
+    pub blank_slot: Option<u32>,
+}
+
+/// What a record says of a node's samples.
+struct Content {
+    slot: u32,
+    offset: f64,
+    scale: f64,
+    weights: [u32; 2],
+}
+
+impl Content {
+    const EMPTY: Self = Self { slot: NO_SLOT, offset: 0.0, scale: 0.0, weights: FULL_WEIGHTS };
 }
 
 impl IndexRules<'_> {
@@ -31,33 +46,58 @@ impl IndexRules<'_> {
         if node.key.depth == self.shape.finest_depth() { deficit.min(0.0) } else { deficit }
     }
 
-    fn record(&self, node: &CutNode, neighbours: [u32; 6]) -> NodeRecord {
-        let (low, high) = self.optics.domain;
-        let per_value = 1.0 / (high - low);
-        let visible = node.brick.filter(|_| !self.is_empty(node));
+    fn record(&self, cut: &Cut, place: u32, neighbours: [u32; 6], weights: [u32; 2]) -> NodeRecord {
+        let node = cut.node(place);
+        let content = self.content(cut, node, weights);
         NodeRecord {
             cell: node.key.cell.to_array(),
             depth: u32::from(node.key.depth),
             parent: node.parent.unwrap_or(NO_NODE),
-            first_child: node.first_child.unwrap_or(NO_NODE),
-            slot: visible.map_or(NO_SLOT, |brick| brick.slot),
+            first_child: node.shown_child().unwrap_or(NO_NODE),
+            slot: content.slot,
             deficit: self.deficit(node) as f32,
-            offset: visible.map_or(0.0, |brick| (brick.low - low) * per_value) as f32,
-            scale: visible.map_or(0.0, |brick| brick.span * per_value) as f32,
+            offset: content.offset as f32,
+            scale: content.scale as f32,
             neighbours,
-            most_extinction: self.most_extinction(node) as f32,
-            weights: FULL_WEIGHTS,
+            most_extinction: self.most_extinction(cut, node, content.weights) as f32,
+            weights: content.weights,
             padding: 0,
         }
     }
 
+    /// A node that shows nothing has nothing to sample, unless it blends with a parent that does: then its own sample is
+    /// the middle of its range, and the blend ends as smoothly as it does elsewhere. A node whose brick has not come
+    /// shows its parent's samples.
+    fn content(&self, cut: &Cut, node: &CutNode, weights: [u32; 2]) -> Content {
+        let (low, high) = self.optics.domain;
+        let scalar = |value: f64| (value - low) / (high - low);
+        let is_empty = self.is_empty(node);
+        if let (Some(brick), false) = (node.brick, is_empty) {
+            let (offset, scale) = (scalar(brick.low), brick.span / (high - low));
+            return Content { slot: brick.slot, offset, scale, weights };
+        }
+        let parent = node.parent.map(|parent| cut.node(parent));
+        let has_parent = parent.is_some_and(|parent| parent.brick.is_some() && !self.is_empty(parent));
+        match (self.blank_slot, node.summary) {
+            (Some(slot), Some(_)) if has_parent && !is_empty => {
+                Content { slot, offset: 0.0, scale: 0.0, weights: [0; 2] }
+            }
+            (Some(slot), Some(NodeSummary { min, max })) if has_parent && weights != FULL_WEIGHTS => {
+                Content { slot, offset: scalar(0.5 * f64::from(min + max)), scale: 0.0, weights }
+            }
+            _ => Content::EMPTY,
+        }
+    }
+
     /// Steps may grow where extinction is low; not where importance or refraction acts, which have no part in
-    /// it, nor where ancestors' values are blended in.
-    fn most_extinction(&self, node: &CutNode) -> f64 {
+    /// it, nor where ancestors' values are blended in. The bounds of a parent are those of its children, too.
+    fn most_extinction(&self, cut: &Cut, node: &CutNode, weights: [u32; 2]) -> f64 {
         if self.is_quadrilinear {
             return f64::from(f32::MAX);
         }
-        match (node.summary, Compositing::for_optics(self.optics), Way::for_optics(self.optics)) {
+        let parent = node.parent.filter(|_| weights != FULL_WEIGHTS).map(|parent| cut.node(parent));
+        let summary = parent.map_or(node.summary, |parent| parent.summary);
+        match (summary, Compositing::for_optics(self.optics), Way::for_optics(self.optics)) {
             (Some(NodeSummary { min, max }), Compositing::Over, Way::Straight) => {
                 let [low, high] = [min, max].map(|value| self.optics.normalise(f64::from(value)));
                 self.optics.extinction.max_on(low, high) * self.optics.most_factor()
@@ -73,16 +113,20 @@ pub fn is_shown(optics: &Optics, NodeSummary { min, max }: NodeSummary) -> bool 
 }
 
 /// One record per place of the cut, with its neighbour links. A link leads to the node beyond the face at the same
-/// depth, or to the coarser leaf there.
-pub fn build_index(cut: &Cut, rules: &IndexRules) -> Vec<NodeRecord> {
+/// depth, or to the coarser leaf there. Rays meet what is shown; nodes blend by `weights` where there is a blank slot.
+pub fn build_index(cut: &Cut, weights: &[[f32; 8]], rules: &IndexRules) -> Vec<NodeRecord> {
     let mut records: Vec<NodeRecord> = vec![bytemuck::Zeroable::zeroed(); cut.nodes().len()];
-    for place in cut.walk() {
+    for place in cut.walk_shown() {
         let node = cut.node(place);
         let neighbours = match node.parent {
             None => [NO_NODE; 6],
             Some(parent) => links(cut, node, parent, records[parent as usize].neighbours, place),
         };
-        records[place as usize] = rules.record(node, neighbours);
+        let blend = match rules.blank_slot {
+            Some(_) => pack_weights(weights[place as usize]),
+            None => FULL_WEIGHTS,
+        };
+        records[place as usize] = rules.record(cut, place, neighbours, blend);
     }
     records
 }
@@ -104,7 +148,7 @@ fn links(cut: &Cut, node: &CutNode, parent: u32, of_parent: [u32; 6], place: u32
             return NO_NODE;
         }
         let beyond_node = cut.node(beyond);
-        match beyond_node.first_child {
+        match beyond_node.shown_child() {
             Some(children) if beyond_node.key.depth + 1 == node.key.depth => children + mirrored,
             Some(_) | None => beyond,
         }
