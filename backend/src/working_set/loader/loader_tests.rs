@@ -4,7 +4,7 @@ use super::test_source::{TestSource, Trouble, key, keys};
 use super::*;
 use crate::store::BrickErrorKind;
 use proptest::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 const PANTRY_BYTES: u64 = 100 * SAMPLE_BYTES;
@@ -188,7 +188,7 @@ fn each_failure_is_told_once() {
 fn failures_of_what_nobody_waits_for_are_told_too() {
     let source = TestSource::held();
     let loader = loader(&source, 3);
-    [0, 1].map(|x| source.spoil(key(x), Some(Trouble::Unavailable)));
+    keys([0, 1]).into_iter().for_each(|key| source.spoil(key, Some(Trouble::Unavailable)));
     loader.want(&keys([0]), &[]);
     source.wait_inside(1);
     loader.want(&[], &keys([1, 2]));
@@ -240,7 +240,8 @@ fn a_complete_frame_waits_for_all_and_takes_nothing_from_a_live_one() {
     source.spoil(key(7), Some(Trouble::Panic));
     loader.want(&keys([0, 1]), &[]);
     let mut fetched = BTreeMap::new();
-    loader.fetch(&keys([1, 2, 7]), |(key, brick)| drop(fetched.insert(key.cell.x, brick.is_ok()))).unwrap();
+    let arrived = |(key, brick): Fetched| fetched.extend([(key.cell.x, brick.is_ok())]);
+    loader.fetch(&keys([1, 2, 7]), arrived).unwrap();
     assert_eq!(fetched, BTreeMap::from([(1, true), (2, true), (7, false)]));
     let mut taken = names(&take(&loader, 2));
     taken.sort();
@@ -259,7 +260,7 @@ proptest! {
         threads in 1..5usize, bricks in 0..12u64, most in 0..3u64,
     ) {
         let source = TestSource::shared();
-        [3, 11].map(|x| source.spoil(key(x), Some(Trouble::Unavailable)));
+        keys([3, 11]).into_iter().for_each(|key| source.spoil(key, Some(Trouble::Unavailable)));
         let loader = Loader::new(Arc::clone(&source) as Arc<dyn BrickSource>, threads, bricks * SAMPLE_BYTES);
         for (ordered, prefetch) in &lists {
             loader.want(&keys(ordered.iter().copied()), &keys(prefetch.iter().copied()));
@@ -267,17 +268,17 @@ proptest! {
         }
         let last: Vec<u32> = (0..24).rev().step_by(2).collect();
         loader.want(&keys(last.iter().copied()), &[]);
-        let mut came = BTreeMap::new();
+        let mut came = BTreeSet::new();
         while loader.wait(LONG) {
             for (key, brick) in loader.arrived(most * SAMPLE_BYTES) {
                 let is_failure = matches!(key.cell.x, 3 | 11);
                 prop_assert_eq!(brick.is_err(), is_failure);
                 // A failure may be an earlier read's.
                 prop_assert!(last.contains(&key.cell.x) || is_failure);
-                prop_assert!(came.insert(key.cell.x, ()).is_none(), "{} came twice", key.cell.x);
+                prop_assert!(came.insert(key.cell.x), "{key} came twice");
             }
         }
-        prop_assert!(last.iter().all(|x| came.contains_key(x)), "{came:?}");
+        prop_assert!(last.iter().all(|x| came.contains(x)), "{came:?}");
         prop_assert!(!source.has_doubled() && loader.is_idle());
     }
 }
