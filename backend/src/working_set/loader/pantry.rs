@@ -56,8 +56,8 @@ impl Pantry {
 
     /// Whether a brick of such worth would stay, were `coming` others put in before.
     pub fn has_room(&self, worth: Worth, coming: usize) -> bool {
-        self.kept.len() + coming < self.capacity
-            || self.order.first_key_value().is_some_and(|(&least, _)| least < worth)
+        let leaving = (self.kept.len() + coming + 1).saturating_sub(self.capacity);
+        leaving == 0 || self.order.keys().nth(leaving - 1).is_some_and(|&last| last < worth)
     }
 
     /// Puts a brick in. Gives up the one of least worth where there is no room, and tells which: it may be the same.
@@ -156,6 +156,7 @@ mod tests {
         assert_eq!(pantry.put(key(5), None, brick()), Some((key(5), Worth::Left(3))));
         assert!(!pantry.has_room(Worth::Prefetched(Reverse(1)), 0));
         assert!(pantry.has_room(Worth::Wanted(Reverse(9)), 0));
+        assert!(!pantry.has_room(Worth::Wanted(Reverse(9)), 1), "the other one takes the last place");
         assert_eq!(pantry.put(key(6), wanted(7), brick()), Some((key(2), Worth::Prefetched(Reverse(0)))));
         assert_eq!(pantry.put(key(7), wanted(8), brick()), Some((key(7), Worth::Wanted(Reverse(8)))));
         assert_eq!(pantry.bytes(), 3 * SAMPLE_BYTES);
