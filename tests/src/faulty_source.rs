@@ -216,7 +216,8 @@ mod tests {
     }
 
     fn nodes(source: &FaultySource) -> Vec<NodeKey> {
-        (0..=4).flat_map(|depth| source.shape().nodes(depth)).collect()
+        let shape = source.shape();
+        (0..=4).flat_map(|depth| shape.nodes(depth)).collect()
     }
 
     #[test]

@@ -23,7 +23,8 @@ fn loader(source: &Arc<FaultySource>) -> Loader {
 }
 
 fn nodes(source: &FaultySource) -> Vec<NodeKey> {
-    (0..=2).flat_map(|depth| source.shape().nodes(depth)).collect()
+    let shape = source.shape();
+    (0..=2).flat_map(|depth| shape.nodes(depth)).collect()
 }
 
 /// What is left of a list when a clock that leaps from wait to wait stands still.
@@ -73,11 +74,11 @@ fn what_a_disk_refuses_for_a_while_comes_and_what_is_damaged_is_read_once() {
     let source = faulty(rates.clone());
     println!("seed {SEED:#x}");
     let (lacking, failures) = load_all(&source, Duration::from_secs(200));
-    let nodes = nodes(&source);
-    let with = |fault: Fault| nodes.iter().copied().filter(move |&node| source.fault(node) == Some(fault));
     for (fault, _) in rates {
-        assert!(with(fault).count() > 0, "no brick has {fault:?}");
-        for node in with(fault) {
+        let mut with = nodes(&source);
+        with.retain(|&node| source.fault(node) == Some(fault));
+        assert!(!with.is_empty(), "no brick has {fault:?}");
+        for node in with {
             // Tries at 0, 1, 3, 7, 15, 31, 63, 123 and 183 s.
             let (reads, kind) = match fault {
                 Fault::Away(FOR_EVER) => (9, Some(BrickErrorKind::Unavailable)),

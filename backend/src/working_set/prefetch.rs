@@ -201,7 +201,7 @@ mod tests {
     fn the_order_of_the_leaves_plays_no_part_and_hidden_nodes_have_none() {
         let (before, now) = (rule(pose(0.2, 1.0, 0.52)), rule(pose(0.25, 1.0, 0.5)));
         let motion = Motion { now: &now, before: &before, between: Duration::from_millis(20) };
-        let is_shown = |key: NodeKey| key.cell.x % 2 == 0;
+        let is_shown = |key: NodeKey| key.cell.x.is_multiple_of(2);
         let mut cut = leaves(&now);
         let list = |cut: &[NodeKey]| {
             prefetch(cut.iter().copied(), &motion, Duration::from_millis(200), &shape(), is_shown, 500)
