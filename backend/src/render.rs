@@ -21,6 +21,9 @@ use display_config::Display;
 use residency::Residency;
 use std::sync::Arc;
 
+/// Bricks in memory that were read before they were asked for: a second or so of a fast disk.
+const PANTRY_BYTES: u64 = 256 << 20;
+
 /// Why a frame could not be drawn.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum RenderError {
@@ -83,7 +86,7 @@ impl Renderer {
             (0..=shape.finest_depth()).map(|d| shape.level_bricks(d).as_u64vec3().element_product()).sum();
         let ChosenDevice { device, info } =
             open_device(setup.device, setup.filter, setup.cache_bytes, bricks)?;
-        let loader = Loader::new(Arc::clone(&source), loader_threads());
+        let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
         let residency = Residency::new(source, loader, device.slots());
         let renderer = Self {
             display: setup.display.clone(),

@@ -4,6 +4,7 @@ pub mod closure_volume;
 pub mod compare;
 pub mod data;
 pub mod draw;
+pub mod faulty_source;
 pub mod head;
 #[cfg(unix)]
 pub mod program;

@@ -56,7 +56,7 @@ impl BrickSource for Grid {
     fn brick(&self, node: NodeKey) -> Result<Brick, BrickError> {
         assert!(self.shape.contains(node), "{node:?}");
         if self.damaged == Some(node) {
-            return Err(BrickError("brick 7 of a.lloom is damaged".into()));
+            return Err(BrickError::damaged("brick 7 of a.lloom is damaged"));
         }
         let last = self.shape.level_dims(node.depth).as_ivec3() - 1;
         let code = |i: usize| {

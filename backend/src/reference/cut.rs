@@ -184,7 +184,7 @@ fn read(source: &dyn BrickSource, key: NodeKey) -> Result<Voxels, BrickError> {
         Codes::U16(codes) => codes,
     };
     if codes.len() != BRICK_VOXELS {
-        return Err(BrickError(format!(
+        return Err(BrickError::damaged(format!(
             "brick {key:?} has {} samples instead of {BRICK_VOXELS}",
             codes.len()
         )));

@@ -88,7 +88,7 @@ impl Tracer {
         segmentation: &Segmentation,
     ) -> Result<Radiance, BrickError> {
         if self.setting.index.is_some() {
-            return Err(BrickError(BENT_SEGMENTS.to_string()));
+            return Err(BrickError::damaged(BENT_SEGMENTS));
         }
         let line = ray.line(&self.setting.volume_from_display);
         let view = self.setting.view(ray);

@@ -59,7 +59,7 @@ impl BrickSource for Spoiled {
         let late = node.cell.element_sum().wrapping_mul(self.dawdle) % 4;
         std::thread::sleep(Duration::from_millis(u64::from(late)));
         match self.broken.contains(&node) {
-            true => Err(BrickError(format!("brick {node:?} of shells.lloom is spoiled"))),
+            true => Err(BrickError::damaged(format!("brick {node:?} of shells.lloom is spoiled"))),
             false => self.volume.brick(node),
         }
     }

@@ -54,6 +54,20 @@ fn a_store_cut_short_is_an_error() {
     }
 }
 
+#[test]
+fn what_cannot_be_read_now_may_be_read_later() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = store_bytes(folder.path(), Codec::Lz4);
+    let path = folder.path().join("grid.lloom");
+    let store = Store::open(&path).unwrap();
+    std::fs::write(&path, &bytes[..100]).unwrap();
+    let error = store.brick(NodeKey::ROOT).unwrap_err();
+    assert_eq!(error.kind, BrickErrorKind::Unavailable, "{error}");
+    assert!(error.to_string().starts_with("cannot read brick 0/0,0,0 of "), "{error}");
+    std::fs::write(&path, &bytes).unwrap();
+    store.brick(NodeKey::ROOT).unwrap();
+}
+
 /// Reads all that there is to read of a store with these bytes, and tells how much of it is damaged.
 fn read_all(bytes: Vec<u8>) -> u64 {
     let Ok(store) = Store::from_bytes(Path::new("damaged.lloom"), bytes) else { return 1 };
@@ -98,13 +112,16 @@ fn damage_of_a_brick_is_that_bricks_alone() {
     let all = || (0..=1).flat_map(|depth| shape.nodes(depth));
     let broken: Vec<_> = all().filter(|&node| damaged.brick(node).is_err()).collect();
     assert_eq!(broken.len(), 1);
-    let said = damaged.brick(broken[0]).unwrap_err().to_string();
+    let BrickError { sentence: said, kind } = damaged.brick(broken[0]).unwrap_err();
+    assert_eq!(kind, BrickErrorKind::Damaged);
     assert!(said.contains(&format!("brick {} of damaged.lloom is damaged", broken[0])), "{said}");
     assert!(all().all(|node| damaged.summary(node) == store.summary(node)));
     // An entry of the table: its bounds become those of the root.
     bytes[start as usize + 2 * 64 + 5] ^= 1;
     let damaged = Store::from_bytes(Path::new("damaged.lloom"), bytes).unwrap();
-    assert!(damaged.brick(node).unwrap_err().to_string().contains("entry 2 of the table"));
+    let error = damaged.brick(node).unwrap_err();
+    assert!(error.to_string().contains("entry 2 of the table"));
+    assert_eq!(error.kind, BrickErrorKind::Damaged);
     assert_eq!(damaged.summary(node), store.summary(NodeKey::ROOT));
 }
 

@@ -173,7 +173,9 @@ impl Store {
     fn entry_of(&self, node: NodeKey) -> Result<Entry, BrickError> {
         if !self.shape.contains(node) {
             let path = self.path.display();
-            return Err(BrickError(format!("{path} has no brick {node}: it lies outside the volume")));
+            return Err(BrickError::damaged(format!(
+                "{path} has no brick {node}: it lies outside the volume"
+            )));
         }
         match self.find(node) {
             Found::Entry(entry) => Ok(entry),
@@ -192,7 +194,7 @@ impl Store {
 
     fn damaged(&self, node: NodeKey, what: &str) -> BrickError {
         let path = self.path.display();
-        BrickError(format!(
+        BrickError::damaged(format!(
             "brick {node} of {path} is damaged ({what}); copy the store again or import the volume again"
         ))
     }
@@ -205,7 +207,9 @@ impl Store {
 
     fn unreadable(&self, node: NodeKey, cause: &std::io::Error) -> BrickError {
         let path = self.path.display();
-        BrickError(format!("cannot read brick {node} of {path}: {cause}; check the disk or the network"))
+        BrickError::unavailable(format!(
+            "cannot read brick {node} of {path}: {cause}; check the disk or the network"
+        ))
     }
 
     /// Reads and decodes what an entry tells of.

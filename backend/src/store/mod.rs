@@ -53,5 +53,5 @@ pub use import::{ImportOptions, PROCEDURAL_PREFIX, import};
 pub use octree::{NodeKey, OctreeShape};
 pub use options::{BuildOptions, BuildReport, Emptiness, LevelError};
 pub use quantise::{CodeBits, quantise};
-pub use source::{BrickError, BrickSource, NodeSummary};
+pub use source::{BrickError, BrickErrorKind, BrickSource, NodeSummary};
 pub use verify::{MOST_DAMAGES, Verification, verify};

@@ -13,10 +13,36 @@ pub struct NodeSummary {
     pub max: f32,
 }
 
-/// Why a brick could not be had: one sentence that names the file and the brick.
-#[derive(Clone, Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct BrickError(pub String);
+/// Why a brick could not be had.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{sentence}")]
+pub struct BrickError {
+    /// One sentence that names the file and the brick.
+    pub sentence: String,
+    /// Whether to ask for it again makes sense.
+    pub kind: BrickErrorKind,
+}
+
+/// Whether a brick that could not be had may be had later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrickErrorKind {
+    /// What was read is no brick: another read finds the same.
+    Damaged,
+    /// It could not be read: the disk or the network may answer another time.
+    Unavailable,
+}
+
+impl BrickError {
+    /// What was read is no brick.
+    pub fn damaged(sentence: impl Into<String>) -> Self {
+        Self { sentence: sentence.into(), kind: BrickErrorKind::Damaged }
+    }
+
+    /// The brick could not be read this time.
+    pub fn unavailable(sentence: impl Into<String>) -> Self {
+        Self { sentence: sentence.into(), kind: BrickErrorKind::Unavailable }
+    }
+}
 
 /// A volume as an octree of bricks. Cheap to ask from many threads at once.
 pub trait BrickSource: Send + Sync {

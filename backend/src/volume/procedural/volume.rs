@@ -100,7 +100,10 @@ impl BrickSource for ProceduralVolume {
 
     fn brick(&self, node: NodeKey) -> Result<Brick, BrickError> {
         if !self.shape.contains(node) {
-            return Err(BrickError(format!("{} has no brick {node:?}: it lies outside", self.info.name)));
+            return Err(BrickError::damaged(format!(
+                "{} has no brick {node:?}: it lies outside",
+                self.info.name
+            )));
         }
         let mut samples = vec![0.0f32; BRICK_VOXELS];
         if self.summary(node).max > 0.0 {
