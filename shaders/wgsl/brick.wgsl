@@ -39,12 +39,12 @@ fn segment_light(sample: Sample, thickness: f32, light: Lighting) -> vec4<f32> {
     return vec4<f32>(lit * (thickness * mean * sample.brightness), depth * mean);
 }
 
-// Adds one step, lit as given.
-fn add_whole(front: Accumulated, sample: Sample, thickness: f32, light: Lighting) -> Accumulated {
+// Adds one step with its middle at t, lit as given.
+fn add_whole(front: Accumulated, sample: Sample, thickness: f32, light: Lighting, ray: Ray, t: f32) -> Accumulated {
     if is_clear(sample.k.w) {
         return front;
     }
-    return composite(front, segment_light(sample, thickness, light), sample);
+    return composite(front, debug_light(segment_light(sample, thickness, light), ray, t), sample);
 }
 
 // One step along a ray.
@@ -81,7 +81,8 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
                 gradients = gradients_at(brick, ray, middle);
             }
             let sample = enhance(plain, ray, middle, from_s, to_s, gradients);
-            let light = segment_light(sample, thickness, light_on(sample, gradients, ray, 0.5 * (from_s + to_s)));
+            let lit = light_on(sample, gradients, ray, 0.5 * (from_s + to_s));
+            let light = debug_light(segment_light(sample, thickness, lit), ray, middle);
             if ONCE_PER_STEP {
                 alone += light * (1.0 - alone.w);
             } else {
@@ -123,8 +124,8 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
             gradients = gradients_at(brick, ray, middle);
         }
         let light = lighting(gradients, ray, material_at(s1));
-        *front = add_whole(*front, pair.first, thickness, light);
-        *front = add_whole(*front, pair.second, thickness, light);
+        *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
+        *front = add_whole(*front, pair.second, thickness, light, next_ray, t1 + 0.5 * step);
     } else {
         *front = add_parts(*front, brick, ray, Step(pair.first, s0, s1, t0, step), parts);
         *front = add_parts(*front, next_brick, next_ray, Step(pair.second, s1, s2, t1, step), parts);

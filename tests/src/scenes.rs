@@ -72,6 +72,7 @@ pub fn frame(
         quality: Quality::default(),
         tool: None,
         pace: Pace::Complete,
+        debug: None,
     }
 }
 

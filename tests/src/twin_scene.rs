@@ -30,7 +30,8 @@ pub struct TwinScene {
 impl TwinScene {
     /// The scene of `frame` on `display`.
     pub fn new(display: &Display, frame: &FrameState, source: &dyn BrickSource) -> Self {
-        let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
+        let needs =
+            Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
         let shape = source.shape();
         let lod = lod_rule(display, frame);
         let is_quadrilinear = frame.quality.quadrilinear;

@@ -30,7 +30,8 @@ const CONFINED: [(&str, &[&str]); 3] = [
     ("bincode", &["backend/src/protocol/wire.rs", "backend/src/protocol/wire_tests.rs"]),
 ];
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 13] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 14] = [
+    ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
     ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),
     ("enhance/none", Some("shaders/src/twin/enhance/chain.rs"), "a chain without links"),

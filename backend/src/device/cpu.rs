@@ -1,9 +1,10 @@
 //! The CPU device: the kernels' f32 twin on all cores.
 
-use super::{CastJob, CastOutcome, DeviceError};
+use super::under_way::UnderWay;
+use super::{CastJob, CastOutcome, DeviceError, Gather};
 use crate::store::BRICK_VOXELS;
 use rayon::prelude::*;
-use shaders::layout::NodeRecord;
+use shaders::layout::{FeedbackEntry, NodeRecord};
 use shaders::tables::Tables;
 use shaders::twin::{Cast, FeedbackCell, Scene, cast_pixel};
 
@@ -15,6 +16,10 @@ pub struct CpuDevice {
     cells: Vec<u32>,
     tables: Tables,
     pixels: Vec<f32>,
+    /// What the casts of this frame have told.
+    frame_feedback: Vec<FeedbackCell>,
+    /// The tables of earlier frames, which are there at once.
+    tables_of_frames: UnderWay<Vec<FeedbackEntry>>,
 }
 
 /// The rays of one tile.
@@ -29,6 +34,8 @@ impl CpuDevice {
             cells: Vec::new(),
             tables: Tables::default(),
             pixels: Vec::new(),
+            frame_feedback: Vec::new(),
+            tables_of_frames: UnderWay::default(),
         }
     }
 
@@ -44,6 +51,8 @@ impl CpuDevice {
     pub(super) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
         self.nodes = nodes.to_vec();
         self.cells = cells.to_vec();
+        // What was gathered says nothing of another index.
+        self.begin_feedback();
     }
 
     pub(super) fn write_tables(&mut self, tables: Tables) {
@@ -51,7 +60,10 @@ impl CpuDevice {
     }
 
     pub(super) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
-        let feedback: Vec<FeedbackCell> = self.nodes.iter().map(|_| FeedbackCell::default()).collect();
+        let own = match job.gather {
+            Gather::Own => no_feedback(&self.nodes),
+            Gather::Frame => Vec::new(),
+        };
         let scene = Scene {
             view: job.view,
             nodes: &self.nodes,
@@ -59,7 +71,7 @@ impl CpuDevice {
             needs: &job.needs,
             cells: &self.cells,
             atlas: &self.atlas,
-            feedback: &feedback,
+            feedback: if job.gather == Gather::Own { &own } else { &self.frame_feedback },
         };
         let casts: Vec<TileCasts> = job.tiles.par_iter().map(|&tile| cast_tile(&scene, job, tile)).collect();
         let [width, height] = job.view.raster;
@@ -69,22 +81,43 @@ impl CpuDevice {
             for &((x, y), cast) in casts {
                 let at = 4 * (y as usize * width as usize + x as usize);
                 self.pixels[at..at + 4].copy_from_slice(&cast.rgba);
-                if job.grid.stride == 1 {
+                if job.tells_counts() {
                     outcome.samples += u64::from(cast.samples);
                 }
             }
             outcome.rays += casts.len() as u64;
-            if casts.iter().any(|(_, cast)| cast.is_missing) {
+            if job.tells_counts() && casts.iter().any(|(_, cast)| cast.is_missing) {
                 outcome.missing_tiles.push(tile);
             }
         }
-        outcome.feedback = feedback.iter().map(FeedbackCell::entry).collect();
+        outcome.feedback = own.iter().map(FeedbackCell::entry).collect();
         Ok(outcome)
+    }
+
+    pub(super) fn begin_feedback(&mut self) {
+        self.frame_feedback = no_feedback(&self.nodes);
+    }
+
+    pub(super) fn end_feedback(&mut self) {
+        self.tables_of_frames.start(self.frame_feedback.iter().map(FeedbackCell::entry).collect());
+    }
+
+    pub(super) fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        Ok(self.tables_of_frames.take(|_| true))
+    }
+
+    pub(super) fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        self.take_feedback()
     }
 
     pub(super) fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
         Ok(self.pixels.clone())
     }
+}
+
+/// An empty table for an index.
+fn no_feedback(nodes: &[NodeRecord]) -> Vec<FeedbackCell> {
+    nodes.iter().map(|_| FeedbackCell::default()).collect()
 }
 
 /// Casts one tile with the widest instructions this machine has. Wider registers change no result: nothing is

@@ -5,12 +5,13 @@ mod cpu;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod job;
+mod under_way;
 
 pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
-pub use job::{CastJob, CastOutcome, TileGrid};
+pub use job::{CastJob, CastOutcome, Gather, TileGrid};
 
-use shaders::layout::NodeRecord;
+use shaders::layout::{FeedbackEntry, NodeRecord};
 use shaders::tables::Tables;
 
 /// Why a device cannot go on: one sentence.
@@ -68,7 +69,40 @@ impl Device {
         on_device!(self, device => device.write_tables(tables));
     }
 
-    /// Casts the rays of some tiles; their colours stay on the device.
+    /// From now on the casts that gather for the frame ([`Gather::Frame`]) add to an empty table. An index that is
+    /// written meanwhile empties it again: places mean other nodes then.
+    pub fn begin_feedback(&mut self) {
+        on_device!(self, device => device.begin_feedback());
+    }
+
+    /// The frame's table is complete: starts it on its way to the host, and waits for nothing. Of the tables that nobody
+    /// takes only the latest few are kept.
+    pub fn end_feedback(&mut self) {
+        on_device!(self, device => device.end_feedback());
+    }
+
+    /// The oldest table that is under way, one entry per place of the index that its frame was cast with; None where
+    /// there is none, or it has not arrived. It never waits.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        on_device!(self, device => device.take_feedback())
+    }
+
+    /// The same, but waits for it; None where none is under way.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        on_device!(self, device => device.wait_feedback())
+    }
+
+    /// Casts the rays of some tiles; their colours stay on the device. Where neither feedback nor counts are asked of it,
+    /// a GPU casts on while this returns.
+    ///
+    /// # Errors
+    /// The device stopped answering.
     pub fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
         on_device!(self, device => device.cast(job))
     }

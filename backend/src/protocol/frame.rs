@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 use serde::{Deserialize, Serialize};
+use shaders::compose::DebugView;
 use shaders::optics::{Light, Optics, Quality};
 
 /// What a tracked tool does.
@@ -64,6 +65,8 @@ pub struct FrameState {
     pub tool: Option<Tool>,
     /// How it gets its detail.
     pub pace: Pace,
+    /// What is shown of the working set in place of the pictures.
+    pub debug: Option<DebugView>,
 }
 
 impl FrameState {

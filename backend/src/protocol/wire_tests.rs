@@ -6,6 +6,7 @@ use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DMat3, DVec3, UVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use shaders::compose::DebugView;
 use shaders::optics::{
     BandPicker, Curve, Enhancer, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality, Ramp, Trapezoid,
 };
@@ -55,6 +56,7 @@ prop_compose! {
             quality: Quality::default(),
             tool: tool.map(|p| Tool { kind: ToolKind::Light, tip_in_display: p, axis_in_display: at }),
             pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },
+            debug: DebugView::ALL.get(index as usize % 5).copied(),
         }))
     }
 }

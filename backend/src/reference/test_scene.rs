@@ -110,6 +110,7 @@ pub fn frame(optics: Optics, light: Option<Light>) -> FrameState {
         quality: Quality::default(),
         tool: None,
         pace: Pace::Complete,
+        debug: None,
     }
 }
 

@@ -4,7 +4,7 @@ use super::rules::FrameRules;
 use super::test_scene::{Pictures, display, draw, frame, renderer};
 use super::views::views;
 use super::*;
-use crate::device::{CastJob, CpuDevice, TileGrid};
+use crate::device::{CastJob, CpuDevice, Gather, TileGrid};
 use crate::reference::{Integrator, Reference};
 use crate::store::{Brick, CellRanges, Codes, NodeKey, NodeSummary, OctreeShape};
 use crate::volume::VolumeFrame;
@@ -118,7 +118,8 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let picture = |view: &views::ProjectorView| {
         let grid = TileGrid::new(48, 36, 1);
         let tiles: Vec<u32> = (0..grid.count()).collect();
-        device.cast(&CastJob { view: &view.view, needs, grid, tiles: &tiles }).unwrap();
+        let (gather, counts) = (Gather::Own, true);
+        device.cast(&CastJob { view: &view.view, needs, grid, tiles: &tiles, gather, counts }).unwrap();
         device.picture().unwrap()
     };
     views.iter().map(picture).collect()

@@ -4,7 +4,7 @@ use super::residency::{Residency, milliseconds};
 use super::rules::FrameRules;
 use super::views::{ProjectorView, views};
 use super::{RenderError, RenderEvent, Renderer};
-use crate::device::{CastJob, CastOutcome, TileGrid};
+use crate::device::{CastJob, CastOutcome, Gather, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages};
 use crate::store::NodeKey;
 use crate::working_set::{LodRule, Touched};
@@ -46,7 +46,8 @@ pub(super) fn draw(
     frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
     frame.quality.check().map_err(RenderError::Quality)?;
     let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
-    let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
+    let needs =
+        Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
     let tables = Tables::new(&frame.optics, &needs);
     let mut drawing = Drawing::new(renderer, frame, needs, &tables);
     drawing.start(frame)?;
@@ -119,7 +120,8 @@ impl<'a> Drawing<'a> {
         tiles: &[u32],
     ) -> Result<CastOutcome, RenderError> {
         let started = Instant::now();
-        let job = CastJob { view: &view.view, needs: self.needs, grid, tiles };
+        let (gather, counts) = (Gather::Own, true);
+        let job = CastJob { view: &view.view, needs: self.needs, grid, tiles, gather, counts };
         let outcome = self.renderer.device.cast(&job)?;
         self.cast += 1;
         self.rays += outcome.rays;

@@ -61,6 +61,7 @@ pub(super) fn frame(least: f64) -> FrameState {
         quality: Quality { lod_scale: 0.0, ..Quality::default() },
         tool: None,
         pace: Pace::Complete,
+        debug: None,
     }
 }
 

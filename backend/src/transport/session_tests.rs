@@ -55,6 +55,7 @@ fn frame(index: u32) -> FrameState {
         quality: Quality::default(),
         tool: None,
         pace: Pace::Complete,
+        debug: None,
     }
 }
 

@@ -144,6 +144,7 @@ fn frame(index: u32, knots: usize) -> FrameState {
         quality: Quality::default(),
         tool: None,
         pace: Pace::Complete,
+        debug: None,
     }
 }
 

@@ -2,10 +2,12 @@
 
 mod accuracy;
 mod backends;
+mod debug_view;
 mod export;
 mod gallery;
 mod import;
 mod info;
+mod live;
 mod parse;
 mod simulate;
 #[cfg(test)]
@@ -14,10 +16,12 @@ mod verify;
 
 pub use accuracy::AccuracyArgs;
 pub use backends::{BackendArgs, DeviceArg, FilterArg};
+pub use debug_view::DebugViewArg;
 pub use export::ExportArgs;
 pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
+pub use live::LiveArgs;
 pub use simulate::SimulateArgs;
 pub use verify::VerifyArgs;
 

@@ -1,7 +1,7 @@
 //! The arguments of `lightloom simulate`.
 
-use super::BackendArgs;
 use super::parse::point;
+use super::{BackendArgs, DebugViewArg, LiveArgs};
 use crate::scene::QualityPreset;
 use clap::Args;
 use glam::DVec3;
@@ -33,6 +33,12 @@ pub struct SimulateArgs {
     /// Frames A to B − 1 of the scene instead of all.
     #[arg(long, value_name = "A..B", value_parser = frame_range)]
     pub frames: Option<(u32, u32)>,
+    /// How frames get their detail.
+    #[command(flatten)]
+    pub live: LiveArgs,
+    /// Show the working set in place of the pictures, with a legend of its colours.
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub debug_view: Option<DebugViewArg>,
     /// No progress, no summary.
     #[arg(long)]
     pub quiet: bool,

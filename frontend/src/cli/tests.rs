@@ -1,8 +1,10 @@
 //! Laws of the command line.
 
 use super::*;
+use backend::protocol::Pace;
 use clap::CommandFactory;
 use glam::DVec3;
+use shaders::compose::DebugView;
 
 fn simulate(arguments: &[&str]) -> Result<SimulateArgs, clap::Error> {
     let all = ["lightloom", "simulate", "procedural:shells", "--out", "o"].iter().chain(arguments);
@@ -37,6 +39,52 @@ fn nonsense_is_a_usage_error() {
     ] {
         assert_eq!(simulate(&wrong).unwrap_err().exit_code(), 2, "{wrong:?}");
     }
+}
+
+#[test]
+fn frames_are_complete_unless_they_are_live() {
+    let pace = |rest: &[&str]| simulate(rest).map(|args| args.live.pace()).map_err(|error| error.exit_code());
+    let live = |mib: u64, fade_s| Ok(Pace::Live { upload_bytes: mib << 20, fade_s });
+    assert_eq!(pace(&[]), Ok(Pace::Complete));
+    assert_eq!(pace(&["--live"]), live(64, 0.4));
+    assert_eq!(pace(&["--live", "--fade", "0", "--upload-mib", "1"]), live(1, 0.0));
+    assert_eq!(pace(&["--fade", "1.5", "--live"]), live(64, 1.5));
+    // Only live frames fade.
+    assert_eq!(pace(&["--fade", "1"]), Err(2));
+    assert_eq!(pace(&["--upload-mib", "8"]), Err(2));
+}
+
+#[test]
+fn what_no_live_frame_can_do_is_told_in_a_sentence() {
+    for (wrong, sentence) in [
+        (["--fade", "-0.1"], "give a number of seconds from 0 to 3600"),
+        (["--fade", "nan"], "give a number of seconds from 0 to 3600"),
+        (["--fade", "inf"], "give a number of seconds from 0 to 3600"),
+        (["--upload-mib", "0"], "give a whole number of MiB from 1 to 1048576"),
+        (["--upload-mib", "-5"], "give a whole number of MiB from 1 to 1048576"),
+        (["--upload-mib", "99999999999999999999"], "give a whole number of MiB from 1 to 1048576"),
+    ] {
+        let error = simulate(&["--live", wrong[0], wrong[1]]).unwrap_err();
+        assert_eq!(error.exit_code(), 2, "{wrong:?}");
+        assert!(error.to_string().contains(sentence), "{error}");
+    }
+}
+
+#[test]
+fn debug_views_go_by_their_names() {
+    let view = |name| simulate(&["--debug-view", name]).map(|args| args.debug_view.map(DebugView::from));
+    for (name, expected) in [
+        ("lod", DebugView::Lod),
+        ("deficit", DebugView::Deficit),
+        ("samples", DebugView::Samples),
+        ("weights", DebugView::Weights),
+    ] {
+        assert_eq!(view(name).unwrap(), Some(expected));
+    }
+    assert!(simulate(&[]).unwrap().debug_view.is_none());
+    let error = view("heat").unwrap_err();
+    assert_eq!(error.exit_code(), 2);
+    assert!(error.to_string().contains("[possible values: lod, deficit, samples, weights]"), "{error}");
 }
 
 #[test]

@@ -49,7 +49,9 @@ fn frames(
     if end > scene.frame_count {
         return Err(FrontendError::Frames { first, end, count: scene.frame_count });
     }
-    (first..end).map(|index| Ok(scene.frame(index, display, facts)?)).collect()
+    let (pace, debug) = (args.live.pace(), args.debug_view.map(Into::into));
+    let frame = |index| Ok(FrameState { pace, debug, ..scene.frame(index, display, facts)? });
+    (first..end).map(frame).collect()
 }
 
 fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {

@@ -1,6 +1,7 @@
 //! The account of one frame.
 
-use backend::protocol::{FrameReport, FrameState, Stages};
+use super::upkeep::together;
+use backend::protocol::{FrameReport, FrameState, Stages, Upkeep};
 use serde::Serialize;
 use std::time::Duration;
 
@@ -36,7 +37,7 @@ impl FrameSummary {
             index: frame.index,
             time_s: frame.time_s,
             wall_ms: 1e3 * wall.as_secs_f64(),
-            total: Totals::of(&backends),
+            total: Totals { upkeep: together(&backends), ..Totals::of(&backends) },
             backends,
             pictures,
             eye_views,
@@ -73,6 +74,9 @@ pub struct Totals {
     pub complete: bool,
     /// Why not, for each back-end that was not complete.
     pub shortfall: Vec<String>,
+    /// What became of the working set in one live frame; None of complete frames, and of several: nodes do not add up over
+    /// time.
+    pub upkeep: Option<Upkeep>,
 }
 
 impl Totals {

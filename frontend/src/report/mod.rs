@@ -8,17 +8,19 @@ pub(crate) mod page;
 pub mod plot;
 mod stage_bar;
 pub mod units;
+mod upkeep;
 
 pub use frame::{FrameSummary, Totals};
 pub use memory::peak_memory_bytes;
 
 use crate::FrontendError;
 use crate::scene::{Scene, VolumeFacts, VolumeSource};
-use crate::simulate::Job;
+use crate::simulate::{Job, LEGEND, shows};
 use backend::output::{OutputError, write_atomically};
 use backend::protocol::{DeviceInfo, FrameState};
 use display_config::Display;
 use serde::Serialize;
+use shaders::compose::DebugView;
 use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
@@ -41,6 +43,8 @@ pub struct Report {
     pub display: DisplaySummary,
     /// What each back-end drew with.
     pub backends: Vec<DeviceInfo>,
+    /// What is shown in place of the pictures.
+    pub debug_view: Option<DebugSummary>,
     /// The eyes.
     pub eyes: Vec<EyeSummary>,
     /// The frames.
@@ -91,6 +95,19 @@ pub struct DisplaySummary {
     pub observer_m: [f64; 3],
 }
 
+/// A debug view, in brief.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct DebugSummary {
+    /// Which one.
+    pub view: DebugView,
+    /// What its colours tell.
+    pub shows: &'static str,
+    /// The values at the ends of its scale.
+    pub scale: (f64, f64),
+    /// The file of its key, from the output folder.
+    pub legend: &'static str,
+}
+
 /// An eye, in brief.
 #[derive(Clone, Debug, Serialize)]
 pub struct EyeSummary {
@@ -119,6 +136,7 @@ impl Report {
             scene: SceneSummary::new(scene, facts, job.frames.first()),
             display: DisplaySummary::new(&job.display, job.frames.first()),
             backends,
+            debug_view: job.debug_view().map(DebugSummary::new),
             eyes: job.eye_summaries(),
             frames,
             total,
@@ -131,6 +149,12 @@ impl Report {
     pub fn eye_warnings(&self) -> impl Iterator<Item = String> {
         let warnings = self.eyes.iter().enumerate();
         warnings.filter_map(|(index, eye)| Some(format!("eye {index}: {}", eye.warning.as_ref()?)))
+    }
+}
+
+impl DebugSummary {
+    fn new(view: DebugView) -> Self {
+        Self { view, shows: shows(view), scale: view.scale(), legend: LEGEND }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::html::{embedded_image, escape, facts, table};
 use super::stage_bar::stage_bar;
-use super::{FrameSummary, Report, Totals, units};
+use super::{FrameSummary, Report, Totals, units, upkeep};
 use crate::orientation::describe;
-use crate::simulate::CONTACT_SHEET;
+use crate::simulate::{CONTACT_SHEET, marks, number};
 use backend::output::OutputError;
 use std::path::Path;
 
@@ -17,9 +17,10 @@ pub(super) fn page(report: &Report, out: &Path) -> Result<String, OutputError> {
     Ok(format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width\"><title>{title} · lightloom</title>\
-         <style>{STYLE}</style></head><body><main>{}{}{}{}{}{}{}</main></body></html>\n",
+         <style>{STYLE}</style></head><body><main>{}{}{}{}{}{}{}{}</main></body></html>\n",
         header(report),
         notes(report),
+        key(report, out)?,
         eyes(report, out)?,
         sheet(report, out)?,
         setting(report),
@@ -81,6 +82,20 @@ fn damages(total: &Totals) -> String {
     }
     let rows: String = total.damaged.iter().map(|one| format!("<li>{}</li>", escape(one))).collect();
     format!("<h2>Damaged bricks</h2><p>Their parents are shown in their place.</p><ul>{rows}</ul>")
+}
+
+/// The colours of the debug view; nothing where the pictures are shown.
+fn key(report: &Report, out: &Path) -> Result<String, OutputError> {
+    let Some(debug) = &report.debug_view else { return Ok(String::new()) };
+    let numbers: Vec<String> = marks(debug.view).into_iter().map(|value| number(debug.view, value)).collect();
+    let numbers = numbers.join(", ");
+    let image = embedded_image(&out.join(debug.legend), &format!("colours of {numbers}"), None)?;
+    Ok(format!(
+        "<h2>In place of the pictures</h2><figure class=\"key\">{image}\
+         <figcaption><b>{}</b> from left to right: {}</figcaption></figure>",
+        escape(debug.shows),
+        escape(&numbers)
+    ))
 }
 
 fn eyes(report: &Report, out: &Path) -> Result<String, OutputError> {
@@ -188,9 +203,10 @@ fn numbers(report: &Report) -> String {
         row(name, one.total_ms, &Totals::of([one]))
     });
     format!(
-        "<h2>Time per stage, added up over back-ends</h2>{}<h2>Frames</h2>{}<h2>Back-ends</h2>{}",
+        "<h2>Time per stage, added up over back-ends</h2>{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
         stage_bar(&report.total.stages),
         table(&HEADS, &frames),
+        upkeep::section(&report.frames),
         table(&HEADS, &each.collect::<Vec<_>>())
     )
 }

@@ -142,6 +142,7 @@ impl Scene {
             quality: self.quality,
             tool: self.tool_at(time_s),
             pace: Pace::Complete,
+            debug: None,
         })
     }
 

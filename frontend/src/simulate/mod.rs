@@ -2,11 +2,13 @@
 
 mod eyes;
 mod frame;
+mod legend;
 mod pictures;
 mod source;
 
 pub use eyes::Eye;
 pub(crate) use eyes::EyeViews;
+pub use legend::{LEGEND, marks, number, shows};
 pub use source::{Event, FrameSource};
 
 use crate::FrontendError;
@@ -15,6 +17,7 @@ use crate::report::{EyeSummary, FrameSummary};
 use backend::output::{OutputError, can_write_into};
 use backend::protocol::FrameState;
 use display_config::Display;
+use shaders::compose::DebugView;
 use std::path::{Path, PathBuf};
 
 /// The contact sheet of the first frame, in the output folder.
@@ -48,6 +51,9 @@ impl Job {
         progress: &mut Progress,
     ) -> Result<Vec<FrameSummary>, FrontendError> {
         self.forget_earlier_run()?;
+        if let Some(view) = self.debug_view() {
+            legend::write(view, &self.out)?;
+        }
         let mut summaries = Vec::with_capacity(self.frames.len());
         for (place, frame) in self.frames.iter().enumerate() {
             let mut show = |part: f64| {
@@ -59,8 +65,13 @@ impl Job {
         Ok(summaries)
     }
 
+    /// What is shown in place of the pictures, the same in all frames.
+    pub fn debug_view(&self) -> Option<DebugView> {
+        self.frames.first()?.debug
+    }
+
     fn forget_earlier_run(&self) -> Result<(), OutputError> {
-        for name in [CONTACT_SHEET, crate::report::JSON, crate::report::HTML] {
+        for name in [CONTACT_SHEET, LEGEND, crate::report::JSON, crate::report::HTML] {
             let path = self.out.join(name);
             match std::fs::remove_file(&path) {
                 Err(source) if source.kind() != std::io::ErrorKind::NotFound => {

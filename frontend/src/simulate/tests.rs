@@ -5,7 +5,7 @@ use crate::report::{self, Report};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session;
 use backend::output::{EyePlan, ScreenRaster};
-use backend::protocol::{DeviceInfo, FrameReport, ProjectorImage, Stages};
+use backend::protocol::{DeviceInfo, FrameReport, Pace, ProjectorImage, Stages, Upkeep};
 use backend::volume::VolumeFrame;
 use display_config::{Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
@@ -81,6 +81,21 @@ fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
     }
 }
 
+/// What a live frame tells of a back-end's working set.
+fn upkeep_of(frame: &FrameState, report: &FrameReport) -> Option<Upkeep> {
+    let b = u64::from(report.backend);
+    let (largest_deficit, mean_deficit) = (2.5 - b as f64, 0.5 + b as f64);
+    let live = Upkeep {
+        nodes: 73 + b,
+        splits: 4,
+        largest_deficit,
+        mean_deficit,
+        update_ms: 0.25,
+        ..Upkeep::default()
+    };
+    (frame.pace != Pace::Complete).then_some(live)
+}
+
 impl FrameSource for Gradients {
     fn render(
         &mut self,
@@ -98,7 +113,8 @@ impl FrameSource for Gradients {
         }
         let half = self.projectors / 2;
         let shares = [(0..half).collect(), (half..self.projectors).collect()];
-        Ok(shares.into_iter().zip(0..).map(|(share, b)| account(frame.index, b, share)).collect())
+        let reports = shares.into_iter().zip(0..).map(|(share, b)| account(frame.index, b, share));
+        Ok(reports.map(|report| FrameReport { upkeep: upkeep_of(frame, &report), ..report }).collect())
     }
 
     fn finish(self: Box<Self>) -> Result<(), FrontendError> {
@@ -132,11 +148,7 @@ fn all_files_appear_and_the_report_adds_up() {
     let folder = tempfile::tempdir().unwrap();
     let (scene, job) = job(folder.path(), 4, 2, |p| if p == 0 { 1.0 } else { 0.0 });
     Job::prepare_output(folder.path()).unwrap();
-    let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
-    let device = DeviceInfo { adapter: "fake".into(), reason: "a test".into(), filter: "exact".into() };
-    let report =
-        Report::new(&scene, &facts(), &job, vec![device; 2], frames, std::time::Duration::from_secs(1));
-    report::write(&report, folder.path()).unwrap();
+    let (json, html) = reports(&scene, &job, folder.path());
     assert_eq!(
         files(folder.path()),
         ["contact-sheet.png", "frame-0000", "frame-0001", "report.html", "report.json"]
@@ -144,8 +156,6 @@ fn all_files_appear_and_the_report_adds_up() {
     let frame = files(&folder.path().join("frame-0001"));
     assert_eq!(frame.len(), 1 + 2 * (4 + 1), "{frame:?}");
     assert!(frame.contains(&"projector-03.exr".to_owned()) && frame.contains(&"eye-0.png".to_owned()));
-    let json: serde_json::Value =
-        serde_json::from_str(&std::fs::read_to_string(folder.path().join(report::JSON)).unwrap()).unwrap();
     assert_eq!(json["total"]["rays"], 2 * 4 * 1200);
     assert_eq!(json["frames"][0]["total"]["complete"], false);
     assert_eq!(json["total"]["damaged_bricks"], 2);
@@ -153,10 +163,58 @@ fn all_files_appear_and_the_report_adds_up() {
     assert_eq!(json["frames"][1]["pictures"][2], "frame-0001/projector-02.png");
     assert_eq!(json["eyes"][0]["projectors_seen"], 1);
     assert!(json["peak_memory_bytes"].is_u64() || !Path::new("/proc/self/status").exists());
-    let html = std::fs::read_to_string(folder.path().join(report::HTML)).unwrap();
     assert_eq!(html.matches("<li>brick 7 of &lt;a.lloom&gt; is damaged</li>").count(), 1);
     assert!(html.contains("the cache is full &lt;b&gt;") && html.contains("outside the viewing zone"));
     assert!(!html.contains("src=\"frame") && !html.contains("http://") && !html.contains("https://"));
+}
+
+/// Runs a job and reads its reports: JSON and HTML.
+fn reports(scene: &Scene, job: &Job, folder: &Path) -> (serde_json::Value, String) {
+    let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
+    let device = DeviceInfo { adapter: "fake".into(), reason: "a test".into(), filter: "exact".into() };
+    let report =
+        Report::new(scene, &facts(), job, vec![device; 2], frames, std::time::Duration::from_secs(1));
+    report::write(&report, folder).unwrap();
+    let read = |name| std::fs::read_to_string(folder.join(name)).unwrap();
+    (serde_json::from_str(&read(report::JSON)).unwrap(), read(report::HTML))
+}
+
+#[test]
+fn the_report_tells_what_live_frames_did_to_the_working_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, mut job) = job(folder.path(), 4, 2, |_| 0.25);
+    let (json, html) = reports(&scene, &job, folder.path());
+    assert!(json["frames"][0]["total"]["upkeep"].is_null() && !html.contains("Working set of live frames"));
+    job.frames.iter_mut().for_each(|f| f.pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.4 });
+    let (json, html) = reports(&scene, &job, folder.path());
+    let upkeep = &json["frames"][1]["total"]["upkeep"];
+    assert_eq!((&upkeep["nodes"], &upkeep["splits"]), (&147.into(), &8.into()));
+    // Both back-ends have cast as many rays: the largest is the first's, the mean that of 0.5 and 1.5.
+    assert_eq!((&upkeep["largest_deficit"], &upkeep["mean_deficit"]), (&2.5.into(), &1.0.into()));
+    assert_eq!(upkeep["update_ms"], 0.5);
+    assert!(json["total"]["upkeep"].is_null(), "nodes do not add up over time");
+    assert!(html.contains("Working set of live frames") && html.contains("<td>2.50 levels</td>"));
+}
+
+#[test]
+fn a_debug_view_comes_with_its_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, mut job) = job(folder.path(), 4, 1, |_| 0.25);
+    let without = |(json, html): (serde_json::Value, String)| {
+        assert!(json["debug_view"].is_null() && !html.contains("In place of the pictures"));
+        assert!(!folder.path().join(LEGEND).exists());
+    };
+    without(reports(&scene, &job, folder.path()));
+    job.frames.iter_mut().for_each(|frame| frame.debug = Some(DebugView::Samples));
+    let (json, html) = reports(&scene, &job, folder.path());
+    assert_eq!(json["debug_view"]["view"], "samples");
+    assert_eq!(json["debug_view"]["scale"], serde_json::json!([0.0, 1024.0]));
+    assert_eq!(json["debug_view"]["legend"], LEGEND);
+    assert!(html.contains("samples that a ray took") && html.contains("0, 1, 4, 16, 64, 256, 1024+"));
+    image::open(folder.path().join(LEGEND)).unwrap();
+    // The key of an earlier run would explain other pictures.
+    job.frames.iter_mut().for_each(|frame| frame.debug = None);
+    without(reports(&scene, &job, folder.path()));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! One kernel: a filter, and what a scene needs.
 
-use super::{Compositing, Levels, Needs, Shading, Way};
+use super::{Compositing, DebugView, Levels, Needs, Shading, Way};
 use crate::optics::MimdaForm;
 
 /// How voxels are interpolated.
@@ -93,11 +93,13 @@ impl KernelKey {
         modules.extend(needs.composite_wgsl());
         modules.extend(needs.shade_wgsl());
         let chain = needs.chain.wgsl(needs.reads_importance());
+        let debug = needs.debug.map_or_else(|| module!("debug/none").to_owned(), DebugView::wgsl);
         modules.extend([
             chain.as_str(),
             module!("refine"),
             module!("brick"),
             module!("report"),
+            debug.as_str(),
             way,
             module!("cast"),
         ]);
@@ -124,15 +126,31 @@ impl KernelKey {
                         for way in [Way::Straight, Way::Refracted] {
                             for &chain in &chains {
                                 let has_materials = shading != Shading::Plain && chain.is_empty();
-                                let blends = false;
-                                let needs =
-                                    Needs { levels, blends, shading, has_materials, compositing, way, chain };
+                                let (blends, debug) = (false, None);
+                                let needs = Needs {
+                                    levels,
+                                    blends,
+                                    shading,
+                                    has_materials,
+                                    compositing,
+                                    way,
+                                    chain,
+                                    debug,
+                                };
                                 keys.push(Self { filter, needs });
                             }
                         }
                     }
                 }
             }
+        }
+        // Debug views look at no other slot: each with a plain kernel, and with one that has much.
+        for debug in DebugView::ALL.map(Some) {
+            keys.push(Self { filter: Filter::Hardware, needs: Needs { debug, ..Needs::PLAIN } });
+            let shading = Shading::Exaggerated;
+            let compositing = Compositing::Mimda(MimdaForm::Paper);
+            let needs = Needs { shading, compositing, way: Way::Refracted, debug, ..Needs::PLAIN };
+            keys.push(Self { filter: Filter::Exact, needs });
         }
         keys
     }

@@ -10,11 +10,14 @@
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
 //! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`] |
 //! | way | `way/straight`, `way/refracted` |
+//! | debug | `debug/none`, `node`, `samples`, see [`DebugView`] |
 
 mod chain;
+mod debug_view;
 mod kernel;
 mod needs;
 
 pub use chain::{Chain, EnhancerKind};
+pub use debug_view::DebugView;
 pub use kernel::{Filter, KernelKey};
 pub use needs::{Compositing, Levels, Needs, Shading, Way};

@@ -1,6 +1,6 @@
 //! What a scene needs of a kernel.
 
-use super::Chain;
+use super::{Chain, DebugView};
 use crate::optics::{Detail, Light, MimdaForm, Optics, Quality};
 
 /// Whether samples are filtered over levels of detail.
@@ -60,6 +60,8 @@ pub struct Needs {
     pub way: Way,
     /// Enhancers.
     pub chain: Chain,
+    /// What is shown in place of the picture.
+    pub debug: Option<DebugView>,
 }
 
 impl Compositing {
@@ -113,9 +115,10 @@ impl Needs {
         compositing: Compositing::Over,
         way: Way::Straight,
         chain: Chain::EMPTY,
+        debug: None,
     };
 
-    /// What a scene needs; whether nodes blend, too, is the working set's to say.
+    /// What a scene needs; whether nodes blend, too, is the working set's to say, and a debug view the frame's.
     pub fn of(optics: &Optics, light: Option<&Light>, quality: &Quality) -> Self {
         let shading = Shading::for_light(light);
         Self {
@@ -126,6 +129,7 @@ impl Needs {
             compositing: Compositing::for_optics(optics),
             way: Way::for_optics(optics),
             chain: Chain::of(&optics.enhancers),
+            debug: None,
         }
     }
 

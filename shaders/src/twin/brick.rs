@@ -1,6 +1,7 @@
 //! A ray's way through one brick: light and steps.
 
 use super::composite::{Accumulated, Composite, Light, Sample};
+use super::debug::debug_light;
 use super::enhance::Chain;
 use super::gradient::Gradients;
 use super::kernel::Kernel;
@@ -79,7 +80,7 @@ fn segment_light<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) 
     Light { rgb: lit * (thickness * mean * sample.brightness), alpha: depth * mean }
 }
 
-/// Adds one step, lit as given.
+/// Adds one step with its middle `at` a place on a ray, lit as given.
 #[inline(always)]
 fn add_whole<F: Real, K: Kernel>(
     scene: &Scene<F>,
@@ -87,11 +88,13 @@ fn add_whole<F: Real, K: Kernel>(
     sample: &Sample<F>,
     thickness: F,
     light: Lighting<F>,
+    at: (&Ray<F>, F),
 ) -> Accumulated<F> {
     if K::Composite::is_clear(sample.k[3]) {
         return front;
     }
-    K::Composite::composite(scene, front, segment_light(sample, thickness, light), sample)
+    let light = debug_light::<F, K>(scene, segment_light(sample, thickness, light), at);
+    K::Composite::composite(scene, front, light, sample)
 }
 
 /// Adds one step, cut into parts.
@@ -158,6 +161,7 @@ fn add_parts_here<F: Real, K: Kernel>(
                 Lighting::NONE
             };
             let light = segment_light(&sample, thickness, light);
+            let light = debug_light::<F, K>(scene, light, (ray, middle));
             if K::Composite::ONCE_PER_STEP {
                 alone = alone.then(light);
             } else {
@@ -216,6 +220,6 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
         }
         light = K::Shade::lighting(scene, &gradients, first.ray, material_at::<F, K>(scene, s1));
     }
-    let front = add_whole::<F, K>(scene, front, &pair.first, thickness, light);
-    (add_whole::<F, K>(scene, front, &pair.second, thickness, light), parts)
+    let front = add_whole::<F, K>(scene, front, &pair.first, thickness, light, (first.ray, t0 + half));
+    (add_whole::<F, K>(scene, front, &pair.second, thickness, light, (second.ray, t1 + half)), parts)
 }

@@ -1,6 +1,7 @@
 //! One ray from a pixel to its colour.
 
 use super::composite::{MimdaConsistent, MimdaPaper, Over};
+use super::debug::debug_pixel;
 use super::kernel::{Full, Lean};
 use super::shade::{AnyShade, Phong, Plain};
 use super::way::cast_ray;
@@ -43,22 +44,24 @@ pub fn cast_pixel<F: Real>(scene: &Scene<F>, x: u32, y: u32) -> Cast<F> {
             }
         };
     }
-    match scene.needs.compositing {
+    let cast = match scene.needs.compositing {
         Compositing::Over => cast_ray::<F, Full<AnyShade, Over>>(scene, &ray),
         Compositing::Mimda(MimdaForm::Paper) => cast_ray::<F, Full<AnyShade, MimdaPaper>>(scene, &ray),
         Compositing::Mimda(MimdaForm::Consistent) => {
             cast_ray::<F, Full<AnyShade, MimdaConsistent>>(scene, &ray)
         }
-    }
+    };
+    Cast { rgba: debug_pixel(scene, cast.rgba, cast.samples), ..cast }
 }
 
 /// Whether shading and compositing are all that a scene needs.
 fn is_lean(needs: &Needs) -> bool {
-    let Needs { levels, blends, shading, has_materials, compositing: _, way, chain } = *needs;
+    let Needs { levels, blends, shading, has_materials, compositing: _, way, chain, debug } = *needs;
     levels == Levels::Single
         && !blends
         && !shading.has_detail()
         && !has_materials
         && way == Way::Straight
         && chain == Chain::EMPTY
+        && debug.is_none()
 }

@@ -9,6 +9,7 @@
 mod brick;
 pub mod cast;
 pub mod composite;
+pub mod debug;
 pub mod enhance;
 mod four;
 pub mod gradient;

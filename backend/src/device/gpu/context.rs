@@ -2,7 +2,7 @@
 
 use super::pipeline_cache::PipelineCache;
 use crate::device::DeviceError;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, TryLockError};
 
 /// What all GPU devices of a process share. Software Vulkan drivers have crashed with several at work at once, so
 /// there is one, and work on it takes turns.
@@ -86,17 +86,37 @@ impl Context {
         self.turn.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
+    /// The same, where no other thread has it.
+    pub(super) fn turn_if_free(&self) -> Option<MutexGuard<'_, ()>> {
+        match self.turn.try_lock() {
+            Ok(turn) => Some(turn),
+            Err(TryLockError::Poisoned(turn)) => Some(turn.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        }
+    }
+
+    /// Hands work to the device, behind what it has.
+    pub(super) fn submit(&self, encoder: wgpu::CommandEncoder) {
+        self.queue.submit([encoder.finish()]);
+    }
+
     /// Submits, and waits until it is done.
     pub(super) fn run(&self, encoder: wgpu::CommandEncoder) -> Result<(), DeviceError> {
-        self.queue.submit([encoder.finish()]);
+        self.submit(encoder);
         self.wait()
+    }
+
+    /// Looks whether the device has done anything; waits for nothing.
+    pub(super) fn poll(&self) -> Result<(), DeviceError> {
+        self.after_poll(self.device.poll(wgpu::PollType::Poll))
     }
 
     /// Waits for all that was submitted.
     pub(super) fn wait(&self) -> Result<(), DeviceError> {
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map(|_| ())
-            .map_err(|error| DeviceError(format!("{} stopped answering: {error}", self.name)))
+        self.after_poll(self.device.poll(wgpu::PollType::wait_indefinitely()))
+    }
+
+    fn after_poll(&self, outcome: Result<wgpu::PollStatus, wgpu::PollError>) -> Result<(), DeviceError> {
+        outcome.map(|_| ()).map_err(|error| DeviceError(format!("{} stopped answering: {error}", self.name)))
     }
 }

@@ -2,12 +2,13 @@
 
 use super::atlas::Atlas;
 use super::context::{Context, context};
+use super::feedback::FrameFeedback;
 use super::kernels::Kernels;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
-use crate::device::{CastJob, CastOutcome, DeviceError};
+use super::storage::{Storage, uniform};
+use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
 use crate::protocol::{DeviceInfo, FilterChoice};
-use bytemuck::Pod;
 use shaders::compose::{Filter, KernelKey, Way};
 use shaders::layout::{FeedbackEntry, Link, NodeRecord, Params};
 use shaders::optics::MOST_ENHANCERS;
@@ -43,64 +44,13 @@ pub struct GpuDevice {
     pixels: Storage,
     counts: Storage,
     feedback: Storage,
+    frame_feedback: FrameFeedback,
     feedback_back: Readback,
     counts_back: Readback,
     pixels_back: Readback,
     raster: [u32; 2],
     /// Places of the index.
     places: usize,
-}
-
-/// A storage buffer that grows to what is put into it.
-#[derive(Debug)]
-struct Storage {
-    buffer: wgpu::Buffer,
-    label: &'static str,
-    used_bytes: u64,
-}
-
-impl Storage {
-    fn new(context: &Context, label: &'static str) -> Self {
-        Self { buffer: Self::make(context, label, 64), label, used_bytes: 64 }
-    }
-
-    fn make(context: &Context, label: &str, size: u64) -> wgpu::Buffer {
-        context.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })
-    }
-
-    /// Makes room for `bytes`; what was there may be gone.
-    fn reserve(&mut self, context: &Context, bytes: u64) {
-        self.used_bytes = bytes.max(64).next_multiple_of(16);
-        if self.buffer.size() < self.used_bytes {
-            self.buffer = Self::make(context, self.label, self.used_bytes.next_power_of_two());
-        }
-    }
-
-    fn write<T: Pod>(&mut self, context: &Context, items: &[T]) {
-        let bytes: &[u8] = bytemuck::cast_slice(items);
-        self.reserve(context, bytes.len() as u64);
-        context.queue.write_buffer(&self.buffer, 0, bytes);
-    }
-
-    /// The same, where there is anything to write.
-    fn write_if_any<T: Pod>(&mut self, context: &Context, items: &[T]) {
-        if !items.is_empty() {
-            self.write(context, items);
-        }
-    }
-
-    fn binding(&self) -> wgpu::BindingResource<'_> {
-        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &self.buffer,
-            offset: 0,
-            size: std::num::NonZeroU64::new(self.used_bytes),
-        })
-    }
 }
 
 impl GpuDevice {
@@ -145,6 +95,7 @@ impl GpuDevice {
             pixels: storage("pixels"),
             counts: storage("sample counts"),
             feedback: storage("feedback"),
+            frame_feedback: FrameFeedback::new(&context),
             feedback_back: Readback::new(),
             counts_back: Readback::new(),
             pixels_back: Readback::new(),
@@ -192,6 +143,7 @@ impl GpuDevice {
         self.cells.write(&self.context, cells);
         self.places = nodes.len();
         self.feedback.reserve(&self.context, (self.places * size_of::<FeedbackEntry>()) as u64);
+        self.frame_feedback.resize(&self.context, self.places);
     }
 
     pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
@@ -210,9 +162,18 @@ impl GpuDevice {
         self.prepare(job);
         let key = KernelKey { filter: self.filter, needs: job.needs };
         let pipeline = self.kernels.get(&context, key).clone();
-        let bind_group = self.bind(&pipeline, key);
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.clear_buffer(&self.feedback.buffer, 0, None);
+        let feedback = match job.gather {
+            Gather::Own => {
+                encoder.clear_buffer(&self.feedback.buffer, 0, None);
+                &self.feedback
+            }
+            Gather::Frame => {
+                self.frame_feedback.clear_stale(&mut encoder);
+                self.frame_feedback.table()
+            }
+        };
+        let bind_group = self.bind(&pipeline, key, feedback);
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&pipeline);
@@ -220,16 +181,57 @@ impl GpuDevice {
             let tiles = job.tiles.len() as u32;
             pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
         }
-        self.feedback_back.copy(&context, &mut encoder, &self.feedback.buffer, self.feedback.used_bytes);
-        let every_pixel = job.grid.stride == 1;
-        let pixels = self.raster[0] as usize * self.raster[1] as usize;
-        if every_pixel {
-            self.counts_back.copy(&context, &mut encoder, &self.counts.buffer, 4 * pixels as u64);
+        self.bring_back(job, encoder)
+    }
+
+    /// Runs a cast. What it is not asked for is not waited for.
+    fn bring_back(
+        &mut self,
+        job: &CastJob,
+        mut encoder: wgpu::CommandEncoder,
+    ) -> Result<CastOutcome, DeviceError> {
+        let context = &self.context;
+        let has_own = job.gather == Gather::Own;
+        if has_own {
+            let bytes = self.feedback.used_bytes;
+            self.feedback_back.copy(context, &mut encoder, &self.feedback.buffer, bytes);
         }
-        context.run(encoder)?;
-        let counts = if every_pixel { self.counts_back.read(&context, pixels)? } else { Vec::new() };
-        let feedback = self.feedback_back.read(&context, self.places)?;
+        let pixels = self.raster[0] as usize * self.raster[1] as usize;
+        if job.tells_counts() {
+            self.counts_back.copy(context, &mut encoder, &self.counts.buffer, 4 * pixels as u64);
+        }
+        context.submit(encoder);
+        if has_own || job.tells_counts() {
+            context.wait()?;
+        }
+        let feedback = if has_own { self.feedback_back.read(context, self.places)? } else { Vec::new() };
+        let counts = if job.tells_counts() { self.counts_back.read(context, pixels)? } else { Vec::new() };
         Ok(sum_up(job, &counts, feedback))
+    }
+
+    pub(in crate::device) fn begin_feedback(&mut self) {
+        self.frame_feedback.begin();
+    }
+
+    pub(in crate::device) fn end_feedback(&mut self) {
+        let context = Arc::clone(&self.context);
+        let _turn = context.turn();
+        self.frame_feedback.end(&context);
+    }
+
+    pub(in crate::device) fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        // Another back-end of this process may have the turn, for long; what it waits for moves these tables along, too.
+        if let Some(_turn) = self.context.turn_if_free() {
+            self.context.poll()?;
+        }
+        self.frame_feedback.take(&self.context)
+    }
+
+    pub(in crate::device) fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let _turn = context.turn();
+        context.wait()?;
+        self.frame_feedback.take(&context)
     }
 
     pub(in crate::device) fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
@@ -261,14 +263,14 @@ impl GpuDevice {
         }
     }
 
-    fn bind(&self, pipeline: &wgpu::ComputePipeline, key: KernelKey) -> wgpu::BindGroup {
+    fn bind(&self, pipeline: &wgpu::ComputePipeline, key: KernelKey, feedback: &Storage) -> wgpu::BindGroup {
         let buffers = [
             (1, &self.nodes),
             (2, &self.optics),
             (3, &self.tiles),
             (4, &self.pixels),
             (5, &self.counts),
-            (6, &self.feedback),
+            (6, feedback),
             (10, &self.occupied),
             (11, &self.cells),
         ];
@@ -303,16 +305,6 @@ impl GpuDevice {
     }
 }
 
-/// A uniform buffer for one T.
-fn uniform<T>(context: &Context, label: &str) -> wgpu::Buffer {
-    context.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size: size_of::<T>() as u64,
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {
     match (choice, error) {
         (FilterChoice::Exact, _) | (FilterChoice::Auto, None) => Ok(Filter::Exact),
@@ -326,18 +318,19 @@ fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, Dev
     }
 }
 
-/// Adds up the counts of the tiles cast.
+/// Adds up the counts of the tiles cast; without counts there are rays alone.
 fn sum_up(job: &CastJob, counts: &[u32], feedback: Vec<FeedbackEntry>) -> CastOutcome {
-    let mut outcome = CastOutcome { feedback, ..Default::default() };
     let [width, height] = job.view.raster;
+    let mut outcome = CastOutcome { feedback, rays: job.rays(), ..Default::default() };
+    if counts.is_empty() {
+        return outcome;
+    }
     for &tile in job.tiles {
         let mut is_missing = false;
         for (x, y) in job.grid.pixels(tile, width, height) {
-            outcome.rays += 1;
-            if let Some(count) = counts.get(y as usize * width as usize + x as usize) {
-                outcome.samples += u64::from(count & !MISSING);
-                is_missing |= count & MISSING != 0;
-            }
+            let count = counts[y as usize * width as usize + x as usize];
+            outcome.samples += u64::from(count & !MISSING);
+            is_missing |= count & MISSING != 0;
         }
         if is_missing {
             outcome.missing_tiles.push(tile);

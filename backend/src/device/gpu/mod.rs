@@ -4,10 +4,12 @@ mod atlas;
 mod cache_file;
 mod context;
 mod device;
+mod feedback;
 mod kernels;
 mod pipeline_cache;
 mod precision;
 mod readback;
+mod storage;
 
 pub use context::adapter_name;
 pub use device::GpuDevice;

@@ -1,0 +1,34 @@
+//! What is shown in place of the picture, for those who look at the renderer instead.
+
+mod heat;
+mod node;
+mod samples;
+
+pub use heat::{heat, ramps};
+
+use super::composite::Light;
+use super::kernel::Kernel;
+use super::{Real, Scene, ray::Ray};
+use crate::compose::DebugView;
+
+/// A segment's light around t: itself, where no debug view colours it.
+#[inline(always)]
+pub(super) fn debug_light<F: Real, K: Kernel>(
+    scene: &Scene<F>,
+    light: Light<F>,
+    at: (&Ray<F>, F),
+) -> Light<F> {
+    if !K::IS_FULL {
+        return light;
+    }
+    match scene.needs.debug {
+        None | Some(DebugView::Samples) => light,
+        Some(view) => node::light(scene, view, light, at),
+    }
+}
+
+/// A ray's colour: itself, where no debug view counts its samples.
+#[inline(always)]
+pub(super) fn debug_pixel<F: Real>(scene: &Scene<F>, rgba: [F; 4], samples: u32) -> [F; 4] {
+    if scene.needs.debug == Some(DebugView::Samples) { samples::pixel(samples) } else { rgba }
+}
