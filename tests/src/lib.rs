@@ -7,6 +7,7 @@ pub mod draw;
 pub mod head;
 #[cfg(unix)]
 pub mod program;
+pub mod presented;
 pub mod random;
 pub mod random_scene;
 pub mod scenes;
