@@ -1,13 +1,14 @@
 //! Shared parts of the tests and benchmarks that span crates: scenes, truth, comparison.
 
+pub mod blending_scenes;
 pub mod closure_volume;
 pub mod compare;
 pub mod data;
 pub mod draw;
 pub mod head;
+pub mod presented;
 #[cfg(unix)]
 pub mod program;
-pub mod presented;
 pub mod random;
 pub mod random_scene;
 pub mod scenes;

@@ -6,7 +6,7 @@ use backend::device::{CastJob, Device, TileGrid};
 use backend::protocol::FrameState;
 use backend::reference::StoredField;
 use backend::store::{BRICK_VOXELS, BrickSource, CellRanges, NodeKey};
-use backend::working_set::{Cut, IndexRules, ResidentBrick, build_index};
+use backend::working_set::{Cut, IndexRules, build_index};
 use display_config::Display;
 use glam::{IVec3, UVec3};
 use shaders::compose::{Compositing, Needs, Way};
@@ -72,10 +72,7 @@ impl Presented {
 
     /// What devices and the twin see.
     pub fn scene(&self, display: &Display, frame: &FrameState) -> TwinScene {
-        let needs = Needs {
-            blends: true,
-            ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality)
-        };
+        let needs = Needs { blends: true, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
         let tables = Tables::new(&frame.optics, &needs);
         let (shape, lod) = (self.source.shape(), lod_rule(display, frame));
         let is_quadrilinear = frame.quality.quadrilinear;
@@ -113,7 +110,9 @@ impl Presented {
         let node = cut.node(place);
         let weights = self.weights.get(&node.key).map_or(FULL_WEIGHTS, |&weights| pack_weights(weights));
         let parent = node.parent.map(|parent| cut.node(parent)).filter(|parent| parent.brick.is_some());
-        let (Some(parent), Some(own)) = (parent.and_then(|parent| parent.summary), node.summary) else { return };
+        let (Some(parent), Some(own)) = (parent.and_then(|parent| parent.summary), node.summary) else {
+            return;
+        };
         let record = &mut nodes[place as usize];
         record.weights = weights;
         if weights == FULL_WEIGHTS {
@@ -141,7 +140,8 @@ impl Presented {
 fn corner_of(leaves: &HashSet<NodeKey>, key: NodeKey, corner: u32) -> Corner {
     let offset = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2);
     let point = key.cell + offset;
-    let around = (0..8u32).map(|i| point.as_ivec3() - IVec3::from([i & 1, i >> 1 & 1, i >> 2].map(|c| c as i32)));
+    let around =
+        (0..8u32).map(|i| point.as_ivec3() - IVec3::from([i & 1, i >> 1 & 1, i >> 2].map(|c| c as i32)));
     let is_coarse = |cell: IVec3| {
         let inside = cell.min_element() >= 0 && cell.max_element() < 1 << key.depth;
         let at = NodeKey { depth: key.depth, cell: cell.max(IVec3::ZERO).as_uvec3() };
@@ -158,7 +158,8 @@ impl TwinScene {
         let (low, high) = frame.optics.domain;
         assert_eq!((low, high), (0.0, 1.0), "records hold scalars");
         let scalars = |node: &NodeRecord, [least, most]: [u16; 2]| {
-            let scalar = |sample: u16| f64::from(node.offset) + f64::from(node.scale) * f64::from(sample) / 65535.0;
+            let scalar =
+                |sample: u16| f64::from(node.offset) + f64::from(node.scale) * f64::from(sample) / 65535.0;
             (scalar(least), scalar(most))
         };
         for node in self.nodes.iter().filter(|node| node.slot != NO_SLOT) {
