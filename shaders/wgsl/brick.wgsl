@@ -15,6 +15,24 @@ fn pairs_across(brick: Brick, middle: vec3<f32>, length: f32) -> f32 {
     return clamp(ceil(min(way.x, min(way.y, way.z)) / length), 1.0, 1e6);
 }
 
+// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something. A cell
+// is kept with a margin of one voxel; a blended node's steps are up to twice as long, so two points of a pair are asked.
+fn pairs_unseen(brick: Brick, t: f32, length: f32) -> f32 {
+    if BLENDS && is_blended(brick.weights) {
+        let first = point_in(brick.own, t + 0.5 * length);
+        let second = point_in(brick.own, t + 1.5 * length);
+        if is_visible_at(brick, first) || is_visible_at(brick, second) {
+            return 0.0;
+        }
+        return min(pairs_across(brick, first, 2.0 * length), pairs_across(brick, second, 2.0 * length));
+    }
+    let middle = point_in(brick.own, t + length);
+    if is_visible_at(brick, middle) {
+        return 0.0;
+    }
+    return pairs_across(brick, middle, 2.0 * length);
+}
+
 // What light makes of a colour: τ c · body + τ · highlight.
 struct Lighting {
     body: f32,

@@ -23,6 +23,15 @@ fn longest_step(node: NodeRecord, ray: Ray) -> f32 {
     return step_voxels(node.most_extinction * params.quality.z * edge) * edge;
 }
 
+// How much longer steps from t on are where the parent has a share of the samples, by the fractional level of both: so they
+// are as long as a coarser neighbour's on the border to it (LOD section 5).
+fn stretch_at(brick: Brick, t: f32) -> f32 {
+    if BLENDS && is_blended(brick.weights) {
+        return exp2(parents_share(brick.weights, brick.own, t));
+    }
+    return 1.0;
+}
+
 // What a pair of steps shows.
 struct Pair {
     first: Sample,

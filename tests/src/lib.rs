@@ -1,11 +1,13 @@
 //! Shared parts of the tests and benchmarks that span crates: scenes, truth, comparison.
 
+pub mod blending_scenes;
 pub mod closure_volume;
 pub mod compare;
 pub mod data;
 pub mod draw;
 pub mod faulty_source;
 pub mod head;
+pub mod presented;
 #[cfg(unix)]
 pub mod program;
 pub mod random;

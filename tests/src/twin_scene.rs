@@ -79,7 +79,7 @@ impl TwinScene {
 }
 
 /// Puts a brick behind the others.
-fn resident(source: &dyn BrickSource, key: NodeKey, atlas: &mut Vec<u16>) -> ResidentBrick {
+pub(crate) fn resident(source: &dyn BrickSource, key: NodeKey, atlas: &mut Vec<u16>) -> ResidentBrick {
     let brick = source.brick(key).expect("every brick of a test scene can be read");
     let slot = (atlas.len() / BRICK_VOXELS) as u32;
     let span = f64::from(brick.step) * f64::from(brick.codes.largest());

@@ -30,7 +30,7 @@ const CONFINED: [(&str, &[&str]); 3] = [
     ("bincode", &["backend/src/protocol/wire.rs", "backend/src/protocol/wire_tests.rs"]),
 ];
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 14] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 17] = [
     ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
     ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),
@@ -38,8 +38,11 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 14] = [
     ("gradient/blended", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
     ("gradient/none", Some("shaders/src/twin/gradient/detail.rs"), "a constant in the twin"),
     ("gradient/own", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
+    ("gradient/toward_parent", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
     ("layout", Some("shaders/src/layout/mod.rs"), "the host's structs are used beyond the twin"),
+    ("levels/no_weights", Some("shaders/src/twin/levels/weights.rs"), "a constant in the twin"),
     ("levels/one", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its ancestors"),
+    ("levels/two", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its grandparent"),
     ("material/one", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
     ("material/table", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
     ("report", Some("shaders/src/twin/scene.rs"), "the twin's feedback belongs to its scene"),

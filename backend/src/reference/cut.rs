@@ -1,10 +1,11 @@
-//! The ideal cut: the leaves that a level-of-detail rule asks for.
+//! The cut: the leaves that a level-of-detail rule asks for, or that are given.
 
-use super::Line;
+use super::{Line, corners::Corners};
 use crate::store::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey, OVERLAP, OWN_EDGE, OctreeShape};
 use crate::working_set::{LodRule, is_shown};
 use glam::{DVec3, IVec3};
 use shaders::optics::Optics;
+use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, OnceLock};
 
 /// The voxels of a leaf: codes, with the data value `low + code × step`.
@@ -32,8 +33,10 @@ pub struct Leaf {
     node: u32,
     /// Its region in the volume frame.
     pub region: (DVec3, DVec3),
-    /// Bounds of its data values.
+    /// Bounds of its data values, and of its parent's where those have a share of its samples.
     pub bounds: (f64, f64),
+    /// The share, where there is any.
+    pub corners: Option<Corners>,
     /// Levels above the finest.
     pub level: u8,
 }
@@ -72,6 +75,44 @@ impl Cut {
             let mut children = (0..8).map(|octant| key.child(octant)).filter(|&child| shape.contains(child));
             !rule.is_fine_enough(shape, key) && children.all(is_readable)
         })
+    }
+
+    /// The cut with these leaves, and the weights of their corners; see [`super::StoredField::presented`].
+    pub fn presented(
+        source: Arc<dyn BrickSource>,
+        leaves: impl IntoIterator<Item = (NodeKey, [f64; 8])>,
+        optics: &Optics,
+    ) -> Self {
+        let weights: HashMap<NodeKey, [f64; 8]> = leaves.into_iter().collect();
+        let above = |&key: &NodeKey| std::iter::successors(key.parent(), |key| key.parent());
+        let inner: HashSet<NodeKey> = weights.keys().flat_map(above).collect();
+        let mut cut = Self::where_splits(source, |_, _, key| inner.contains(&key));
+        for index in 0..cut.nodes.len() {
+            if let Some(&weights) = weights.get(&cut.nodes[index].grid.key) {
+                cut.blend(index, weights, optics);
+            }
+        }
+        cut
+    }
+
+    /// Gives a node's parent its share of the node's samples, where it has one and shows anything.
+    fn blend(&mut self, index: usize, weights: [f64; 8], optics: &Optics) {
+        let key = self.nodes[index].grid.key;
+        let edge = self.voxel_edge(key) * OWN_EDGE as f64;
+        let parent = self.nodes[index].parent.map(|parent| self.nodes[parent as usize].grid.key);
+        let Some(parent) = parent.map(|key| self.source.summary(key)) else { return };
+        if weights == [1.0; 8] || !is_shown(optics, parent) {
+            return;
+        }
+        let Node { branch: Branch::Leaf(leaf), grid, .. } = &mut self.nodes[index] else { return };
+        let (low, high) = leaf.bounds;
+        if !is_shown(optics, self.source.summary(key)) {
+            // The renderer reads no brick of such a node.
+            let middle = Voxels { codes: vec![0; BRICK_VOXELS], low: 0.5 * (low + high), step: 0.0 };
+            grid.voxels = OnceLock::from(Ok(middle));
+        }
+        leaf.bounds = (low.min(f64::from(parent.min)), high.max(f64::from(parent.max)));
+        leaf.corners = Some(Corners { low: leaf.region.0, edge, weights });
     }
 
     fn where_splits(
@@ -159,6 +200,7 @@ impl Cut {
             node,
             region: self.shape.region(key),
             bounds: (f64::from(summary.min), f64::from(summary.max)),
+            corners: None,
             level: self.shape.level(key.depth),
         }
     }

@@ -4,7 +4,7 @@ use super::cell::Cell;
 use super::cut::{Cut, Grid, Leaf, Voxels};
 use super::field::Levels;
 use super::fit::{Fit, GRADIENT_SLACK, MOST_BISECTIONS};
-use super::level::FilterLevel;
+use super::level::Blending;
 use super::{Cubic, Line, Piece, Visitor};
 use crate::store::BrickError;
 use glam::DVec3;
@@ -19,16 +19,15 @@ struct Rung<'a> {
 /// A leaf's samples, its parent's and its grandparent's, as far as there are such.
 pub struct Ladder<'a> {
     rungs: Vec<Rung<'a>>,
-    level: u8,
 }
 
-/// A line's way between two t inside the leaf, on which λ − ℓ has no kink.
+/// A line's way between two t inside the leaf, on which λ − ℓ, or what the corners make of it, has no kink.
 struct Way<'a> {
     ladder: &'a Ladder<'a>,
     line: &'a Line,
     /// What blends, and None where it is the same all the way.
-    filter: Option<&'a FilterLevel>,
-    /// λ − ℓ at its middle.
+    blending: Option<Blending<'a>>,
+    /// The level above the leaf's at its middle.
     above: f64,
     /// Levels of which gradients are wanted.
     levels: Levels,
@@ -40,7 +39,7 @@ impl<'a> Ladder<'a> {
     pub fn new(cut: &'a Cut, leaf: &Leaf, most: Levels) -> Result<Self, BrickError> {
         let grids = cut.ladder(leaf).take(most.count());
         let rungs = grids.map(|grid| Ok(Rung { grid, voxels: cut.voxels(grid)? }));
-        Ok(Self { rungs: rungs.collect::<Result<_, BrickError>>()?, level: leaf.level })
+        Ok(Self { rungs: rungs.collect::<Result<_, BrickError>>()? })
     }
 
     /// Value and gradient at a point of the leaf, `above` levels above it.
@@ -59,24 +58,21 @@ impl<'a> Ladder<'a> {
         (value + (next_value - value) * share, gradient + (next_gradient - gradient) * share)
     }
 
-    /// Shows `visitor` what lies between two t of `line` inside the leaf, filtered by `filter`, or at the leaf's own
-    /// level where there is none.
+    /// Shows `visitor` what lies between two t of `line` inside the leaf.
     pub fn visit(
         &self,
-        filter: Option<&FilterLevel>,
+        blending: &Blending,
         line: &Line,
         within: (f64, f64),
         accuracy: f64,
         visitor: &mut dyn Visitor,
     ) -> ControlFlow<()> {
-        let kinks = filter.iter().flat_map(|filter| filter.kinks(line, self.level));
         let mut from = within.0;
-        for to in ends(kinks, within) {
+        for to in ends(blending.kinks(line), within) {
             let middle = line.at(0.5 * (from + to));
-            let above = filter.map_or(0.0, |filter| filter.above(middle, self.level));
-            let is_between = above > 0.0 && above < self.top();
-            let filter = filter.filter(|_| is_between);
-            Way { ladder: self, line, filter, above, levels: visitor.levels(), accuracy }
+            let above = blending.above(middle);
+            let blending = blending.varies(middle, self.top()).then_some(*blending);
+            Way { ladder: self, line, blending, above, levels: visitor.levels(), accuracy }
                 .visit((from, to), visitor)?;
             from = to;
         }
@@ -141,15 +137,15 @@ impl Way<'_> {
         let sloped = cells.iter().zip(used).filter(|_| self.levels > Levels::Zero);
         let gradients = sloped.map(|(cell, rung)| cell.gradient(rung.grid.voxel_edge)).collect();
         let blend = Blend { way: self, values, gradients, part };
-        match self.filter {
+        match &self.blending {
             None => blend.show_fixed(visitor),
-            Some(filter) => blend.show_fitted(filter, (0.0, 1.0), MOST_BISECTIONS, visitor),
+            Some(blending) => blend.show_fitted(blending, (0.0, 1.0), MOST_BISECTIONS, visitor),
         }
     }
 
-    /// λ − ℓ, counted from the lowest of the used rungs, at `t`.
-    fn share(&self, filter: &FilterLevel, t: f64) -> f64 {
-        let above = filter.above(self.line.at(t), self.ladder.level);
+    /// The level, counted from the lowest of the used rungs, at `t`.
+    fn share(&self, blending: &Blending, t: f64) -> f64 {
+        let above = blending.above(self.line.at(t));
         (above - self.above.floor()).clamp(0.0, 1.0)
     }
 }
@@ -184,7 +180,7 @@ impl Blend<'_> {
     /// Where it is not, cubics are fitted to it.
     fn show_fitted(
         &self,
-        filter: &FilterLevel,
+        blending: &Blending,
         (from, to): (f64, f64),
         left: u32,
         visitor: &mut dyn Visitor,
@@ -193,7 +189,7 @@ impl Blend<'_> {
         let at = |u: f64| from + u * (to - from);
         let lerp = |low: &Cubic, high: &Cubic, u: f64| {
             let (low, high) = (low.at(u), high.at(u));
-            low + (high - low) * self.way.share(filter, t(u))
+            low + (high - low) * self.way.share(blending, t(u))
         };
         let (low, high) = self.pair(&self.values, 0);
         let value = Fit::new(|u| [lerp(low, high, at(u))]);
@@ -209,8 +205,8 @@ impl Blend<'_> {
             let piece = Piece { t0: t(from), t1: t(to), value: value.cubics[0], gradient: &gradient };
             return visitor.piece(&piece);
         }
-        self.show_fitted(filter, (from, middle), left - 1, visitor)?;
-        self.show_fitted(filter, (middle, to), left - 1, visitor)
+        self.show_fitted(blending, (from, middle), left - 1, visitor)?;
+        self.show_fitted(blending, (middle, to), left - 1, visitor)
     }
 }
 

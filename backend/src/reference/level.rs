@@ -1,6 +1,6 @@
-//! The fractional level at which samples are filtered.
+//! The fractional level of samples: the one they are filtered at, or what the corners of their leaf ask for.
 
-use super::Line;
+use super::{Line, corners::Corners};
 use crate::working_set::LodRule;
 use glam::DVec3;
 
@@ -49,5 +49,38 @@ impl FilterLevel {
         let depths = [0, 1, 2].map(depth);
         let both = depths.into_iter().flat_map(|z| [z, -z]);
         both.chain([0.0]).map(move |z| (z - start) / speed)
+    }
+}
+
+/// What the samples of one leaf are blended by.
+#[derive(Clone, Copy)]
+pub struct Blending<'a> {
+    /// The level that they are filtered at.
+    pub filter: Option<&'a FilterLevel>,
+    /// The weights of the leaf's corners, where the parent has any share.
+    pub corners: Option<&'a Corners>,
+    /// The leaf's level.
+    pub level: u8,
+}
+
+impl Blending<'_> {
+    /// Levels above the leaf at a point; at or below 0 it is the leaf alone.
+    pub fn above(&self, point: DVec3) -> f64 {
+        self.filtered(point).max(self.corners.map_or(0.0, |corners| corners.parents_share(point)))
+    }
+
+    /// The t of a line between which it is smooth, but where filter and corners ask for the same.
+    pub fn kinks(&self, line: &Line) -> impl Iterator<Item = f64> {
+        self.filter.into_iter().flat_map(|filter| filter.kinks(line, self.level))
+    }
+
+    /// Whether it may vary between two kinks, on a way with `point` on it, in a leaf with `top` levels above it.
+    pub fn varies(&self, point: DVec3, top: f64) -> bool {
+        let filtered = self.filtered(point);
+        (filtered > 0.0 && filtered < top) || (self.corners.is_some() && filtered < 1.0 && top > 0.0)
+    }
+
+    fn filtered(&self, point: DVec3) -> f64 {
+        self.filter.map_or(0.0, |filter| filter.above(point, self.level))
     }
 }

@@ -30,8 +30,8 @@
 //! | `ray` | the ray, and a straight line through the volume |
 //! | `cubic`, `fit` | a cubic of one variable in Bernstein form; cubics fitted to a function |
 //! | `field` | what a field of data values must answer |
-//! | `cut`, `cell`, `cells`, `stored` | the field of a brick source, on the ideal cut |
-//! | `level`, `ladder` | its samples filtered over node, parent and grandparent |
+//! | `cut`, `cell`, `cells`, `stored` | the field of a brick source, on the ideal cut or a given one |
+//! | `corners`, `level`, `ladder` | its samples blended with those of the two nodes above |
 //! | `analytic` | the field of a closed formula |
 //! | `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
 //! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
@@ -46,6 +46,7 @@ mod accumulator;
 mod analytic;
 mod cell;
 mod cells;
+mod corners;
 mod course;
 mod cubic;
 mod cut;

@@ -4,9 +4,9 @@ use super::cells::Cells;
 use super::cut::{Cut, Leaf};
 use super::field::Levels;
 use super::ladder::Ladder;
-use super::level::FilterLevel;
+use super::level::{Blending, FilterLevel};
 use super::{Cubic, Field, Line, Piece, Visitor};
-use crate::store::{BrickError, BrickSource};
+use crate::store::{BrickError, BrickSource, NodeKey};
 use crate::working_set::LodRule;
 use glam::DVec3;
 use shaders::optics::Optics;
@@ -40,9 +40,24 @@ impl StoredField {
         Self { cut: Cut::around_damage(source, rule, optics), filter: None }
     }
 
+    /// The field of a cut given by its leaves, each with its own share of the samples at its corners x + 2 y + 4 z; its
+    /// parent has the rest. `leaves` cover the volume. A leaf that shows nothing by its own values is taken as the middle of
+    /// them where its parent has a share.
+    pub fn presented(
+        source: Arc<dyn BrickSource>,
+        leaves: impl IntoIterator<Item = (NodeKey, [f64; 8])>,
+        optics: &Optics,
+    ) -> Self {
+        Self { cut: Cut::presented(source, leaves, optics), filter: None }
+    }
+
     /// This field, filtered over levels by the resolution that `rule` gives.
     pub fn filtered(self, rule: &LodRule) -> Self {
         Self { filter: Some(FilterLevel::new(rule)), ..self }
+    }
+
+    fn blending<'a>(&'a self, leaf: &'a Leaf) -> Blending<'a> {
+        Blending { filter: self.filter.as_ref(), corners: leaf.corners.as_ref(), level: leaf.level }
     }
 
     fn walk_leaf(
@@ -57,9 +72,9 @@ impl StoredField {
         if !visitor.wants(low, high) {
             return Ok(ControlFlow::Continue(()));
         }
-        if self.filter.is_some() || visitor.levels() > Levels::One {
+        if self.filter.is_some() || leaf.corners.is_some() || visitor.levels() > Levels::One {
             let ladder = Ladder::new(&self.cut, leaf, Levels::Three)?;
-            return Ok(ladder.visit(self.filter.as_ref(), line, within, accuracy, visitor));
+            return Ok(ladder.visit(&self.blending(leaf), line, within, accuracy, visitor));
         }
         if low == high {
             let gradient = |_| [Cubic::constant(0.0); 3];
@@ -91,7 +106,7 @@ impl Field for StoredField {
         if !wants(leaf.bounds.0, leaf.bounds.1) {
             return Ok((leaf.bounds.0, DVec3::ZERO));
         }
-        let above = self.filter.as_ref().map_or(0.0, |filter| filter.above(point, leaf.level));
+        let above = self.blending(leaf).above(point);
         let rungs = if above > 0.0 { Levels::Three } else { Levels::One };
         Ok(Ladder::new(&self.cut, leaf, rungs)?.at(point, above))
     }

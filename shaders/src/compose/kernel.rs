@@ -30,24 +30,31 @@ macro_rules! module {
 
 impl Needs {
     fn levels_wgsl(&self) -> Vec<&'static str> {
+        let weights = if self.blends { module!("levels/weights") } else { module!("levels/no_weights") };
+        let mut modules = vec![module!("levels/level"), weights];
         if !self.reads_ancestors() {
-            return vec![module!("levels/level"), module!("levels/one")];
+            modules.push(module!("levels/one"));
+        } else if !self.reads_grandparents() {
+            modules.push(module!("levels/two"));
+        } else {
+            modules.push(match self.levels {
+                Levels::Quadrilinear => "const FILTERS_LEVELS: bool = true;\n",
+                Levels::Single => "const FILTERS_LEVELS: bool = false;\n",
+            });
+            modules.push(module!("levels/three"));
         }
-        let filters = match self.levels {
-            Levels::Quadrilinear => "const FILTERS_LEVELS: bool = true;\n",
-            Levels::Single => "const FILTERS_LEVELS: bool = false;\n",
-        };
-        vec![filters, module!("levels/level"), module!("levels/three")]
+        modules
     }
 
     fn gradient_wgsl(&self) -> Vec<&'static str> {
         if !self.reads_gradients() {
             return vec![module!("gradient/none")];
         }
-        let which = match (self.shading.has_detail(), self.levels) {
-            (true, _) => module!("gradient/detail"),
-            (false, Levels::Quadrilinear) => module!("gradient/blended"),
-            (false, Levels::Single) => module!("gradient/own"),
+        let which = match (self.shading.has_detail(), self.levels, self.blends) {
+            (true, ..) => module!("gradient/detail"),
+            (false, Levels::Quadrilinear, _) => module!("gradient/blended"),
+            (false, Levels::Single, true) => module!("gradient/toward_parent"),
+            (false, Levels::Single, false) => module!("gradient/own"),
         };
         vec![module!("gradient/central"), which]
     }
@@ -152,6 +159,15 @@ impl KernelKey {
             let needs = Needs { shading, compositing, way: Way::Refracted, debug, ..Needs::PLAIN };
             keys.push(Self { filter: Filter::Exact, needs });
         }
+        // Blending is looked at by levels, gradients and ways alone, and by enhancers through gradients.
+        let with_blending = |key: Self| Self { needs: Needs { blends: true, ..key.needs }, ..key };
+        let is_apart = |key: &&Self| {
+            let Self { filter, needs } = key;
+            let has_plain_rest = *filter == Filter::Exact && needs.compositing == Compositing::Over;
+            has_plain_rest && (needs.chain.is_empty() || needs.chain.needs_gradient())
+        };
+        let blended: Vec<Self> = keys.iter().filter(is_apart).copied().map(with_blending).collect();
+        keys.extend(blended);
         keys
     }
 }

@@ -3,8 +3,9 @@
 //! | slot | modules |
 //! | --- | --- |
 //! | filter | `sample/hardware`, `sample/exact` |
-//! | levels | `levels/one`, `levels/three` |
-//! | gradient | `gradient/none`, `own`, `blended`, `detail` |
+//! | levels | `levels/one`, `levels/two`, `levels/three` |
+//! | weights | `levels/no_weights`, `levels/weights` |
+//! | gradient | `gradient/none`, `own`, `toward_parent`, `blended`, `detail` |
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |

@@ -145,6 +145,11 @@ impl Needs {
 
     /// Whether it reads the bricks of ancestors.
     pub fn reads_ancestors(&self) -> bool {
-        self.levels == Levels::Quadrilinear || self.blends || self.shading.has_detail()
+        self.blends || self.reads_grandparents()
+    }
+
+    /// Whether it reads more of them than the parent's.
+    pub fn reads_grandparents(&self) -> bool {
+        self.levels == Levels::Quadrilinear || self.shading.has_detail()
     }
 }

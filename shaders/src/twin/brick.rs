@@ -18,7 +18,7 @@ const CELL: f64 = 4.0;
 impl<F: Real> Brick<'_, F> {
     /// Whether anything shows within a voxel of the cell around a point.
     #[inline(always)]
-    pub(super) fn is_visible_at(&self, point: Vec3<F>) -> bool {
+    fn is_visible_at(&self, point: Vec3<F>) -> bool {
         let [x, y, z] = point.0.map(|c| (c * F::of(1.0 / CELL)).to_index() & 7);
         let cell = (z * 8 + y) * 8 + x;
         self.cells[(cell >> 5) as usize] >> (cell & 31) & 1 != 0
@@ -26,7 +26,7 @@ impl<F: Real> Brick<'_, F> {
 
     /// Pairs of steps of `length` metres until the middle of one lies beyond the cell around `middle`; at least 1.
     #[inline(always)]
-    pub(super) fn pairs_across(&self, middle: Vec3<F>, length: F) -> u32 {
+    fn pairs_across(&self, middle: Vec3<F>, length: F) -> u32 {
         let mut way = F::of(1e30);
         for axis in 0..3 {
             let in_cells = middle.0[axis] * F::of(1.0 / CELL);
@@ -35,6 +35,25 @@ impl<F: Real> Brick<'_, F> {
             way = way.least((face - middle.0[axis]).abs() * self.pace.0[axis]);
         }
         (way / length).ceil().most(F::ONE).least(F::of(1e6)).to_index()
+    }
+}
+
+impl<F: Real> Brick<'_, F> {
+    /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something.
+    /// A cell is kept with a margin of one voxel; a blended node's steps are up to twice as long, so two points of a pair
+    /// are asked.
+    #[inline(always)]
+    pub(super) fn pairs_unseen<K: Kernel>(&self, t: F, length: F) -> u32 {
+        let both = F::of(2.0) * length;
+        if self.is_blended::<K>() {
+            let points = [0.5, 1.5].map(|share| self.own.point(t + F::of(share) * length));
+            if self.is_visible_at(points[0]) || self.is_visible_at(points[1]) {
+                return 0;
+            }
+            return self.pairs_across(points[0], both).min(self.pairs_across(points[1], both));
+        }
+        let middle = self.own.point(t + length);
+        if self.is_visible_at(middle) { 0 } else { self.pairs_across(middle, both) }
     }
 }
 

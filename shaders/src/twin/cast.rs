@@ -2,7 +2,7 @@
 
 use super::composite::{MimdaConsistent, MimdaPaper, Over};
 use super::debug::debug_pixel;
-use super::kernel::{Full, Lean};
+use super::kernel::{Blended, Full, Lean};
 use super::shade::{AnyShade, Phong, Plain};
 use super::way::cast_ray;
 use super::{Real, Scene, ray::Ray};
@@ -25,7 +25,14 @@ pub struct Cast<F> {
 pub fn cast_pixel<F: Real>(scene: &Scene<F>, x: u32, y: u32) -> Cast<F> {
     let half = F::of(0.5);
     let ray = Ray::of_pixel(scene.view, F::of_u32(x) + half, F::of_u32(y) + half);
-    if is_lean(scene.needs) {
+    let is_lean = is_lean(scene.needs);
+    if is_lean && scene.needs.blends && scene.needs.compositing == Compositing::Over {
+        return match scene.needs.shading {
+            Shading::Plain => cast_ray::<F, Blended<Plain, Over>>(scene, &ray),
+            _ => cast_ray::<F, Blended<Phong, Over>>(scene, &ray),
+        };
+    }
+    if is_lean && !scene.needs.blends {
         let is_plain = scene.needs.shading == Shading::Plain;
         return match (is_plain, scene.needs.compositing) {
             (true, Compositing::Over) => cast_ray::<F, Lean<Plain, Over>>(scene, &ray),
@@ -54,11 +61,10 @@ pub fn cast_pixel<F: Real>(scene: &Scene<F>, x: u32, y: u32) -> Cast<F> {
     Cast { rgba: debug_pixel(scene, cast.rgba, cast.samples), ..cast }
 }
 
-/// Whether shading and compositing are all that a scene needs.
+/// Whether shading, compositing and blending are all that a scene needs.
 fn is_lean(needs: &Needs) -> bool {
-    let Needs { levels, blends, shading, has_materials, compositing: _, way, chain, debug } = *needs;
+    let Needs { levels, blends: _, shading, has_materials, compositing: _, way, chain, debug } = *needs;
     levels == Levels::Single
-        && !blends
         && !shading.has_detail()
         && !has_materials
         && way == Way::Straight

@@ -33,6 +33,8 @@ pub trait Real:
     fn exp(self) -> Self;
     /// log₂ x.
     fn log2(self) -> Self;
+    /// 2^x.
+    fn exp2(self) -> Self;
     /// x^y for x > 0.
     fn powf(self, exponent: Self) -> Self;
     /// The next whole number at or above.
@@ -100,6 +102,10 @@ macro_rules! real {
             #[inline(always)]
             fn log2(self) -> Self {
                 <$type>::log2(self)
+            }
+            #[inline(always)]
+            fn exp2(self) -> Self {
+                <$type>::exp2(self)
             }
             #[inline(always)]
             fn powf(self, exponent: Self) -> Self {

@@ -3,6 +3,7 @@
 use super::composite::{Composite, Sample};
 use super::four::each;
 use super::kernel::Kernel;
+use super::levels::Brick;
 use super::shade::Shade;
 use super::tables::locate;
 use super::traverse::voxel_edge;
@@ -35,6 +36,12 @@ pub fn longest_step<F: Real, K: Kernel>(scene: &Scene<F>, node: &NodeRecord, ray
     let edge = voxel_edge::<F>(view.finest_depth, node.depth) / ray.speed;
     let depth = F::of_f32(node.most_extinction) * view.extinction_per_metre * edge;
     step_voxels(view.step_voxels, depth, F::of(K::Shade::safe_depth(scene.needs)), view.tolerance) * edge
+}
+
+/// How much longer steps from t on are where the parent has a share of the samples; see the WGSL.
+#[inline(always)]
+pub fn stretch_at<F: Real, K: Kernel>(brick: &Brick<F>, t: F) -> F {
+    if brick.is_blended::<K>() { brick.parents_share(t).exp2() } else { F::ONE }
 }
 
 /// What a pair of steps shows.

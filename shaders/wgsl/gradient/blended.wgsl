@@ -12,8 +12,11 @@ fn gradients_at(brick: Brick, ray: Ray, t: f32) -> Gradients {
         return Gradients(gradient_in(brick.own, t));
     }
     let parent = gradient_in(brick.parent, t);
-    if f <= 1.0 {
+    if f < 1.0 {
         return Gradients(mix(gradient_in(brick.own, t), parent, f));
+    }
+    if f == 1.0 {
+        return Gradients(parent);
     }
     return Gradients(mix(parent, gradient_in(brick.grandparent, t), f - 1.0));
 }

@@ -3,6 +3,7 @@
 // What stays the same on a straight way through one brick.
 struct Brick {
     own: Level,
+    weights: Weights,
     // First word of its cells.
     words: u32,
     // Metres per texel along each axis, without sign.
@@ -10,7 +11,8 @@ struct Brick {
 }
 
 fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
-    return Brick(level_of(node, ray), node.slot * CELL_WORDS, abs(ray.inverse) * voxel_edge(node.depth));
+    return Brick(level_of(node, ray), weights_of(node, false), node.slot * CELL_WORDS,
+        abs(ray.inverse) * voxel_edge(node.depth));
 }
 
 fn scalar_at(brick: Brick, ray: Ray, t: f32) -> f32 {

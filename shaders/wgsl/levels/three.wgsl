@@ -5,6 +5,7 @@ struct Brick {
     own: Level,
     parent: Level,
     grandparent: Level,
+    weights: Weights,
     // First word of its cells.
     words: u32,
     // Metres per texel along each axis, without sign.
@@ -39,17 +40,23 @@ fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
             }
         }
     }
+    brick.weights = weights_of(node, brick.coarsest > 0.0);
     return brick;
 }
 
-// The fractional level that samples at t are filtered at: 0 is the node, 1 the parent, 2 the grandparent.
+// The fractional level of samples at t, 0 is the node, 1 the parent, 2 the grandparent: the one that they are filtered at,
+// or the parent's share by the node's corners where that is more.
 fn fraction_at(brick: Brick, ray: Ray, t: f32) -> f32 {
-    if !FILTERS_LEVELS {
-        return 0.0;
+    var f = 0.0;
+    if FILTERS_LEVELS {
+        let z = ray.origin_in_display.z + ray.direction_in_display.z * t;
+        let wanted = log2(max(params.resolution.x + params.resolution.y * abs(z), 1e-30)) - brick.above_finest;
+        f = clamp(wanted, 0.0, brick.coarsest);
     }
-    let z = ray.origin_in_display.z + ray.direction_in_display.z * t;
-    let wanted = log2(max(params.resolution.x + params.resolution.y * abs(z), 1e-30)) - brick.above_finest;
-    return clamp(wanted, 0.0, brick.coarsest);
+    if BLENDS && is_blended(brick.weights) {
+        f = max(f, parents_share(brick.weights, brick.own, t));
+    }
+    return f;
 }
 
 fn scalar_at(brick: Brick, ray: Ray, t: f32) -> f32 {
@@ -57,12 +64,14 @@ fn scalar_at(brick: Brick, ray: Ray, t: f32) -> f32 {
     var s: f32;
     if f <= 0.0 {
         s = scalar_in(brick.own, t);
-    } else if f <= 1.0 {
+    } else if f < 1.0 {
         let near = scalar_in(brick.own, t);
         s = near + (scalar_in(brick.parent, t) - near) * f;
     } else {
-        let near = scalar_in(brick.parent, t);
-        s = near + (scalar_in(brick.grandparent, t) - near) * (f - 1.0);
+        s = scalar_in(brick.parent, t);
+        if f > 1.0 {
+            s += (scalar_in(brick.grandparent, t) - s) * (f - 1.0);
+        }
     }
     return clamp(s, 0.0, 1.0);
 }

@@ -167,14 +167,14 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         let voxel = voxel_edge(node.depth) / bent.ray.speed;
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
         let span_left = max(min(t_out, next_break(bent.t)) - bent.t, LEAST_PAIR * voxel);
-        let longest = min(longest_step(node, bent.ray), MOST_STEP * voxel);
+        let longest = min(longest_step(node, bent.ray) * stretch_at(brick, bent.t), MOST_STEP * voxel);
         let pairs = max(1.0, ceil(span_left / (2.0 * longest)));
         var step = 0.5 * span_left / pairs;
         let t0 = bent.t;
-        let middle = point_in(brick.own, t0 + step);
-        if !is_visible_at(brick, middle) {
+        let unseen = pairs_unseen(brick, t0, step);
+        if unseen > 0.0 {
             known = false;
-            let skipped = min(pairs_across(brick, middle, 2.0 * step), pairs) * 2.0 * step;
+            let skipped = min(unseen, pairs) * 2.0 * step;
             bent.t += skipped;
             bent.way += skipped;
             if bent.t >= t_out {

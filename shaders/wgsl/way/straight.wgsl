@@ -7,21 +7,31 @@ struct Marched {
 }
 
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps are
-// too long for the tolerance, each of them is cut into equal parts.
+// too long for the tolerance, each of them is cut into equal parts. In a blended node the rest of the way is laid out anew
+// after each pair, in pairs as long as the level there allows.
 fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, longest: f32, t_in: f32, t_out: f32) -> Marched {
-    let span = t_out - t_in;
-    let pairs = max(1.0, ceil(span / (2.0 * longest)));
-    let step = 0.5 * span / pairs;
+    var from_t = t_in;
+    var span = t_out - t_in;
+    var pairs = max(1.0, ceil(span / (2.0 * longest * stretch_at(brick, t_in))));
+    var step = 0.5 * span / pairs;
     var front = front_of_brick;
     var marched = Marched(front, 0u, false);
     var known = false;
     var s2 = 0.0;
     var i = 0.0;
     while i < pairs {
-        let t0 = t_in + 2.0 * i * step;
-        let middle = point_in(brick.own, t0 + step);
-        if !is_visible_at(brick, middle) {
-            i += pairs_across(brick, middle, 2.0 * step);
+        let t0 = from_t + 2.0 * i * step;
+        // Steps too short for t to grow by them are counted instead, or there would be no end.
+        if BLENDS && is_blended(brick.weights) && t0 > from_t {
+            from_t = t0;
+            span = max(t_out - from_t, 0.0);
+            pairs = max(1.0, ceil(span / (2.0 * longest * stretch_at(brick, from_t))));
+            step = 0.5 * span / pairs;
+            i = 0.0;
+        }
+        let unseen = pairs_unseen(brick, t0, step);
+        if unseen > 0.0 {
+            i += unseen;
             known = false;
             continue;
         }

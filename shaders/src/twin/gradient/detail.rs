@@ -23,7 +23,7 @@ impl<F: Real> Gradients<F> {
     /// At t.
     #[inline(always)]
     pub fn new<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
-        if K::IS_FULL && scene.needs.reads_ancestors() {
+        if (K::IS_FULL && scene.needs.reads_grandparents()) || brick.is_blended::<K>() {
             return Self::over_levels(scene, brick, ray, t);
         }
         Self { at: gradient_in(scene, &brick.own, t), ..Self::NONE }
@@ -36,13 +36,13 @@ impl<F: Real> Gradients<F> {
         if scene.needs.shading.has_detail() {
             return Self::detailed(scene, brick, f, t);
         }
-        let (near, far, share) = if f <= F::ONE {
+        let (near, far, share) = if f < F::ONE {
             (&brick.own, &brick.parent, f)
         } else {
             (&brick.parent, &brick.grandparent, f - F::ONE)
         };
         let near = gradient_in(scene, near, t);
-        let at = if f <= F::ZERO { near } else { near.lerp(gradient_in(scene, far, t), share) };
+        let at = if share <= F::ZERO { near } else { near.lerp(gradient_in(scene, far, t), share) };
         Self { at, ..Self::NONE }
     }
 

@@ -6,9 +6,6 @@ use crate::twin::scene::BRICK_VOXELS;
 use crate::twin::traverse::{node_low, voxel_edge};
 use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
 
-/// Texels of overlap on each side of a brick.
-const OVERLAP: f64 = 2.0;
-
 /// See `Level` in `wgsl/levels/level.wgsl`.
 #[derive(Clone, Copy)]
 pub struct Level<'a, F> {
@@ -24,12 +21,15 @@ pub struct Level<'a, F> {
 }
 
 impl<'a, F: Real> Level<'a, F> {
+    /// Texels of overlap on each side of a brick.
+    pub(super) const OVERLAP: f64 = 2.0;
+
     /// Of a node with a brick.
     #[inline(always)]
     pub fn new(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
         let finest = scene.view.finest_depth;
         let edge = voxel_edge::<F>(finest, node.depth);
-        let overlap = F::of(OVERLAP);
+        let overlap = F::of(Self::OVERLAP);
         let scale = F::of_f32(node.scale);
         Self {
             codes: scene.brick(node.slot),

@@ -2,6 +2,7 @@
 
 mod level;
 mod three;
+mod weights;
 
 pub use level::Level;
 pub use three::Brick;

@@ -1,7 +1,7 @@
-//! Samples of the node that a ray is in, of its parent and of its grandparent. Kernels of one level are told by this
-//! twin, too: it then looks at no ancestor.
+//! Samples of the node that a ray is in, of its parent and of its grandparent. Kernels of one and of two levels are told
+//! by this twin, too: it then looks at no ancestor, or at the parent alone.
 
-use super::Level;
+use super::{Level, weights::Weights};
 use crate::compose::Levels;
 use crate::layout::{CELL_WORDS, NO_NODE, NO_SLOT, NodeRecord};
 use crate::twin::kernel::Kernel;
@@ -17,6 +17,8 @@ pub struct Brick<'a, F> {
     pub parent: Level<'a, F>,
     /// Its grandparent.
     pub grandparent: Level<'a, F>,
+    /// The node's share, and its parent's.
+    weights: Weights<F>,
     /// The visible cells of the node's brick.
     pub cells: &'a [u32; CELL_WORDS],
     /// Metres per texel along each axis, without sign.
@@ -37,16 +39,32 @@ impl<'a, F: Real> Brick<'a, F> {
             own,
             parent: own,
             grandparent: own,
+            weights: Weights::FULL,
             cells: scene.cells(node.slot),
             pace: ray.inverse.map(|c| c.abs() * edge),
             above_finest: F::of_u32(finest - node.depth),
             coarsest: F::ZERO,
             filters_levels: K::IS_FULL && scene.needs.levels == Levels::Quadrilinear,
         };
-        if K::IS_FULL && scene.needs.reads_ancestors() {
+        if K::BLENDS && scene.needs.blends {
+            brick.weights = Weights::new(node);
+        }
+        if K::BLENDS && (brick.weights.is_blended || (K::IS_FULL && scene.needs.reads_grandparents())) {
             brick.add_ancestors(scene, node, ray);
         }
         brick
+    }
+
+    /// Whether the parent has a share of the samples by the weights of the node's corners.
+    #[inline(always)]
+    pub fn is_blended<K: Kernel>(&self) -> bool {
+        K::BLENDS && self.weights.is_blended
+    }
+
+    /// The parent's share at t, of a blended node.
+    #[inline(always)]
+    pub fn parents_share(&self, t: F) -> F {
+        self.weights.parents_share(&self.own, t)
     }
 
     #[inline(never)]
@@ -55,7 +73,10 @@ impl<'a, F: Real> Brick<'a, F> {
             let parent = scene.nodes.get(node.parent as usize).filter(|_| node.parent != NO_NODE)?;
             (parent.slot != NO_SLOT).then_some(parent)
         };
-        let Some(parent) = above(node) else { return };
+        let Some(parent) = above(node) else {
+            self.weights = Weights::FULL;
+            return;
+        };
         self.parent = Level::new(scene, parent, ray);
         (self.grandparent, self.coarsest) = (self.parent, F::ONE);
         let Some(grandparent) = above(parent) else { return };
@@ -63,12 +84,16 @@ impl<'a, F: Real> Brick<'a, F> {
         self.coarsest = F::of(2.0);
     }
 
-    /// The fractional level that samples at t are filtered at: 0 is the node, 1 the parent, 2 the grandparent.
+    /// The fractional level of samples at t, 0 is the node, 1 the parent, 2 the grandparent: the one that they are
+    /// filtered at, or the parent's share by the node's corners where that is more.
     #[inline(always)]
     pub fn fraction(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        if !self.filters_levels {
-            return F::ZERO;
-        }
+        let filtered = if self.filters_levels { self.filtered_fraction(scene, ray, t) } else { F::ZERO };
+        if self.weights.is_blended { filtered.most(self.parents_share(t)) } else { filtered }
+    }
+
+    #[inline(always)]
+    fn filtered_fraction(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
         let z = ray.origin_in_display.0[2] + ray.direction_in_display.0[2] * t;
         let [c0, c1] = scene.view.resolution;
         let wanted = (c0 + c1 * z.abs()).most(F::of(1e-30)).log2() - self.above_finest;
@@ -78,8 +103,10 @@ impl<'a, F: Real> Brick<'a, F> {
     /// The scalar at t.
     #[inline(always)]
     pub fn scalar_at<K: Kernel>(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        let s = if K::IS_FULL && self.filters_levels {
+        let s = if K::IS_FULL && (self.filters_levels || self.weights.is_blended) {
             self.scalar_over_levels(scene, ray, t)
+        } else if self.is_blended::<K>() {
+            self.scalar_toward_parent(t)
         } else {
             self.own.scalar(t)
         };
@@ -90,15 +117,26 @@ impl<'a, F: Real> Brick<'a, F> {
     #[inline(never)]
     fn scalar_over_levels(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
         let f = self.fraction(scene, ray, t);
-        if f <= F::ZERO {
-            return self.own.scalar(t);
+        if f <= F::ONE {
+            return self.scalar_between(f, t);
         }
-        let (near, far, share) = if f <= F::ONE {
-            (&self.own, &self.parent, f)
-        } else {
-            (&self.parent, &self.grandparent, f - F::ONE)
-        };
-        let near = near.scalar(t);
-        near + (far.scalar(t) - near) * share
+        let near = self.parent.scalar(t);
+        near + (self.grandparent.scalar(t) - near) * (f - F::ONE)
+    }
+
+    /// The same where no level above the parent has a share.
+    #[inline(never)]
+    fn scalar_toward_parent(&self, t: F) -> F {
+        self.scalar_between(self.parents_share(t), t)
+    }
+
+    /// From the node (0) to its parent (1), which alone is looked at there.
+    #[inline(always)]
+    fn scalar_between(&self, f: F, t: F) -> F {
+        if f >= F::ONE {
+            return self.parent.scalar(t);
+        }
+        let own = self.own.scalar(t);
+        if f <= F::ZERO { own } else { own + (self.parent.scalar(t) - own) * f }
     }
 }

@@ -8,7 +8,7 @@ use crate::twin::gradient::{Gradients, LEAST_SQUARE};
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
 use crate::twin::ray::{Ray, far};
-use crate::twin::refine::{longest_step, scalars_in_reach};
+use crate::twin::refine::{longest_step, scalars_in_reach, stretch_at};
 use crate::twin::tables::is_vacant;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
 use crate::twin::{Cast, Real, Scene, vector::Vec3};
@@ -195,15 +195,15 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
         let span_left = (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel);
         let two = F::of(2.0);
-        let longest = longest_step::<F, K>(scene, node, &bent.ray).least(F::of(MOST_STEP) * voxel);
+        let longest = longest_step::<F, K>(scene, node, &bent.ray) * stretch_at::<F, K>(&brick, bent.t);
+        let longest = longest.least(F::of(MOST_STEP) * voxel);
         let pairs = (span_left / (two * longest)).ceil().most(F::ONE);
         let mut step = F::of(0.5) * span_left / pairs;
         let t0 = bent.t;
-        let middle = brick.own.point(t0 + step);
-        if !brick.is_visible_at(middle) {
+        let unseen = brick.pairs_unseen::<K>(t0, step);
+        if unseen > 0 {
             known = None;
-            let across = F::of_u32(brick.pairs_across(middle, two * step)).least(pairs);
-            let skipped = across * two * step;
+            let skipped = F::of_u32(unseen).least(pairs) * two * step;
             bent.t = bent.t + skipped;
             bent.way = bent.way + skipped;
             if bent.t >= t_out {

@@ -6,7 +6,7 @@ use crate::twin::composite::{Accumulated, Composite};
 use crate::twin::enhance::Chain;
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
-use crate::twin::refine::{longest_step, scalars_in_reach};
+use crate::twin::refine::{longest_step, scalars_in_reach, stretch_at};
 use crate::twin::tables::is_vacant;
 use crate::twin::{Cast, Real, Scene, ray::Ray};
 
@@ -17,7 +17,8 @@ struct Marched<F> {
 }
 
 /// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps
-/// are too long for the tolerance, each of them is cut into equal parts.
+/// are too long for the tolerance, each of them is cut into equal parts. In a blended node the rest of the way is laid out
+/// anew after each pair, in pairs as long as the level there allows.
 #[inline(always)]
 fn march<F: Real, K: Kernel>(
     scene: &Scene<F>,
@@ -29,18 +30,27 @@ fn march<F: Real, K: Kernel>(
 ) -> Marched<F> {
     let Straight { brick, ray } = way;
     let two = F::of(2.0);
-    let span = t_out - t_in;
-    let pairs = (span / (two * longest)).ceil().most(F::ONE);
-    let step = F::of(0.5) * span / pairs;
-    let count = pairs.to_index();
+    let lay_out = |from: F| {
+        let span = (t_out - from).most(F::ZERO);
+        let pairs = (span / (two * longest * stretch_at::<F, K>(brick, from))).ceil().most(F::ONE);
+        (F::of(0.5) * span / pairs, pairs.to_index())
+    };
+    let mut from = t_in;
+    let (mut step, mut count) = lay_out(t_in);
     let mut marched = Marched { front, samples: 0, is_done: false };
     let mut i = 0;
     let mut known = None;
     while i < count {
-        let t0 = t_in + two * F::of_u32(i) * step;
-        let middle = brick.own.point(t0 + step);
-        if !brick.is_visible_at(middle) {
-            i += brick.pairs_across(middle, two * step);
+        let t0 = from + two * F::of_u32(i) * step;
+        // Steps too short for t to grow by them are counted instead, or there would be no end.
+        if brick.is_blended::<K>() && t0 > from {
+            from = t0;
+            (step, count) = lay_out(from);
+            i = 0;
+        }
+        let unseen = brick.pairs_unseen::<K>(t0, step);
+        if unseen > 0 {
+            i += unseen;
             known = None;
             continue;
         }
