@@ -16,7 +16,7 @@ use backend::store::BrickSource;
 use backend::volume::procedural::{ProceduralVolume, field_named};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
-use lightloom_tests::borders::{BorderSteps, border_steps, shown};
+use lightloom_tests::borders::{BorderSteps, Shown, border_steps, is_one_surface, shown};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::motion::{
     Approach, Continuity, Spread, borrowed, continuity, difference, draw_sequence, standing_still, steps,
@@ -92,6 +92,9 @@ struct Stage {
     out: Option<PathBuf>,
 }
 
+/// What each pixel of a frame shows.
+type Surface = Arc<[Option<Shown>]>;
+
 /// How a sequence gets its detail.
 #[derive(Clone, Copy)]
 struct Manner {
@@ -134,22 +137,36 @@ fn play(stage: &Stage, frames: &[FrameState]) -> Outcome {
     outcome
 }
 
-/// The worst of every tenth picture.
-fn worst_borders(stage: &Stage, frames: &[FrameState], images: &[ProjectorImage]) -> Option<BorderSteps> {
+/// What the pixels of each frame show.
+fn surfaces(stage: &Stage, frames: &[FrameState]) -> Vec<Surface> {
     let dims = stage.source.shape().dims().as_dvec3();
     let field = field_named("shells", dims / dims.max_element()).expect("the name is one of ours");
-    let raster = &stage.display.projectors[PROJECTOR as usize].raster;
-    let pixel_m = stage.display.width_m / f64::from(raster.width);
-    let measured = frames.iter().zip(images).step_by(BORDERS_EVERY).map(|(frame, image)| {
-        let shown = shown(&stage.display, PROJECTOR, frame, &*field, &stage.source.shape());
-        border_steps(image, &shown, pixel_m)
-    });
+    let mut found: Vec<Surface> = Vec::new();
+    for (number, frame) in frames.iter().enumerate() {
+        let same = number > 0 && frames[number - 1].display_from_volume == frame.display_from_volume;
+        let before = found.last().filter(|_| same).cloned();
+        let surface = || shown(&stage.display, PROJECTOR, frame, &*field, &stage.source.shape()).into();
+        found.push(before.unwrap_or_else(surface));
+    }
+    found
+}
+
+/// The worst of every tenth picture.
+fn worst_borders(surfaces: &[Surface], images: &[ProjectorImage], pixel_m: f64) -> Option<BorderSteps> {
+    let pairs = surfaces.iter().zip(images).step_by(BORDERS_EVERY);
+    let measured = pairs.map(|(surface, image)| border_steps(image, surface, pixel_m));
     measured.reduce(|a, b| BorderSteps {
         inside: a.inside.max(b.inside),
         same_level: a.same_level.max(b.same_level),
         levels: a.levels.max(b.levels),
         pairs: std::array::from_fn(|kind| a.pairs[kind] + b.pairs[kind]),
     })
+}
+
+/// Whether a pixel stays on one piece of surface over four frames.
+fn stays(surfaces: &[Surface], first: usize, pixel: usize, pixel_m: f64) -> bool {
+    let shown: Option<Vec<Shown>> = surfaces[first..first + 4].iter().map(|surface| surface[pixel]).collect();
+    shown.is_some_and(|shown| is_one_surface(&shown, pixel_m))
 }
 
 /// Writes the last picture, and what changed in the one with the largest pop.
@@ -168,28 +185,46 @@ fn write_pictures(folder: &Path, name: &str, images: &[ProjectorImage], at: usiz
     Ok(())
 }
 
-fn row(name: &str, found: Continuity, borders: Option<BorderSteps>, last: Spread, outcome: &Outcome) {
-    let Continuity { step, pop, pops_at } = found;
-    let of = |spread: Option<Spread>| spread.map_or_else(|| "-".to_owned(), |spread| spread.to_string());
-    let [inside, same, levels] =
-        [borders.map(|b| b.inside), borders.map(|b| b.same_level), borders.map(|b| b.levels)].map(of);
+fn row(
+    name: &str,
+    whole: Continuity,
+    surface: Continuity,
+    borders: Option<BorderSteps>,
+    last: Spread,
+    outcome: &Outcome,
+) {
+    let of = |steps: fn(&BorderSteps) -> Spread, kind: usize| {
+        borders.map_or_else(|| "-".to_owned(), |b| format!("{} ({})", steps(&b), b.pairs[kind]))
+    };
     println!(
-        "| {name} | {step} | {pop} | {pops_at} | {inside} | {same} | {levels} | {last} | {} | {} | {:.1} |",
-        outcome.bricks_loaded, outcome.live, outcome.seconds
+        "| {name} | {} | {} | {} | {} | {} | {} | {} | {last} | {} | {} | {:.1} |",
+        whole.step,
+        surface.step,
+        surface.pop,
+        surface.pops_at,
+        of(|b| b.inside, 0),
+        of(|b| b.same_level, 1),
+        of(|b| b.levels, 2),
+        outcome.bricks_loaded,
+        outcome.live,
+        outcome.seconds
     );
 }
 
 fn measure(stage: &Stage, motion: &str, frames: &[FrameState], manners: &[Manner]) -> Result<(), String> {
+    let surfaces = surfaces(stage, frames);
+    let raster = &stage.display.projectors[PROJECTOR as usize].raster;
+    let pixel_m = stage.display.width_m / f64::from(raster.width);
     let mut truth: Option<ProjectorImage> = None;
     for manner in manners {
-        let frames = manner.of(frames);
-        let outcome = play(stage, &frames);
-        let found = continuity(&outcome.images);
-        let borders = worst_borders(stage, &frames, &outcome.images);
+        let outcome = play(stage, &manner.of(frames));
+        let whole = continuity(&outcome.images, |_, _| true);
+        let found = continuity(&outcome.images, |first, pixel| stays(&surfaces, first, pixel, pixel_m));
+        let borders = worst_borders(&surfaces, &outcome.images, pixel_m);
         let name = format!("{motion}, {}", manner.name);
         let last = outcome.images.last().ok_or("a sequence has at least one frame")?;
         let truth = truth.get_or_insert_with(|| last.clone());
-        row(&name, found, borders, Spread::of(steps(last, truth)), &outcome);
+        row(&name, whole, found, borders, Spread::of(steps(last, truth)), &outcome);
         if let Some(folder) = &stage.out {
             write_pictures(folder, &name, &outcome.images, found.pops_at)?;
         }
@@ -202,7 +237,7 @@ fn measure(stage: &Stage, motion: &str, frames: &[FrameState], manners: &[Manner
 
 /// Shells of one colour: what changes in a picture is where they are and how they end, not what they wear.
 fn optics(edge: u32) -> Optics {
-    let most = 0.1 * 4096.0 / f64::from(edge);
+    let most = 0.5 * 4096.0 / f64::from(edge);
     scenes::optics(
         (0.0, 1.0),
         &vec![(0.03, 0.0), (0.1, most), (1.0, most)],
@@ -231,13 +266,13 @@ fn main() -> Result<(), String> {
     let mut manners = vec![complete];
     manners.extend([blends, jumps].into_iter().filter(|manner| blended.is_none_or(|b| b == manner.blended)));
     println!(
-        "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels; 99.9 % / largest, units of 1/255.\n",
+        "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
         raster.0, raster.1
     );
     println!(
-        "| sequence | step in time | pop in time | at frame | excess inside leaves | across leaves of a level | across levels | last frame against complete | bricks loaded | live frames | seconds |"
+        "| sequence | step of any pixel | step on surfaces | pop on surfaces | at frame | excess inside leaves (pairs) | across leaves of a level | across levels | last frame against complete | bricks loaded | live frames | seconds |"
     );
-    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     measure(&stage, "moving", &moving, &manners)?;
     measure(&stage, "still", &standing_still(&moving), &manners)
 }

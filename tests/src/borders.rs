@@ -21,7 +21,7 @@ use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
 /// Points of neighbouring pixels farther apart than this many pixels do not lie on one piece of surface.
-const FARTHEST_PX: f64 = 4.0;
+const FARTHEST_PX: f64 = 2.5;
 /// Share of the light that is left at the point that a pixel shows.
 const SHOWN_AT: f64 = 0.5;
 
@@ -108,6 +108,12 @@ fn leaf_at(rule: &LodRule, shape: &OctreeShape, position: DVec3) -> NodeKey {
     };
     let found = (0..shape.finest_depth()).map(node).find(|&key| rule.is_fine_enough(shape, key));
     found.unwrap_or_else(|| node(shape.finest_depth()))
+}
+
+/// Whether points shown one after the other, in a row of pixels or by one pixel over time, lie on one piece of surface.
+pub fn is_one_surface(shown: &[Shown], pixel_m: f64) -> bool {
+    let apart = |pair: &[Shown]| pair[0].point_in_display.distance(pair[1].point_in_display);
+    shown.windows(2).all(|pair| apart(pair) < FARTHEST_PX * pixel_m)
 }
 
 /// Measures a picture, along rows and along columns.

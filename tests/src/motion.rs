@@ -70,29 +70,32 @@ pub struct Spread {
     pub max: f64,
     /// What 99.9 % stay within.
     pub p999: f64,
+    /// Root of the mean square.
+    pub rms: f64,
 }
 
 impl Spread {
     /// Of some numbers; 0 of none.
     pub fn of(mut numbers: Vec<f64>) -> Self {
         if numbers.is_empty() {
-            return Self { max: 0.0, p999: 0.0 };
+            return Self { max: 0.0, p999: 0.0, rms: 0.0 };
         }
         let rank = ((numbers.len() as f64 * 0.999).ceil() as usize).clamp(1, numbers.len()) - 1;
         let max = numbers.iter().copied().fold(0.0, f64::max);
-        Self { max, p999: *numbers.select_nth_unstable_by(rank, f64::total_cmp).1 }
+        let rms = (numbers.iter().map(|n| n * n).sum::<f64>() / numbers.len() as f64).sqrt();
+        Self { max, rms, p999: *numbers.select_nth_unstable_by(rank, f64::total_cmp).1 }
     }
 
     /// The larger of each.
     pub fn max(self, other: Self) -> Self {
-        Self { max: self.max.max(other.max), p999: self.p999.max(other.p999) }
+        Self { max: self.max.max(other.max), p999: self.p999.max(other.p999), rms: self.rms.max(other.rms) }
     }
 }
 
 impl std::fmt::Display for Spread {
-    /// In units of 1/255: 99.9 % and the largest.
+    /// In units of 1/255: root of the mean square, 99.9 % and the largest.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:.2} / {:.2}", 255.0 * self.p999, 255.0 * self.max)
+        write!(f, "{:.2} / {:.2} / {:.2}", 255.0 * self.rms, 255.0 * self.p999, 255.0 * self.max)
     }
 }
 
@@ -125,19 +128,24 @@ pub struct Continuity {
     pub pops_at: usize,
 }
 
-/// Measures a sequence.
-pub fn continuity(images: &[ProjectorImage]) -> Continuity {
+/// Measures a sequence, four pictures at a time. `counts(first, pixel)` tells whether a pixel of the pictures `first` to
+/// `first + 3` is looked at: where a silhouette passes, a pixel jumps whatever the detail does.
+pub fn continuity(images: &[ProjectorImage], counts: impl Fn(usize, usize) -> bool) -> Continuity {
     let none = Spread::of(Vec::new());
-    let step = images.windows(2).map(|w| Spread::of(steps(&w[0], &w[1]))).fold(none, Spread::max);
-    let (mut pop, mut pops_at) = (none, 0);
-    for (number, w) in (2..).zip(images.windows(4)) {
-        let found = Spread::of(pops([&w[0], &w[1], &w[2], &w[3]]));
-        if found.max > pop.max {
-            pops_at = number;
+    let mut found = Continuity { step: none, pop: none, pops_at: 0 };
+    for (first, w) in images.windows(4).enumerate() {
+        let kept = |numbers: Vec<f64>| {
+            let of = numbers.into_iter().enumerate().filter(|&(pixel, _)| counts(first, pixel));
+            Spread::of(of.map(|(_, number)| number).collect())
+        };
+        found.step = found.step.max(kept(steps(&w[1], &w[2])));
+        let pop = kept(pops([&w[0], &w[1], &w[2], &w[3]]));
+        if pop.max > found.pop.max {
+            found.pops_at = first + 2;
         }
-        pop = pop.max(found);
+        found.pop = found.pop.max(pop);
     }
-    Continuity { step, pop, pops_at }
+    found
 }
 
 /// A picture of what pixels differ by, `gain` times brighter.
@@ -171,7 +179,7 @@ mod tests {
     #[test]
     fn a_steady_motion_steps_and_does_not_pop() {
         let images: Vec<_> = (0..8).map(|i| image(0.125 * i as f32)).collect();
-        let found = continuity(&images);
+        let found = continuity(&images, |_, _| true);
         assert_eq!((found.step.max, found.pop.max), (0.125, 0.0));
     }
 
@@ -179,7 +187,7 @@ mod tests {
     fn a_jump_pops_by_its_height_whatever_moves() {
         let images: Vec<_> =
             (0..8).map(|i| image(0.0625 * i as f32 + if i >= 5 { 0.25 } else { 0.0 })).collect();
-        let found = continuity(&images);
+        let found = continuity(&images, |_, _| true);
         assert_eq!((found.step.max, found.pop.max, found.pops_at), (0.3125, 0.25, 5));
     }
 }
