@@ -1,17 +1,21 @@
 //! Shared parts of the tests and benchmarks that span crates: scenes, truth, comparison.
 
 pub mod blending_scenes;
+pub mod borders;
 pub mod closure_volume;
 pub mod compare;
 pub mod data;
 pub mod draw;
 pub mod faulty_source;
 pub mod head;
+pub mod ideal_cut;
+pub mod motion;
 pub mod presented;
 #[cfg(unix)]
 pub mod program;
 pub mod random;
 pub mod random_scene;
+pub mod remembered;
 pub mod scenes;
 pub mod techniques;
 pub mod twin_scene;

@@ -15,6 +15,7 @@ mod room;
 mod slots;
 mod touched;
 mod touching;
+mod trace;
 mod vertices;
 mod weights;
 
@@ -30,5 +31,8 @@ pub use retry::Retry;
 pub use slots::SlotPool;
 pub use touched::{Touched, Wanted};
 pub use touching::neighbours;
+pub use trace::{
+    Demand, Demanded, Seen, TraceError, TraceHeader, TraceReader, TraceWriter, TracedFrame, feedback_on,
+};
 pub use vertices::{Around, visit_vertices};
 pub use weights::corner_weights;

@@ -1,0 +1,278 @@
+//! How smoothly pictures follow each other while detail comes and goes: tables in Markdown, and difference pictures.
+//!
+//! ```text
+//! cargo run --release -p lightloom-tests --example continuity -- [-o DIR] [--fade S] [--blended true|false]
+//!     [--frames N] [--raster WxH] [--edge N] [--upload-mib N] [--gpu]
+//! ```
+//!
+//! One projector of holo72 with a reduced raster, and nested shells that double in size in one second. Complete frames tell
+//! what motion alone changes, and what pops when the rule of detail changes its mind; live ones what loading adds, from an
+//! empty cache: with blending (`--fade`, half a second without it) and without it. `--blended` picks one of the two. With
+//! the object still, all that changes is detail that comes.
+
+use backend::output::write_png;
+use backend::protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
+use backend::store::BrickSource;
+use backend::volume::procedural::{ProceduralVolume, field_named};
+use display_config::Display;
+use glam::{DQuat, DVec3, UVec3};
+use lightloom_tests::borders::{BorderSteps, Shown, border_steps, is_one_surface, shown};
+use lightloom_tests::draw::{self, With};
+use lightloom_tests::motion::{
+    Approach, Continuity, Spread, borrowed, continuity, difference, draw_sequence, standing_still, steps,
+};
+use lightloom_tests::remembered::Remembered;
+use lightloom_tests::scenes::{self, with_raster};
+use shaders::optics::Optics;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+const USAGE: &str = "give [-o DIR] [--fade S] [--blended true|false] [--frames N] [--raster WxH] [--edge N] \
+                     [--upload-mib N] [--gpu]";
+/// Near the middle.
+const PROJECTOR: u32 = 36;
+/// Every so many frames, borders are looked for.
+const BORDERS_EVERY: usize = 10;
+/// Difference pictures are so much brighter.
+const GAIN: f32 = 8.0;
+
+struct Arguments {
+    out: Option<PathBuf>,
+    fade_s: f64,
+    blended: Option<bool>,
+    frames: u32,
+    raster: (u32, u32),
+    edge: u32,
+    upload_mib: u64,
+    device: DeviceChoice,
+}
+
+fn arguments() -> Result<Arguments, String> {
+    let mut found = Arguments {
+        out: None,
+        fade_s: 0.5,
+        blended: None,
+        frames: 61,
+        raster: (320, 240),
+        edge: 4096,
+        upload_mib: 8,
+        device: DeviceChoice::Cpu,
+    };
+    let mut arguments = std::env::args().skip(1);
+    while let Some(flag) = arguments.next() {
+        if flag == "--gpu" {
+            found.device = DeviceChoice::Gpu;
+            continue;
+        }
+        let value = arguments.next().ok_or_else(|| format!("`{flag}` needs a value; {USAGE}"))?;
+        let wrong = || format!("`{flag} {value}` makes no sense; {USAGE}");
+        match flag.as_str() {
+            "-o" => found.out = Some(PathBuf::from(&value)),
+            "--fade" => found.fade_s = value.parse().map_err(|_| wrong())?,
+            "--blended" => found.blended = Some(value.parse().map_err(|_| wrong())?),
+            "--frames" => found.frames = value.parse().map_err(|_| wrong())?,
+            "--edge" => found.edge = value.parse().map_err(|_| wrong())?,
+            "--upload-mib" => found.upload_mib = value.parse().map_err(|_| wrong())?,
+            "--raster" => {
+                let (width, height) = value.split_once('x').ok_or_else(wrong)?;
+                found.raster = (width.parse().map_err(|_| wrong())?, height.parse().map_err(|_| wrong())?);
+            }
+            _ => return Err(format!("`{flag}` is unknown; {USAGE}")),
+        }
+    }
+    Ok(found)
+}
+
+/// What all sequences show.
+struct Stage {
+    display: Display,
+    source: Arc<dyn BrickSource>,
+    device: DeviceChoice,
+    out: Option<PathBuf>,
+}
+
+/// What each pixel of a frame shows.
+type Surface = Arc<[Option<Shown>]>;
+
+/// How a sequence gets its detail.
+#[derive(Clone, Copy)]
+struct Manner {
+    name: &'static str,
+    pace: Pace,
+    blended: bool,
+}
+
+impl Manner {
+    fn of(&self, frames: &[FrameState]) -> Vec<FrameState> {
+        let mut frames = frames.to_vec();
+        for frame in &mut frames {
+            (frame.pace, frame.quality.blended) = (self.pace, self.blended);
+        }
+        frames
+    }
+}
+
+/// What came of a sequence.
+struct Outcome {
+    images: Vec<ProjectorImage>,
+    bricks_loaded: u64,
+    /// Frames that were drawn live, as the device's account tells.
+    live: usize,
+    seconds: f64,
+}
+
+/// Draws a sequence from an empty cache.
+fn play(stage: &Stage, frames: &[FrameState]) -> Outcome {
+    let started = Instant::now();
+    let with = With { cache_bytes: 2 << 30, ..With::device(stage.device) };
+    let (mut renderer, _) = draw::renderer(&stage.display, &stage.source, &[PROJECTOR], with);
+    let mut outcome = Outcome { images: Vec::new(), bricks_loaded: 0, live: 0, seconds: 0.0 };
+    draw_sequence(&mut renderer, frames, |_, report, images| {
+        outcome.images.extend(images);
+        outcome.bricks_loaded += report.bricks_loaded;
+        outcome.live += usize::from(report.upkeep.is_some());
+    });
+    outcome.seconds = started.elapsed().as_secs_f64();
+    outcome
+}
+
+/// What the pixels of each frame show.
+fn surfaces(stage: &Stage, frames: &[FrameState]) -> Vec<Surface> {
+    let dims = stage.source.shape().dims().as_dvec3();
+    let field = field_named("shells", dims / dims.max_element()).expect("the name is one of ours");
+    let mut found: Vec<Surface> = Vec::new();
+    for (number, frame) in frames.iter().enumerate() {
+        let same = number > 0 && frames[number - 1].display_from_volume == frame.display_from_volume;
+        let before = found.last().filter(|_| same).cloned();
+        let surface = || shown(&stage.display, PROJECTOR, frame, &*field, &stage.source.shape()).into();
+        found.push(before.unwrap_or_else(surface));
+    }
+    found
+}
+
+/// The worst of every tenth picture.
+fn worst_borders(surfaces: &[Surface], images: &[ProjectorImage], pixel_m: f64) -> Option<BorderSteps> {
+    let pairs = surfaces.iter().zip(images).step_by(BORDERS_EVERY);
+    let measured = pairs.map(|(surface, image)| border_steps(image, surface, pixel_m));
+    measured.reduce(|a, b| BorderSteps {
+        inside: a.inside.max(b.inside),
+        same_level: a.same_level.max(b.same_level),
+        levels: a.levels.max(b.levels),
+        pairs: std::array::from_fn(|kind| a.pairs[kind] + b.pairs[kind]),
+    })
+}
+
+/// Whether a pixel stays on one piece of surface over four frames.
+fn stays(surfaces: &[Surface], first: usize, pixel: usize, pixel_m: f64) -> bool {
+    let shown: Option<Vec<Shown>> = surfaces[first..first + 4].iter().map(|surface| surface[pixel]).collect();
+    shown.is_some_and(|shown| is_one_surface(&shown, pixel_m))
+}
+
+/// Writes the last picture, and what changed in the one with the largest pop.
+fn write_pictures(folder: &Path, name: &str, images: &[ProjectorImage], at: usize) -> Result<(), String> {
+    let file =
+        |what: &str| folder.join(format!("{}-{what}.png", name.replace([' ', ','], "-").replace("--", "-")));
+    let text = |error: backend::output::OutputError| error.to_string();
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    if let Some(last) = images.last() {
+        write_png(&file("last"), borrowed(last)).map_err(text)?;
+    }
+    if at > 0 {
+        let change = difference(&images[at - 1], &images[at], GAIN);
+        write_png(&file("pop"), change.view().map_err(text)?).map_err(text)?;
+    }
+    Ok(())
+}
+
+fn row(
+    name: &str,
+    whole: Continuity,
+    surface: Continuity,
+    borders: Option<BorderSteps>,
+    last: Spread,
+    outcome: &Outcome,
+) {
+    let of = |steps: fn(&BorderSteps) -> Spread, kind: usize| {
+        borders.map_or_else(|| "-".to_owned(), |b| format!("{} ({})", steps(&b), b.pairs[kind]))
+    };
+    println!(
+        "| {name} | {} | {} | {} | {} | {} | {} | {} | {last} | {} | {} | {:.1} |",
+        whole.step,
+        surface.step,
+        surface.pop,
+        surface.pops_at,
+        of(|b| b.inside, 0),
+        of(|b| b.same_level, 1),
+        of(|b| b.levels, 2),
+        outcome.bricks_loaded,
+        outcome.live,
+        outcome.seconds
+    );
+}
+
+fn measure(stage: &Stage, motion: &str, frames: &[FrameState], manners: &[Manner]) -> Result<(), String> {
+    let surfaces = surfaces(stage, frames);
+    let raster = &stage.display.projectors[PROJECTOR as usize].raster;
+    let pixel_m = stage.display.width_m / f64::from(raster.width);
+    let mut truth: Option<ProjectorImage> = None;
+    for manner in manners {
+        let outcome = play(stage, &manner.of(frames));
+        let whole = continuity(&outcome.images, |_, _| true);
+        let found = continuity(&outcome.images, |first, pixel| stays(&surfaces, first, pixel, pixel_m));
+        let borders = worst_borders(&surfaces, &outcome.images, pixel_m);
+        let name = format!("{motion}, {}", manner.name);
+        let last = outcome.images.last().ok_or("a sequence has at least one frame")?;
+        let truth = truth.get_or_insert_with(|| last.clone());
+        row(&name, whole, found, borders, Spread::of(steps(last, truth)), &outcome);
+        if let Some(folder) = &stage.out {
+            write_pictures(folder, &name, &outcome.images, found.pops_at)?;
+        }
+        if matches!(manner.pace, Pace::Live { .. }) && outcome.live == 0 {
+            eprintln!("{name}: this renderer drew every frame complete");
+        }
+    }
+    Ok(())
+}
+
+/// Shells of one colour: what changes in a picture is where they are and how they end, not what they wear.
+fn optics(edge: u32) -> Optics {
+    let most = 0.5 * 4096.0 / f64::from(edge);
+    scenes::optics(
+        (0.0, 1.0),
+        &vec![(0.03, 0.0), (0.1, most), (1.0, most)],
+        &vec![(0.0, [0.9, 0.35, 0.1]), (0.4, [0.1, 0.6, 0.9]), (1.0, [1.0, 1.0, 0.9])],
+    )
+}
+
+fn main() -> Result<(), String> {
+    let Arguments { out, fade_s, blended, frames, raster, edge, upload_mib, device } = arguments()?;
+    let display = Display::load("holo72").map_err(|error| error.to_string())?;
+    let display = with_raster(&display, raster.0, raster.1);
+    let volume = ProceduralVolume::new("shells", UVec3::splat(edge), 1e-3).map_err(|e| e.to_string())?;
+    let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(Arc::new(volume)));
+    let approach = Approach {
+        from_m: 0.5 * display.height_m,
+        to_m: display.height_m,
+        rotation: DQuat::from_axis_angle(DVec3::new(0.6, 0.8, 0.0), 0.5),
+        frames,
+    };
+    let stage = Stage { display, source, device, out };
+    let moving = approach.frames(&stage.display, &*stage.source, &optics(edge));
+    let live = |fade_s| Pace::Live { upload_bytes: upload_mib << 20, fade_s };
+    let complete = Manner { name: "complete", pace: Pace::Complete, blended: true };
+    let blends = Manner { name: "live, blended", pace: live(fade_s), blended: true };
+    let jumps = Manner { name: "live, not blended", pace: live(0.0), blended: false };
+    let mut manners = vec![complete];
+    manners.extend([blends, jumps].into_iter().filter(|manner| blended.is_none_or(|b| b == manner.blended)));
+    println!(
+        "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
+        raster.0, raster.1
+    );
+    println!(
+        "| sequence | step of any pixel | step on surfaces | pop on surfaces | at frame | excess inside leaves (pairs) | across leaves of a level | across levels | last frame against complete | bricks loaded | live frames | seconds |"
+    );
+    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    measure(&stage, "moving", &moving, &manners)?;
+    measure(&stage, "still", &standing_still(&moving), &manners)
+}
