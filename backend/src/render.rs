@@ -5,6 +5,7 @@ mod damage;
 #[cfg(test)]
 mod damage_tests;
 mod frame;
+mod live;
 #[cfg(test)]
 mod mirror_tests;
 mod residency;
@@ -14,10 +15,11 @@ mod test_scene;
 mod views;
 
 use crate::device::{ChosenDevice, Device, DeviceError, open_device};
-use crate::protocol::{DeviceInfo, FrameReport, FrameState, ProjectorImage, Setup};
+use crate::protocol::{DeviceInfo, FrameReport, FrameState, Pace, ProjectorImage, Setup};
 use crate::store::{BrickError, BrickSource};
 use crate::working_set::Loader;
 use display_config::Display;
+use live::Live;
 use residency::Residency;
 use std::sync::Arc;
 
@@ -73,6 +75,7 @@ pub struct Renderer {
     backend: u32,
     device: Device,
     residency: Residency,
+    live: Option<Live>,
 }
 
 impl Renderer {
@@ -94,6 +97,7 @@ impl Renderer {
             backend: setup.backend,
             device,
             residency,
+            live: None,
         };
         Ok((renderer, info))
     }
@@ -106,7 +110,7 @@ impl Renderer {
         self.device.substitute_kernel(wgsl)
     }
 
-    /// Draws one frame, picture by picture.
+    /// Draws one frame, picture by picture: until nothing is missing, or with what there is, as its pace says.
     ///
     /// # Errors
     /// The root's brick or the device fails, or the frame does not fit the display.
@@ -115,7 +119,16 @@ impl Renderer {
         frame: &FrameState,
         sink: &mut dyn FnMut(RenderEvent),
     ) -> Result<FrameReport, RenderError> {
-        frame::draw(self, frame, sink)
+        match frame.pace {
+            Pace::Complete => {
+                self.live = None;
+                frame::draw(self, frame, sink)
+            }
+            Pace::Live { upload_bytes, fade_s } => {
+                let fade_s = if frame.quality.blended { fade_s } else { 0.0 };
+                live::draw(self, frame, live::Limits { upload_bytes, fade_s }, sink)
+            }
+        }
     }
 }
 

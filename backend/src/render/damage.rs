@@ -23,6 +23,11 @@ impl Damage {
         self.known.insert(node, error);
     }
 
+    /// A brick that could not be read has come after all.
+    pub(super) fn forget(&mut self, node: NodeKey) {
+        self.known.remove(&node);
+    }
+
     /// Why a node's brick cannot be read; None where nothing is known against it.
     pub(super) fn of(&self, node: NodeKey) -> Option<&BrickError> {
         self.known.get(&node)

@@ -9,7 +9,7 @@ use crate::reference::{Integrator, Reference};
 use crate::store::{Brick, CellRanges, Codes, NodeKey, NodeSummary, OctreeShape};
 use crate::volume::VolumeFrame;
 use crate::volume::procedural::ProceduralVolume;
-use crate::working_set::{Cut, IndexRules, LodRule, ResidentBrick, build_index, is_shown};
+use crate::working_set::{Cut, IndexRules, LodRule, ResidentBrick, build_index, is_shown, refresh, settle};
 use glam::{DVec3, UVec3};
 use shaders::compose::Needs;
 use shaders::tables::Tables;
@@ -92,13 +92,20 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
     let tables = Tables::new(&frame.optics, &needs);
     let lod = LodRule::new(&display, frame);
-    let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear: false };
+    let rules = IndexRules {
+        shape: &shape,
+        lod: &lod,
+        optics: &frame.optics,
+        is_quadrilinear: false,
+        blank_slot: None,
+    };
     let frame_rules = FrameRules {
         lod,
         optics: &frame.optics,
         tables: &tables,
         can_pass_over: true,
         is_quadrilinear: false,
+        blends: false,
     };
     let mut cut = limited_cut(&*source, &rules, broken);
     let leaves: Vec<u32> = cut.walk().filter(|&p| !rules.is_empty(cut.node(p))).collect();
@@ -113,7 +120,10 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick, &[]));
     }
     device.write_tables(tables.clone());
-    device.write_index(&build_index(&cut, &rules), &cells);
+    let order: Vec<u32> = cut.walk().collect();
+    refresh(&mut cut, &rules, &order);
+    settle(&mut cut);
+    device.write_index(&build_index(&cut, &[], &rules), &cells);
     let views = views(&display, &[0, 1], frame, &shape).unwrap();
     let picture = |view: &views::ProjectorView| {
         let grid = TileGrid::new(48, 36, 1);
@@ -143,7 +153,7 @@ fn largest_error(picture: &[f32], frame: &FrameState, reference: &Reference) -> 
 /// Bricks that the cut of a renderer holds: each has a slot, and no slot is held by nothing.
 #[track_caller]
 fn assert_no_slot_is_lost(renderer: &Renderer) {
-    let cut = &renderer.residency.cut;
+    let cut = &renderer.residency.set.cut;
     let held = cut.walk().filter(|&place| cut.node(place).brick.is_some()).count();
     assert_eq!(renderer.residency.resident(), held as u64);
 }

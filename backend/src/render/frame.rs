@@ -20,7 +20,7 @@ const COARSE_STRIDE: u32 = 16;
 const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;
 
 /// Damaged bricks that a report tells of one by one.
-const MOST_DAMAGES: usize = 16;
+pub(super) const MOST_DAMAGES: usize = 16;
 
 /// A frame being drawn.
 struct Drawing<'a> {
@@ -42,13 +42,7 @@ pub(super) fn draw(
     sink: &mut dyn FnMut(RenderEvent),
 ) -> Result<FrameReport, RenderError> {
     let started = Instant::now();
-    frame.optics.check()?;
-    frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
-    frame.quality.check().map_err(RenderError::Quality)?;
-    let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
-    let needs =
-        Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
-    let tables = Tables::new(&frame.optics, &needs);
+    let Setting { views, needs, tables } = Setting::new(renderer, frame)?;
     let mut drawing = Drawing::new(renderer, frame, needs, &tables);
     drawing.start(frame)?;
     let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
@@ -67,6 +61,41 @@ pub(super) fn draw(
     Ok(drawing.report(frame, &working_sets, milliseconds(started)))
 }
 
+/// What a frame is drawn with, checked.
+pub(super) struct Setting {
+    pub(super) views: Vec<ProjectorView>,
+    /// Blending apart, which the working set tells.
+    pub(super) needs: Needs,
+    pub(super) tables: Tables,
+}
+
+impl Setting {
+    pub(super) fn new(renderer: &Renderer, frame: &FrameState) -> Result<Self, RenderError> {
+        frame.optics.check()?;
+        frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
+        frame.quality.check().map_err(RenderError::Quality)?;
+        let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
+        let needs =
+            Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
+        Ok(Self { views, needs, tables: Tables::new(&frame.optics, &needs) })
+    }
+}
+
+impl<'a> FrameRules<'a> {
+    /// What a frame asks of the cut; nodes blend where borders between levels may be seen.
+    pub(super) fn new(renderer: &Renderer, frame: &'a FrameState, tables: &'a Tables) -> Self {
+        let lod = LodRule::new(&renderer.display, frame);
+        Self {
+            lod,
+            optics: &frame.optics,
+            tables,
+            can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
+            is_quadrilinear: frame.quality.quadrilinear,
+            blends: frame.quality.blended && !lod.is_uniform(&renderer.residency.shape()),
+        }
+    }
+}
+
 /// What the views sampled: together, and each for itself.
 #[derive(Debug, Default)]
 struct WorkingSets {
@@ -83,19 +112,13 @@ impl WorkingSets {
 
 impl<'a> Drawing<'a> {
     fn new(renderer: &'a mut Renderer, frame: &'a FrameState, needs: Needs, tables: &'a Tables) -> Self {
-        let lod = LodRule::new(&renderer.display, frame);
         // Casts are numbered across frames, so that detail of older frames is the first to go.
-        let cast = renderer.residency.cut.node(0).last_used;
+        let cast = renderer.residency.set.cut.node(0).last_used;
+        let rules = FrameRules::new(renderer, frame, tables);
         Self {
+            needs: Needs { blends: rules.blends, ..needs },
             renderer,
-            rules: FrameRules {
-                lod,
-                optics: &frame.optics,
-                tables,
-                can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
-                is_quadrilinear: frame.quality.quadrilinear,
-            },
-            needs,
+            rules,
             stages: Stages::default(),
             cast,
             rays: 0,
@@ -141,7 +164,7 @@ impl<'a> Drawing<'a> {
                 let tiles: Vec<u32> = (0..grid.count()).collect();
                 let outcome = self.cast(view, grid, &tiles)?;
                 let Renderer { residency, device, .. } = &mut *self.renderer;
-                let wanted = Touched::default().take_in(&mut residency.cut, &outcome.feedback, self.cast);
+                let wanted = Touched::default().take_in(&mut residency.set.cut, &outcome.feedback, self.cast);
                 let refined = residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)?;
                 changed |= refined.has_changed;
                 alive();
@@ -162,7 +185,7 @@ impl<'a> Drawing<'a> {
         while !tiles.is_empty() {
             let outcome = self.cast(view, grid, &tiles)?;
             let Renderer { residency, device, .. } = &mut *self.renderer;
-            let wanted = touched.take_in(&mut residency.cut, &outcome.feedback, self.cast);
+            let wanted = touched.take_in(&mut residency.set.cut, &outcome.feedback, self.cast);
             if wanted.is_empty() {
                 break;
             }
@@ -173,7 +196,7 @@ impl<'a> Drawing<'a> {
             }
             tiles = outcome.missing_tiles;
         }
-        Ok(touched.leaves(&self.renderer.residency.cut))
+        Ok(touched.leaves(&self.renderer.residency.set.cut))
     }
 
     fn picture(&mut self, view: &ProjectorView) -> Result<ProjectorImage, RenderError> {
@@ -218,12 +241,29 @@ fn shortfall(without_room: usize, residency: &Residency) -> String {
             "the brick cache is full: {without_room} nodes are shown coarser than the display resolves; make the cache larger"
         )
     });
-    let first = residency.damage.sentences(1).pop();
-    let damaged = first.map(|first| match residency.damage.missed() {
+    full.into_iter().chain(damages(residency)).collect::<Vec<_>>().join("; ")
+}
+
+/// The same of a live frame, by what rays of the frame before met.
+pub(super) fn live_shortfall(short: usize, in_flight: u64, fading: u64, residency: &Residency) -> String {
+    let is_root_there = residency.set.cut.node(0).brick.is_some() || !residency.set.cut.node(0).is_visible;
+    let start = (!is_root_there).then(|| "the volume's coarsest brick has not come yet".to_owned());
+    let coarse = (short > 0).then(|| {
+        format!(
+            "{short} nodes are shown coarser than the display resolves, {in_flight} bricks are on their way"
+        )
+    });
+    let fades =
+        (fading > 0 && short == 0).then(|| format!("the detail of {fading} nodes is coming or going"));
+    start.into_iter().chain(coarse).chain(fades).chain(damages(residency)).collect::<Vec<_>>().join("; ")
+}
+
+fn damages(residency: &Residency) -> Option<String> {
+    let first = residency.damage.sentences(1).pop()?;
+    Some(match residency.damage.missed() {
         1 => format!("a brick cannot be read, and what is coarser is shown in its place: {first}"),
         bricks => format!(
             "{bricks} bricks cannot be read, and what is coarser is shown in their place; the first of them: {first}"
         ),
-    });
-    full.into_iter().chain(damaged).collect::<Vec<_>>().join("; ")
+    })
 }

@@ -8,7 +8,8 @@ use crate::device::Device;
 use crate::protocol::{FrameState, Stages};
 use crate::store::{BrickError, BrickSource, CellRanges, NodeKey, OctreeShape};
 use crate::working_set::{
-    Cut, IndexRules, LoadedBrick, Loader, ResidentBrick, SlotPool, Wanted, build_index, is_shown,
+    LoadedBrick, Loader, ResidentBrick, Wanted, WorkingSet, build_index, corner_weights, is_shown, refresh,
+    settle,
 };
 use shaders::layout::CELL_WORDS;
 use std::collections::{HashMap, HashSet};
@@ -17,15 +18,18 @@ use std::time::Instant;
 
 /// The cut, its slots and its loader.
 pub(super) struct Residency {
-    pub(super) cut: Cut,
-    source: Arc<dyn BrickSource>,
-    shape: OctreeShape,
-    slots: SlotPool,
-    loader: Arc<Loader>,
+    pub(super) set: WorkingSet,
+    pub(super) source: Arc<dyn BrickSource>,
+    pub(super) shape: OctreeShape,
+    pub(super) loader: Arc<Loader>,
+    /// The slot that holds no brick.
+    blank_slot: u32,
     /// Of each slot: the ranges of its cells.
     ranges: Vec<Option<CellRanges>>,
     /// Of each slot: the bits of its visible cells in this frame.
     cells: Vec<u32>,
+    /// Of each slot: whether its cells are those of a node that blends with its parent.
+    has_blended_cells: Vec<bool>,
     /// Whether the cut is another one than the device's index tells.
     is_index_stale: bool,
     pub(super) damage: Damage,
@@ -48,13 +52,15 @@ impl Residency {
     pub(super) fn new(source: Arc<dyn BrickSource>, loader: Loader, slots: u32) -> Self {
         let shape = source.shape();
         Self {
-            cut: Cut::new(source.summary(NodeKey::ROOT)),
+            set: WorkingSet::new(source.summary(NodeKey::ROOT), slots - 1),
             source,
             shape,
-            slots: SlotPool::new(slots),
             loader: Arc::new(loader),
+            blank_slot: slots - 1,
             ranges: vec![None; slots as usize],
-            cells: vec![0; slots as usize * CELL_WORDS],
+            // Everything shows in the blank slot, which is never written to.
+            cells: vec![u32::MAX; slots as usize * CELL_WORDS],
+            has_blended_cells: vec![false; slots as usize],
             is_index_stale: true,
             damage: Damage::default(),
             wanted: HashSet::new(),
@@ -69,16 +75,7 @@ impl Residency {
 
     /// Bricks in the cache.
     pub(super) fn resident(&self) -> u64 {
-        self.slots.used()
-    }
-
-    fn rules<'a>(&'a self, rules: &'a FrameRules) -> IndexRules<'a> {
-        IndexRules {
-            shape: &self.shape,
-            lod: &rules.lod,
-            optics: rules.optics,
-            is_quadrilinear: rules.is_quadrilinear,
-        }
+        self.set.slots.used()
     }
 
     /// Starts a frame: counters at zero, and a brick for every node of the cut that this frame's transfer functions
@@ -96,13 +93,14 @@ impl Residency {
         self.wanted.clear();
         self.damage.start_frame();
         (self.bricks_loaded, self.bytes_loaded) = (0, 0);
+        self.forget_hidden(rules);
         let known: Vec<u32> =
             self.newly_visible(rules).into_iter().filter(|&p| self.known_damage(p).is_some()).collect();
         self.give_up(&known)?;
         let mut places = self.newly_visible(rules);
         // Where the cache does not hold them, give up the least recently used detail; the root alone always fits.
-        while places.len() > self.slots.free() {
-            let Some(&oldest) = self.cut.collapsible(u64::MAX).first() else { break };
+        while places.len() > self.set.slots.free() {
+            let Some(&oldest) = self.set.cut.collapsible(u64::MAX).first() else { break };
             self.collapse(oldest);
             places = self.newly_visible(rules);
         }
@@ -131,7 +129,7 @@ impl Residency {
         let mut families = Vec::new();
         let mut refined = Refined::default();
         for want in wanted {
-            let key = self.cut.node(want.place).key;
+            let key = self.set.cut.node(want.place).key;
             let visible: Vec<NodeKey> =
                 (0..8).map(|o| key.child(o)).filter(|&k| self.is_visible(k, rules)).collect();
             self.wanted.extend(&visible);
@@ -156,33 +154,57 @@ impl Residency {
         Ok(refined)
     }
 
-    /// Nodes of the cut that the frame shows and that have no brick.
-    fn newly_visible(&self, rules: &FrameRules) -> Vec<u32> {
-        let rules = self.rules(rules);
-        let lacks_brick = |&p: &u32| self.cut.node(p).brick.is_none() && !rules.is_empty(self.cut.node(p));
-        self.cut.walk().filter(lacks_brick).collect()
-    }
-
-    /// Tells the visible cells of all resident bricks anew: the transfer functions may have changed.
-    fn refresh_cells(&mut self, rules: &FrameRules) {
-        for place in self.cut.walk().collect::<Vec<_>>() {
-            let Some(brick) = self.cut.node(place).brick else { continue };
-            let Some(ranges) = &self.ranges[brick.slot as usize] else { continue };
-            let start = brick.slot as usize * CELL_WORDS;
-            let cells = rules.visible_cells(ranges, brick, &self.ancestors(place, rules));
-            self.cells[start..start + CELL_WORDS].copy_from_slice(&cells);
+    /// Gives up what this frame does not ask for and would have to load for it to be asked for.
+    fn forget_hidden(&mut self, rules: &FrameRules) {
+        let order: Vec<u32> = self.set.cut.walk().collect();
+        let shape = self.shape;
+        let index_rules = rules.for_index(&shape, self.blank_slot);
+        refresh(&mut self.set.cut, &index_rules, &order);
+        for &place in order.iter().rev() {
+            let node = self.set.cut.node(place);
+            let is_asked_for = node.is_visible && node.deficit > 0.0;
+            let Some(first) = node.first_child.filter(|_| !is_asked_for) else { continue };
+            if (first..first + 8).any(|child| self.set.cut.lacks(child)) {
+                self.collapse(place);
+            }
         }
     }
 
+    /// Nodes of the cut that the frame shows and that have no brick.
+    fn newly_visible(&self, rules: &FrameRules) -> Vec<u32> {
+        let rules = rules.for_index(&self.shape, self.blank_slot);
+        let lacks_brick =
+            |&p: &u32| self.set.cut.node(p).brick.is_none() && !rules.is_empty(self.set.cut.node(p));
+        self.set.cut.walk().filter(lacks_brick).collect()
+    }
+
+    /// Tells the visible cells of all resident bricks anew: the transfer functions may have changed.
+    pub(super) fn refresh_cells(&mut self, rules: &FrameRules) {
+        for place in self.set.cut.walk().collect::<Vec<_>>() {
+            self.refresh_cells_of(place, rules, false);
+        }
+    }
+
+    /// Tells the visible cells of one brick, which blends with its parent or does not.
+    fn refresh_cells_of(&mut self, place: u32, rules: &FrameRules, blends: bool) {
+        let Some(brick) = self.set.cut.node(place).brick else { return };
+        let slot = brick.slot as usize;
+        let Some(ranges) = &self.ranges[slot] else { return };
+        let cells = rules.visible_cells(ranges, brick, &self.ancestors(place, rules, blends));
+        self.cells[slot * CELL_WORDS..(slot + 1) * CELL_WORDS].copy_from_slice(&cells);
+        self.has_blended_cells[slot] = blends;
+    }
+
     /// The bricks above a node that its samples are blended with.
-    fn ancestors(&self, place: u32, rules: &FrameRules) -> Vec<Ancestor<'_>> {
+    fn ancestors(&self, place: u32, rules: &FrameRules, blends: bool) -> Vec<Ancestor<'_>> {
+        let most = if rules.is_quadrilinear { MOST_ANCESTORS } else { usize::from(blends) };
         let mut found = Vec::new();
-        let mut at = self.cut.node(place).parent.filter(|_| rules.is_quadrilinear);
-        while let Some(above) = at.filter(|_| found.len() < MOST_ANCESTORS) {
-            let node = self.cut.node(above);
+        let mut at = self.set.cut.node(place).parent;
+        while let Some(above) = at.filter(|_| found.len() < most) {
+            let node = self.set.cut.node(above);
             let Some(brick) = node.brick else { break };
             let Some(ranges) = &self.ranges[brick.slot as usize] else { break };
-            found.push(Ancestor::new(self.cut.node(place).key, node.key, brick, ranges));
+            found.push(Ancestor::new(self.set.cut.node(place).key, node.key, brick, ranges));
             at = node.parent;
         }
         found
@@ -193,13 +215,13 @@ impl Residency {
     }
 
     fn known_damage(&self, place: u32) -> Option<&BrickError> {
-        self.damage.of(self.cut.node(place).key)
+        self.damage.of(self.set.cut.node(place).key)
     }
 
     /// Frees slots until `needed` are free; tells whether that worked.
     fn make_room(&mut self, needed: usize, protect: u64) -> bool {
-        while self.slots.free() < needed {
-            let Some(&oldest) = self.cut.collapsible(protect).first() else { return false };
+        while self.set.slots.free() < needed {
+            let Some(&oldest) = self.set.cut.collapsible(protect).first() else { return false };
             self.collapse(oldest);
         }
         true
@@ -208,13 +230,13 @@ impl Residency {
     fn split(&mut self, place: u32) -> u32 {
         self.is_index_stale = true;
         let (shape, source) = (self.shape, &self.source);
-        self.cut.split(place, |k| shape.contains(k).then(|| source.summary(k)))
+        self.set.cut.split(place, |k| shape.contains(k).then(|| source.summary(k)))
     }
 
     fn collapse(&mut self, place: u32) {
         self.is_index_stale = true;
-        for slot in self.cut.collapse_all(place) {
-            self.slots.give(slot);
+        for slot in self.set.cut.collapse_all(place) {
+            self.set.slots.give(slot);
         }
     }
 
@@ -226,10 +248,10 @@ impl Residency {
     fn give_up(&mut self, unreadable: &[u32]) -> Result<(), BrickError> {
         let mut lost_root = Ok(());
         for &place in unreadable {
-            let node = self.cut.node(place);
+            let node = self.set.cut.node(place);
             match (node.parent, self.damage.of(node.key)) {
                 // An unreadable sibling or uncle may have taken the family away already.
-                (Some(parent), _) if self.cut.node(parent).first_child.is_none() => {}
+                (Some(parent), _) if self.set.cut.node(parent).first_child.is_none() => {}
                 (Some(parent), _) => self.collapse(parent),
                 (None, error) => lost_root = error.cloned().map_or(Ok(()), Err),
             }
@@ -254,7 +276,7 @@ impl Residency {
         }
         let started = Instant::now();
         let mut upload_ms = 0.0;
-        let keys: Vec<NodeKey> = wanted.iter().map(|&place| self.cut.node(place).key).collect();
+        let keys: Vec<NodeKey> = wanted.iter().map(|&place| self.set.cut.node(place).key).collect();
         let places: HashMap<NodeKey, u32> = keys.iter().copied().zip(wanted.iter().copied()).collect();
         let loader = Arc::clone(&self.loader);
         loader.fetch(&keys, |(key, fetched)| match fetched {
@@ -274,21 +296,52 @@ impl Residency {
 
     /// Puts a brick into a free slot.
     fn put(&mut self, place: u32, loaded: LoadedBrick, rules: &FrameRules, device: &mut Device) {
-        let slot = self.slots.take().expect("room was made before loading");
-        device.write_brick(slot, &loaded.samples);
+        let slot = self.set.slots.take().expect("room was made before loading");
         let brick = ResidentBrick { slot, low: loaded.low, span: loaded.span };
-        self.cut.set_brick(place, brick);
-        let start = slot as usize * CELL_WORDS;
-        let cells = rules.visible_cells(&loaded.cells, brick, &self.ancestors(place, rules));
-        self.cells[start..start + CELL_WORDS].copy_from_slice(&cells);
+        self.set.cut.set_brick(place, brick);
+        self.fill(place, slot, loaded, rules, device);
+    }
+
+    /// Puts a brick into the slot that its node has been given.
+    pub(super) fn fill(
+        &mut self,
+        place: u32,
+        slot: u32,
+        loaded: LoadedBrick,
+        rules: &FrameRules,
+        device: &mut Device,
+    ) {
+        device.write_brick(slot, &loaded.samples);
         self.ranges[slot as usize] = Some(loaded.cells);
+        self.refresh_cells_of(place, rules, false);
         self.bricks_loaded += 1;
         self.bytes_loaded += loaded.bytes;
     }
 
+    /// The index of what is resident, as the rule of detail asks for it.
     fn write_index(&mut self, rules: &FrameRules, device: &mut Device, stages: &mut Stages) {
         let started = Instant::now();
-        let index = build_index(&self.cut, &self.rules(rules));
+        let order: Vec<u32> = self.set.cut.walk().collect();
+        let shape = self.shape;
+        let index_rules = rules.for_index(&shape, self.blank_slot);
+        refresh(&mut self.set.cut, &index_rules, &order);
+        settle(&mut self.set.cut);
+        stages.refine_ms += milliseconds(started);
+        self.write_shown(rules, device, stages);
+    }
+
+    /// The index of what is shown.
+    pub(super) fn write_shown(&mut self, rules: &FrameRules, device: &mut Device, stages: &mut Stages) {
+        let started = Instant::now();
+        let weights = if rules.blends { corner_weights(&self.set.cut) } else { Vec::new() };
+        for place in self.set.cut.walk_shown().collect::<Vec<_>>() {
+            let Some(brick) = self.set.cut.node(place).brick else { continue };
+            let blends = rules.blends && weights[place as usize] != [1.0; 8];
+            if self.has_blended_cells[brick.slot as usize] != blends {
+                self.refresh_cells_of(place, rules, blends);
+            }
+        }
+        let index = build_index(&self.set.cut, &weights, &rules.for_index(&self.shape, self.blank_slot));
         stages.refine_ms += milliseconds(started);
         let started = Instant::now();
         device.write_index(&index, &self.cells);

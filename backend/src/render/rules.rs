@@ -1,8 +1,8 @@
 //! What one frame asks of the cut and its bricks.
 
 use super::ancestors::Ancestor;
-use crate::store::CellRanges;
-use crate::working_set::{LodRule, ResidentBrick};
+use crate::store::{CellRanges, OctreeShape};
+use crate::working_set::{IndexRules, LodRule, ResidentBrick};
 use shaders::layout::CELL_WORDS;
 use shaders::optics::Optics;
 use shaders::tables::Tables;
@@ -17,9 +17,22 @@ pub(super) struct FrameRules<'a> {
     pub(super) can_pass_over: bool,
     /// Whether samples are blended with those of the two ancestors.
     pub(super) is_quadrilinear: bool,
+    /// Whether nodes blend into their parents.
+    pub(super) blends: bool,
 }
 
 impl FrameRules<'_> {
+    /// What the index is told by.
+    pub(super) fn for_index<'a>(&'a self, shape: &'a OctreeShape, blank_slot: u32) -> IndexRules<'a> {
+        IndexRules {
+            shape,
+            lod: &self.lod,
+            optics: self.optics,
+            is_quadrilinear: self.is_quadrilinear,
+            blank_slot: self.blends.then_some(blank_slot),
+        }
+    }
+
     /// The bits of the cells of a brick that show anything; blended with ancestors, where the scene does that.
     pub(super) fn visible_cells(
         &self,

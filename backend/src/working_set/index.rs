@@ -159,6 +159,7 @@ fn links(cut: &Cut, node: &CutNode, parent: u32, of_parent: [u32; 6], place: u32
 mod tests {
     use super::*;
     use crate::store::{NodeKey, NodeSummary};
+    use crate::working_set::{ResidentBrick, refresh, settle};
     use glam::{DAffine3, UVec3};
     use proptest::prelude::*;
     use shaders::optics::{Curve, ExtinctionUnit};
@@ -210,7 +211,14 @@ mod tests {
                 }
             }
             let optics = optics();
-            let records = build_index(&cut, &IndexRules { shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false });
+            let rules = IndexRules {
+                shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false, blank_slot: None,
+            };
+            let order: Vec<u32> = cut.walk().collect();
+            refresh(&mut cut, &rules, &order);
+            order.iter().for_each(|&place| cut.set_brick(place, ResidentBrick { slot: 0, low: 0.0, span: 1.0 }));
+            settle(&mut cut);
+            let records = build_index(&cut, &[], &rules);
             for place in cut.walk() {
                 let key = cut.node(place).key;
                 for face in 0..6usize {

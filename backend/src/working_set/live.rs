@@ -104,6 +104,15 @@ impl WorkingSet {
         self.wanted = self.missing(&priority);
     }
 
+    /// Gives up all detail: the root alone stays.
+    pub fn restart(&mut self) {
+        if self.cut.node(0).first_child.is_some() {
+            for slot in self.cut.collapse_all(0) {
+                self.slots.give(slot);
+            }
+        }
+    }
+
     /// Bricks to fetch, most needed first.
     pub fn wanted(&self) -> &[NodeKey] {
         &self.wanted

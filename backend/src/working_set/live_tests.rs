@@ -225,8 +225,13 @@ impl Life {
         let fade_s = [0.0, 0.1, 0.4][random.below(3) as usize];
         self.now_s += dt_s;
         let (rule, optics) = (rule(&self.world.shape, self.z), optics(self.threshold));
-        let rules =
-            IndexRules { shape: &self.world.shape, lod: &rule, optics: &optics, is_quadrilinear: false };
+        let rules = IndexRules {
+            shape: &self.world.shape,
+            lod: &rule,
+            optics: &optics,
+            is_quadrilinear: false,
+            blank_slot: None,
+        };
         let summary = |key| self.world.summary(key);
         let most_in_flight = 1 + random.below(200) as usize;
         let moment = Moment { rules, summary: &summary, now_s: self.now_s, is_still, fade_s, most_in_flight };

@@ -38,9 +38,7 @@ impl LodRule {
     /// see [`LodRule::steepest`].
     pub fn deficit(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
         let voxel_m = self.finest_voxel_m() * f64::from(1u32 << shape.level(node.depth));
-        let slope = (self.lod_scale * 2.0 * (0.5 * self.angular_accuracy).tan()).min(self.steepest());
-        let wanted_m = self.lod_scale * self.pixel_size_m + slope * self.nearest_z_m(shape, node);
-        (voxel_m / wanted_m).log2()
+        (voxel_m / self.wanted_m(self.nearest_z_m(shape, node))).log2()
     }
 
     /// The steepest slope of the wanted voxel edge over |z| at which touching leaves of the cut differ by one level at
@@ -54,6 +52,25 @@ impl LodRule {
         let linear = self.display_from_volume.matrix3;
         let along_z = linear.x_axis.z.abs() + linear.y_axis.z.abs() + linear.z_axis.z.abs();
         self.finest_voxel_m() / (OWN_EDGE as f64 * along_z)
+    }
+
+    /// Whether the same depth is wanted everywhere in the volume: then no borders between levels are to be seen.
+    pub fn is_uniform(&self, shape: &OctreeShape) -> bool {
+        let linear = self.display_from_volume.matrix3;
+        let (low, high) = shape.region(NodeKey::ROOT);
+        let along = |axis: usize| linear.col(axis).z.abs() * (high - low)[axis];
+        let deepest_m = self.nearest_z_m(shape, NodeKey::ROOT) + along(0) + along(1) + along(2);
+        let wanted = |z_m: f64| {
+            let level = (self.wanted_m(z_m) / self.finest_voxel_m()).log2();
+            level.floor().clamp(0.0, f64::from(shape.finest_depth()))
+        };
+        wanted(self.nearest_z_m(shape, NodeKey::ROOT)) == wanted(deepest_m)
+    }
+
+    /// The longest voxel edge that is fine enough at |z|, metres.
+    fn wanted_m(&self, z_m: f64) -> f64 {
+        let slope = self.lod_scale * 2.0 * (0.5 * self.angular_accuracy).tan();
+        self.lod_scale * self.pixel_size_m + slope.min(self.steepest()) * z_m
     }
 
     /// The longest edge of the finest voxel, metres.

@@ -91,7 +91,7 @@ impl Cut {
     }
 
     /// Whether a node shows something and its brick is not there.
-    pub(super) fn lacks(&self, place: u32) -> bool {
+    pub fn lacks(&self, place: u32) -> bool {
         let node = self.node(place);
         node.is_visible && node.brick.is_none()
     }

@@ -50,6 +50,11 @@ impl Retry {
         self.failed.get(&key).is_none_or(|failure| failure.again_at.is_some_and(|at| at <= now))
     }
 
+    /// When a brick may be asked for again: None where never; zero where it did not fail.
+    pub fn again_at(&self, key: NodeKey) -> Option<Duration> {
+        self.failed.get(&key).map_or(Some(Duration::ZERO), |failure| failure.again_at)
+    }
+
     /// When the first of the waits after `now` is over; None where nothing will change by waiting.
     pub fn next(&self, now: Duration) -> Option<Duration> {
         self.failed.values().filter_map(|failure| failure.again_at).filter(|&at| at > now).min()

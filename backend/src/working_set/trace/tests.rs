@@ -137,6 +137,7 @@ fn frame(index: u32, optics: Optics) -> FrameState {
         quality: Quality { lod_scale: 0.5, ..Quality::default() },
         tool: None,
         pace: crate::protocol::Pace::Complete,
+        debug: None,
     }
 }
 

@@ -1,0 +1,305 @@
+//! One live frame: it shows what there is, and asks for what later frames will show.
+
+use super::frame::Setting;
+use super::residency::milliseconds;
+use super::rules::FrameRules;
+use super::{RenderError, RenderEvent, Renderer};
+use crate::device::{CastJob, Gather, TileGrid};
+use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
+use crate::store::{BrickError, BrickErrorKind, NodeKey};
+use crate::working_set::{Arrival, LoadedBrick, LodRule, Met, Moment, Motion, Retry, is_shown, prefetch};
+use shaders::compose::Needs;
+use shaders::layout::{FeedbackEntry, deficit_from_code};
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// Bricks whose samples may be on their way, in frames' worth of uploads: enough to keep a disk busy, few enough that
+/// what was asked for is still wanted when it comes.
+const FRAMES_IN_FLIGHT: u64 = 4;
+/// The same at least.
+const LEAST_IN_FLIGHT: u64 = 64;
+/// How far ahead motion is followed when the disk is idle.
+const HORIZON: Duration = Duration::from_millis(500);
+/// Bricks fetched ahead at a time.
+const MOST_AHEAD: usize = 128;
+/// Bytes of a brick in the cache.
+const SLOT_BYTES: u64 = 2 * crate::store::BRICK_VOXELS as u64;
+
+/// What a live frame may take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Bytes of bricks that it may move to the device.
+    pub(super) upload_bytes: u64,
+    /// Time of a whole fade, seconds.
+    pub(super) fade_s: f64,
+}
+
+/// What live frames remember of each other.
+#[derive(Debug, Default)]
+pub(super) struct Live {
+    /// The frame before.
+    last: Option<FrameState>,
+    /// The rule of detail of the frame before, and its time.
+    last_rule: Option<(LodRule, f64)>,
+    /// Of each feedback table under way: the nodes of the index that its frame was cast with.
+    tables: VecDeque<Vec<NodeKey>>,
+    /// What the latest table told.
+    met: Vec<Told>,
+    retry: Retry,
+}
+
+/// What rays told of a leaf.
+#[derive(Clone, Copy, Debug)]
+struct Told {
+    key: NodeKey,
+    rays: u32,
+    /// Levels it was too coarse by.
+    deficit: f64,
+}
+
+pub(super) fn draw(
+    renderer: &mut Renderer,
+    frame: &FrameState,
+    limits: Limits,
+    sink: &mut dyn FnMut(RenderEvent),
+) -> Result<FrameReport, RenderError> {
+    let started = Instant::now();
+    let Setting { views, needs, tables } = Setting::new(renderer, frame)?;
+    let mut live = renderer.live.take().unwrap_or_else(|| {
+        renderer.residency.set.restart();
+        Live::default()
+    });
+    let mut stages = Stages::default();
+    let upload = Instant::now();
+    renderer.device.write_tables(tables.clone());
+    stages.upload_ms += milliseconds(upload);
+    let mut rules = FrameRules::new(renderer, frame, &tables);
+    let mut upkeep = live.keep_up(renderer, frame, &rules, limits, &mut stages)?;
+    // What fades blends, wherever the display resolves the same.
+    rules.blends |= frame.quality.blended && upkeep.fading > 0;
+    renderer.residency.write_shown(&rules, &mut renderer.device, &mut stages);
+    let needs = Needs { blends: rules.blends, ..needs };
+
+    let cut = &renderer.residency.set.cut;
+    live.tables.push_back(cut.nodes().iter().map(|node| node.key).collect());
+    renderer.device.begin_feedback();
+    let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
+    let (mut rays, mut samples) = (0, 0);
+    for view in &views {
+        let [width, height] = view.view.raster;
+        let grid = TileGrid::new(width, height, 1);
+        let tiles: Vec<u32> = (0..grid.count()).collect();
+        let job =
+            CastJob { view: &view.view, needs, grid, tiles: &tiles, gather: Gather::Frame, counts: true };
+        let cast = Instant::now();
+        let outcome = renderer.device.cast(&job)?;
+        stages.cast_ms += milliseconds(cast);
+        rays += outcome.rays;
+        samples += outcome.samples;
+        let readback = Instant::now();
+        let rgba = renderer.device.picture()?;
+        stages.readback_ms += milliseconds(readback);
+        sink(RenderEvent::Image(ProjectorImage { projector: view.projector, width, height, rgba }));
+        sink(RenderEvent::Progress { done: rays, total });
+    }
+    renderer.device.end_feedback();
+    upkeep.update_ms = stages.refine_ms;
+    live.last_rule = Some((rules.lod, frame.time_s));
+    live.last = Some(frame.clone());
+    let report = live.report(renderer, frame, upkeep, stages, (rays, samples), milliseconds(started));
+    renderer.live = Some(live);
+    Ok(report)
+}
+
+impl Live {
+    /// Brings the working set up to the frame's time: what rays met, what to fetch, what has come, what is shown.
+    fn keep_up(
+        &mut self,
+        renderer: &mut Renderer,
+        frame: &FrameState,
+        rules: &FrameRules,
+        limits: Limits,
+        stages: &mut Stages,
+    ) -> Result<Upkeep, RenderError> {
+        self.take_feedback(renderer)?;
+        let residency = &mut renderer.residency;
+        (residency.bricks_loaded, residency.bytes_loaded) = (0, 0);
+        residency.damage.start_frame();
+        if self.last.as_ref().is_none_or(|last| last.optics != frame.optics || last.quality != frame.quality)
+        {
+            residency.refresh_cells(rules);
+        }
+        let (shape, source) = (residency.shape, std::sync::Arc::clone(&residency.source));
+        let summary = |key| source.summary(key);
+        let moment = Moment {
+            rules: rules.for_index(&shape, 0),
+            summary: &summary,
+            now_s: frame.time_s,
+            is_still: self.last.as_ref().is_some_and(|last| is_same_view(last, frame)),
+            fade_s: limits.fade_s,
+            most_in_flight: (FRAMES_IN_FLIGHT * limits.upload_bytes / SLOT_BYTES).max(LEAST_IN_FLIGHT)
+                as usize,
+        };
+        let started = Instant::now();
+        let met: Vec<Met> = self.met.iter().map(|told| Met { key: told.key, rays: told.rays }).collect();
+        residency.set.update(&moment, &met);
+        stages.refine_ms += milliseconds(started);
+        let ahead = self.ahead(frame, rules, &moment, &summary);
+        let cancelled = residency.loader.want(residency.set.wanted(), &ahead) as u64;
+        self.take_arrived(renderer, frame, rules, limits, stages)?;
+        let started = Instant::now();
+        let residency = &mut renderer.residency;
+        residency.set.show(&moment);
+        stages.refine_ms += milliseconds(started);
+        Ok(Upkeep { cancelled, ..self.upkeep(renderer) })
+    }
+
+    fn take_feedback(&mut self, renderer: &mut Renderer) -> Result<(), RenderError> {
+        while let Some(table) = renderer.device.take_feedback()? {
+            let Some(keys) = self.tables.pop_front() else { continue };
+            let told = |(key, entry): (&NodeKey, &FeedbackEntry)| {
+                let deficit = deficit_from_code(entry.deficit_code)?;
+                Some(Told { key: *key, rays: entry.rays, deficit: f64::from(deficit) })
+            };
+            self.met = keys.iter().zip(&table).filter_map(told).collect();
+        }
+        Ok(())
+    }
+
+    /// Bricks that the motion will ask for, if it goes on.
+    fn ahead(
+        &self,
+        frame: &FrameState,
+        rules: &FrameRules,
+        moment: &Moment,
+        summary: &dyn Fn(NodeKey) -> crate::store::NodeSummary,
+    ) -> Vec<NodeKey> {
+        let Some((before, then_s)) = &self.last_rule else { return Vec::new() };
+        if frame.time_s <= *then_s {
+            return Vec::new();
+        }
+        let between = Duration::from_secs_f64(frame.time_s - then_s);
+        let motion = Motion { now: &rules.lod, before, between };
+        let leaves = self.met.iter().map(|told| told.key);
+        let shows = |key| is_shown(rules.optics, summary(key));
+        prefetch(leaves, &motion, HORIZON, moment.rules.shape, shows, MOST_AHEAD)
+    }
+
+    /// Moves what has come to the device, first things first.
+    fn take_arrived(
+        &mut self,
+        renderer: &mut Renderer,
+        frame: &FrameState,
+        rules: &FrameRules,
+        limits: Limits,
+        stages: &mut Stages,
+    ) -> Result<(), RenderError> {
+        let started = Instant::now();
+        for (key, fetched) in renderer.residency.loader.arrived(limits.upload_bytes) {
+            match fetched {
+                Ok(brick) => self.put(renderer, key, brick, rules),
+                Err(error) => self.note_failure(renderer, key, error, frame.time_s)?,
+            }
+        }
+        stages.upload_ms += milliseconds(started);
+        Ok(())
+    }
+
+    fn put(&mut self, renderer: &mut Renderer, key: NodeKey, brick: LoadedBrick, rules: &FrameRules) {
+        let Renderer { residency, device, .. } = renderer;
+        self.retry.came(key);
+        residency.damage.forget(key);
+        if let Arrival::Slot(slot) = residency.set.arrived(key, brick.low, brick.span) {
+            let place = residency.set.cut.find(key);
+            residency.fill(place, slot, brick, rules, device);
+        }
+    }
+
+    /// What is away is asked for again after a while; what is damaged is not.
+    fn note_failure(
+        &mut self,
+        renderer: &mut Renderer,
+        key: NodeKey,
+        error: BrickError,
+        now_s: f64,
+    ) -> Result<(), RenderError> {
+        let now = Duration::try_from_secs_f64(now_s).unwrap_or_default();
+        let is_damaged = error.kind == BrickErrorKind::Damaged;
+        let is_first = self.retry.failed(key, error.kind, now);
+        if key == NodeKey::ROOT && is_damaged {
+            return Err(error.into());
+        }
+        if is_first {
+            renderer.residency.damage.learn(key, error);
+        }
+        let again_s = self.retry.again_at(key).map_or(f64::INFINITY, |at| at.as_secs_f64());
+        renderer.residency.set.failed(key, again_s);
+        Ok(())
+    }
+
+    fn upkeep(&self, renderer: &Renderer) -> Upkeep {
+        let set = &renderer.residency.set;
+        let leaves = || set.cut.walk_shown().filter(|&place| set.cut.node(place).shown_child().is_none());
+        let is_fading = |&place: &u32| set.cut.node(place).shown < 1.0;
+        let coarse = |told: &Told| told.deficit.max(0.0);
+        let rays: f64 = self.met.iter().map(|told| f64::from(told.rays)).sum();
+        let weighted: f64 = self.met.iter().map(|told| f64::from(told.rays) * coarse(told)).sum();
+        Upkeep {
+            nodes: set.cut.walk().count() as u64,
+            leaves: leaves().count() as u64,
+            splits: set.splits,
+            collapses: set.collapses,
+            in_flight: set.wanted().len() as u64,
+            cancelled: 0,
+            fading: leaves().filter(is_fading).count() as u64,
+            largest_deficit: self.met.iter().map(coarse).fold(0.0, f64::max),
+            mean_deficit: if rays > 0.0 { weighted / rays } else { 0.0 },
+            update_ms: 0.0,
+        }
+    }
+
+    fn report(
+        &self,
+        renderer: &mut Renderer,
+        frame: &FrameState,
+        upkeep: Upkeep,
+        stages: Stages,
+        (rays, samples): (u64, u64),
+        total_ms: f64,
+    ) -> FrameReport {
+        let residency = &mut renderer.residency;
+        let is_short = |told: &&Told| told.deficit > 0.0;
+        for told in self.met.iter().filter(is_short) {
+            let family: Vec<NodeKey> = (0..8).map(|octant| told.key.child(octant)).collect();
+            residency.damage.note_missed(&family);
+        }
+        let short = self.met.iter().filter(is_short).count();
+        let shortfall = super::frame::live_shortfall(short, upkeep.in_flight, upkeep.fading, residency);
+        FrameReport {
+            frame: frame.index,
+            backend: renderer.backend,
+            projectors: renderer.projectors.clone(),
+            rays,
+            samples,
+            bricks_wanted: residency.resident() + upkeep.in_flight,
+            bricks_resident: residency.resident(),
+            bricks_loaded: residency.bricks_loaded,
+            bytes_loaded: residency.bytes_loaded,
+            working_set_union: self.met.len() as u64,
+            working_set_sum: self.met.len() as u64,
+            complete: shortfall.is_empty(),
+            shortfall,
+            damaged_bricks: residency.damage.missed(),
+            damaged: residency.damage.sentences(super::frame::MOST_DAMAGES),
+            upkeep: Some(upkeep),
+            stages,
+            total_ms,
+        }
+    }
+}
+
+/// Whether two frames show the same, whatever the time.
+fn is_same_view(a: &FrameState, b: &FrameState) -> bool {
+    let timeless = |frame: &FrameState| FrameState { index: 0, time_s: 0.0, ..frame.clone() };
+    timeless(a) == timeless(b)
+}
