@@ -2,7 +2,7 @@
 
 use crate::compare::lod_rule;
 use crate::twin_scene::{TwinScene, resident};
-use backend::device::{CastJob, Device, TileGrid};
+use backend::device::{CastJob, Device, Gather, TileGrid};
 use backend::protocol::FrameState;
 use backend::reference::StoredField;
 use backend::store::{BRICK_VOXELS, BrickSource, CellRanges, NodeKey};
@@ -76,7 +76,8 @@ impl Presented {
         let tables = Tables::new(&frame.optics, &needs);
         let (shape, lod) = (self.source.shape(), lod_rule(display, frame));
         let is_quadrilinear = frame.quality.quadrilinear;
-        let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear };
+        let rules =
+            IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear, blank_slot: None };
         let (mut cut, mut atlas) = (Cut::new(self.source.summary(NodeKey::ROOT)), Vec::new());
         let mut places = vec![0];
         while let Some(place) = places.pop() {
@@ -90,7 +91,8 @@ impl Presented {
                 places.extend(first..first + 8);
             }
         }
-        let mut nodes = build_index(&cut, &rules);
+        cut.show_all();
+        let mut nodes = build_index(&cut, &[], &rules);
         for place in cut.walk() {
             self.blend(&cut, place, frame, &mut nodes, &mut atlas);
         }
@@ -206,6 +208,8 @@ impl TwinScene {
 pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>, u64) {
     let grid = TileGrid::new(view.raster[0], view.raster[1], 1);
     let tiles: Vec<u32> = (0..grid.count()).collect();
-    let outcome = device.cast(&CastJob { view, needs, grid, tiles: &tiles }).expect("the device stays");
+    let outcome = device
+        .cast(&CastJob { view, needs, grid, tiles: &tiles, gather: Gather::Own, counts: true })
+        .expect("the device stays");
     (device.picture().expect("the device stays"), outcome.samples)
 }

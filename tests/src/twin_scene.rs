@@ -3,7 +3,7 @@
 use crate::compare::lod_rule;
 use backend::protocol::FrameState;
 use backend::store::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
-use backend::working_set::{Cut, IndexRules, ResidentBrick, build_index};
+use backend::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle, settled_weights};
 use display_config::Display;
 use rayon::prelude::*;
 use shaders::compose::Needs;
@@ -35,7 +35,10 @@ impl TwinScene {
         let shape = source.shape();
         let lod = lod_rule(display, frame);
         let is_quadrilinear = frame.quality.quadrilinear;
-        let rules = IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear };
+        let blends = frame.quality.blended && !lod.is_uniform(&shape);
+        let needs = Needs { blends, ..needs };
+        let mut rules =
+            IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear, blank_slot: None };
         let mut cut = Cut::new(source.summary(NodeKey::ROOT));
         let mut atlas = Vec::new();
         let mut places = vec![0];
@@ -52,8 +55,17 @@ impl TwinScene {
                 places.extend(first..first + 8);
             }
         }
+        let order: Vec<u32> = cut.walk().collect();
+        refresh(&mut cut, &rules, &order);
+        settle(&mut cut);
+        let mut weights = Vec::new();
+        if blends {
+            weights = settled_weights(&cut, &rules, &|key| source.summary(key));
+            rules.blank_slot = Some((atlas.len() / BRICK_VOXELS) as u32);
+            atlas.resize(atlas.len() + BRICK_VOXELS, 0);
+        }
         Self {
-            nodes: build_index(&cut, &rules),
+            nodes: build_index(&cut, &weights, &rules),
             cells: vec![u32::MAX; atlas.len() / BRICK_VOXELS * CELL_WORDS],
             atlas,
             tables: Tables::new(&frame.optics, &needs),

@@ -95,6 +95,18 @@ impl Cut {
         cut
     }
 
+    /// This cut with leaves that blend down to coarser ones that show anything: by the rule of detail they have no weight
+    /// at corners that such a leaf touches, and full weight at all others.
+    pub fn blended(mut self, rule: &LodRule, optics: &Optics) -> Self {
+        for index in 0..self.nodes.len() {
+            if matches!(self.nodes[index].branch, Branch::Leaf(_)) {
+                let weights = weights_of(&*self.source, rule, optics, self.nodes[index].grid.key);
+                self.blend(index, weights, optics);
+            }
+        }
+        self
+    }
+
     /// Gives a node's parent its share of the node's samples, where it has one and shows anything.
     fn blend(&mut self, index: usize, weights: [f64; 8], optics: &Optics) {
         let key = self.nodes[index].grid.key;
@@ -232,4 +244,22 @@ fn read(source: &dyn BrickSource, key: NodeKey) -> Result<Voxels, BrickError> {
         )));
     }
     Ok(Voxels { codes, low: f64::from(brick.low), step: f64::from(brick.step) })
+}
+
+/// The weights of a leaf's corners: 0 where a coarser leaf touches that shows anything.
+fn weights_of(source: &dyn BrickSource, rule: &LodRule, optics: &Optics, leaf: NodeKey) -> [f64; 8] {
+    let shape = source.shape();
+    let is_coarse = |cell: NodeKey| {
+        let above = std::iter::successors(cell.parent(), |key| key.parent());
+        let coarser = above.filter(|&key| rule.is_fine_enough(&shape, key)).last();
+        shape.contains(cell) && coarser.is_some_and(|key| is_shown(optics, source.summary(key)))
+    };
+    std::array::from_fn(|corner| {
+        let cell_at = |i: usize| {
+            let offset = [0, 1, 2].map(|axis| (corner >> axis & 1) as i32 + (i >> axis & 1) as i32 - 1);
+            let cell = leaf.cell.as_ivec3() + IVec3::from_array(offset);
+            (cell.min_element() >= 0).then(|| NodeKey { depth: leaf.depth, cell: cell.as_uvec3() })
+        };
+        if (0..8).filter_map(cell_at).any(is_coarse) { 0.0 } else { 1.0 }
+    })
 }

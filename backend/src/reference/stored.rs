@@ -51,6 +51,11 @@ impl StoredField {
         Self { cut: Cut::presented(source, leaves, optics), filter: None }
     }
 
+    /// This field, blended at borders between levels as [`shaders::optics::Quality::blended`] says.
+    pub fn blended(self, rule: &LodRule, optics: &Optics) -> Self {
+        Self { cut: self.cut.blended(rule, optics), ..self }
+    }
+
     /// This field, filtered over levels by the resolution that `rule` gives.
     pub fn filtered(self, rule: &LodRule) -> Self {
         Self { filter: Some(FilterLevel::new(rule)), ..self }

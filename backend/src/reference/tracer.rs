@@ -122,8 +122,8 @@ impl Reference {
         rule: &LodRule,
         integrator: Integrator,
     ) -> Result<Self, ReferenceError> {
-        let field = filtered(StoredField::new(source, rule), frame, rule);
-        Ok(Self { tracer: Tracer::new(frame, integrator)?, field })
+        let tracer = Tracer::new(frame, integrator)?;
+        Ok(Self { tracer, field: as_shown(StoredField::new(source, rule), frame, rule) })
     }
 
     /// The same over a source of which some bricks cannot be read: see [`StoredField::around_damage`].
@@ -133,8 +133,9 @@ impl Reference {
         rule: &LodRule,
         integrator: Integrator,
     ) -> Result<Self, ReferenceError> {
-        let field = filtered(StoredField::around_damage(source, rule, &frame.optics), frame, rule);
-        Ok(Self { tracer: Tracer::new(frame, integrator)?, field })
+        let tracer = Tracer::new(frame, integrator)?;
+        let field = StoredField::around_damage(source, rule, &frame.optics);
+        Ok(Self { tracer, field: as_shown(field, frame, rule) })
     }
 
     /// What the ray from `origin_in_display` along `direction_in_display` sees.
@@ -162,6 +163,8 @@ impl Reference {
     }
 }
 
-fn filtered(field: StoredField, frame: &FrameState, rule: &LodRule) -> StoredField {
+/// A field with what the frame's quality makes of it.
+fn as_shown(field: StoredField, frame: &FrameState, rule: &LodRule) -> StoredField {
+    let field = if frame.quality.blended { field.blended(rule, &frame.optics) } else { field };
     if frame.quality.quadrilinear { field.filtered(rule) } else { field }
 }

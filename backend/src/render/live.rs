@@ -7,7 +7,9 @@ use super::{RenderError, RenderEvent, Renderer};
 use crate::device::{CastJob, Gather, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use crate::store::{BrickError, BrickErrorKind, NodeKey};
-use crate::working_set::{Arrival, LoadedBrick, LodRule, Met, Moment, Motion, Retry, is_shown, prefetch};
+use crate::working_set::{
+    Arrival, LoadedBrick, LodRule, Met, Moment, Motion, Retry, corner_weights, is_shown, prefetch,
+};
 use shaders::compose::Needs;
 use shaders::layout::{FeedbackEntry, deficit_from_code};
 use std::collections::VecDeque;
@@ -77,7 +79,11 @@ pub(super) fn draw(
     let mut upkeep = live.keep_up(renderer, frame, &rules, limits, &mut stages)?;
     // What fades blends, wherever the display resolves the same.
     rules.blends |= frame.quality.blended && upkeep.fading > 0;
-    renderer.residency.write_shown(&rules, &mut renderer.device, &mut stages);
+    let weighing = Instant::now();
+    let weights = if rules.blends { corner_weights(&renderer.residency.set.cut) } else { Vec::new() };
+    stages.refine_ms += milliseconds(weighing);
+    upkeep.update_ms = stages.refine_ms;
+    renderer.residency.write_shown(&weights, &rules, &mut renderer.device, &mut stages);
     let needs = Needs { blends: rules.blends, ..needs };
 
     let cut = &renderer.residency.set.cut;
@@ -103,7 +109,6 @@ pub(super) fn draw(
         sink(RenderEvent::Progress { done: rays, total });
     }
     renderer.device.end_feedback();
-    upkeep.update_ms = stages.refine_ms;
     live.last_rule = Some((rules.lod, frame.time_s));
     live.last = Some(frame.clone());
     let report = live.report(renderer, frame, upkeep, stages, (rays, samples), milliseconds(started));

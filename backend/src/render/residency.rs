@@ -8,8 +8,8 @@ use crate::device::Device;
 use crate::protocol::{FrameState, Stages};
 use crate::store::{BrickError, BrickSource, CellRanges, NodeKey, OctreeShape};
 use crate::working_set::{
-    LoadedBrick, Loader, ResidentBrick, Wanted, WorkingSet, build_index, corner_weights, is_shown, refresh,
-    settle,
+    LoadedBrick, Loader, ResidentBrick, Wanted, WorkingSet, build_index, is_shown, refresh, settle,
+    settled_weights,
 };
 use shaders::layout::CELL_WORDS;
 use std::collections::{HashMap, HashSet};
@@ -326,14 +326,22 @@ impl Residency {
         let index_rules = rules.for_index(&shape, self.blank_slot);
         refresh(&mut self.set.cut, &index_rules, &order);
         settle(&mut self.set.cut);
+        let summary = |key| self.source.summary(key);
+        let weights =
+            if rules.blends { settled_weights(&self.set.cut, &index_rules, &summary) } else { Vec::new() };
         stages.refine_ms += milliseconds(started);
-        self.write_shown(rules, device, stages);
+        self.write_shown(&weights, rules, device, stages);
     }
 
     /// The index of what is shown.
-    pub(super) fn write_shown(&mut self, rules: &FrameRules, device: &mut Device, stages: &mut Stages) {
+    pub(super) fn write_shown(
+        &mut self,
+        weights: &[[f32; 8]],
+        rules: &FrameRules,
+        device: &mut Device,
+        stages: &mut Stages,
+    ) {
         let started = Instant::now();
-        let weights = if rules.blends { corner_weights(&self.set.cut) } else { Vec::new() };
         for place in self.set.cut.walk_shown().collect::<Vec<_>>() {
             let Some(brick) = self.set.cut.node(place).brick else { continue };
             let blends = rules.blends && weights[place as usize] != [1.0; 8];
@@ -341,7 +349,7 @@ impl Residency {
                 self.refresh_cells_of(place, rules, blends);
             }
         }
-        let index = build_index(&self.set.cut, &weights, &rules.for_index(&self.shape, self.blank_slot));
+        let index = build_index(&self.set.cut, weights, &rules.for_index(&self.shape, self.blank_slot));
         stages.refine_ms += milliseconds(started);
         let started = Instant::now();
         device.write_index(&index, &self.cells);

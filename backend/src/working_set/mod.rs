@@ -35,4 +35,4 @@ pub use trace::{
     Demand, Demanded, Seen, TraceError, TraceHeader, TraceReader, TraceWriter, TracedFrame, feedback_on,
 };
 pub use vertices::{Around, visit_vertices};
-pub use weights::corner_weights;
+pub use weights::{corner_weights, settled_weights};

@@ -83,6 +83,15 @@ fn permitted(is_visible: bool, deficit: f64, is_seen: bool) -> f32 {
 }
 
 impl Cut {
+    /// Shows all there is, at once and whole.
+    pub fn show_all(&mut self) {
+        for place in self.walk().collect::<Vec<_>>() {
+            let node = self.node_mut(place);
+            node.shown = 1.0;
+            node.family = if node.first_child.is_some() { Family::Shown } else { Family::Hidden };
+        }
+    }
+
     /// Whether a node's children are resident and wanted.
     fn wants_children(&self, place: u32) -> bool {
         let node = self.node(place);

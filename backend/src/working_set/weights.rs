@@ -1,18 +1,46 @@
 //! The weights of a node's corners: how much of itself it shows there.
 
-use super::Cut;
 use super::vertices::{Around, visit_vertices};
+use super::{Cut, IndexRules, is_shown};
+use crate::store::{NodeKey, NodeSummary};
+use glam::IVec3;
+
+/// What a coarser leaf lets finer neighbours show at a corner: told of its place, and of the cell one level above the
+/// corner's leaf that lies in it.
+trait Permission: Fn(u32, NodeKey) -> f32 {}
+
+impl<F: Fn(u32, NodeKey) -> f32> Permission for F {}
 
 /// The weights of corners x + 2 y + 4 z of every place: for leaves that rays meet, the least share of all cells around the
 /// corner at the leaf's depth. A cell that is covered by a coarser leaf has what that leaf permits; a finer one is whole.
 /// All leaves of a depth that share a corner have the same weight there. Other places have full weights.
 pub fn corner_weights(cut: &Cut) -> Vec<[f32; 8]> {
+    weigh_all(cut, |place, _| cut.node(place).permits)
+}
+
+/// The same where everything is shown at once, see [`super::settle`]: by the rule of detail alone, whatever is resident.
+/// A corner has no weight where the cut that the rule asks for has a coarser leaf that shows something, and full weight
+/// elsewhere.
+pub fn settled_weights(
+    cut: &Cut,
+    rules: &IndexRules,
+    summary: &dyn Fn(NodeKey) -> NodeSummary,
+) -> Vec<[f32; 8]> {
+    weigh_all(cut, |_, key| {
+        let is_border = rules.shape.contains(key)
+            && rules.lod.is_fine_enough(rules.shape, key)
+            && is_shown(rules.optics, summary(key));
+        if is_border { 0.0 } else { 1.0 }
+    })
+}
+
+fn weigh_all(cut: &Cut, permits: impl Permission) -> Vec<[f32; 8]> {
     let mut weights = vec![[1.0; 8]; cut.nodes().len()];
-    visit_vertices(cut, &mut |around| weigh(cut, around, &mut weights));
+    visit_vertices(cut, &mut |around| weigh(cut, around, &permits, &mut weights));
     weights
 }
 
-fn weigh(cut: &Cut, around: &Around, weights: &mut [[f32; 8]]) {
+fn weigh(cut: &Cut, around: &Around, permits: &impl Permission, weights: &mut [[f32; 8]]) {
     let depth = |place: &u32| cut.node(*place).key.depth;
     let depths = || around.iter().flatten().map(depth);
     let (Some(coarsest), Some(finest)) = (depths().min(), depths().max()) else { return };
@@ -26,18 +54,27 @@ fn weigh(cut: &Cut, around: &Around, weights: &mut [[f32; 8]]) {
         if around.iter().filter(|&&other| other == Some(place)).count() > 1 {
             continue;
         }
-        weights[place as usize][7 ^ octant] = least_share(cut, around, depth(&place));
+        weights[place as usize][7 ^ octant] = least_share(cut, around, octant, permits);
     }
 }
 
-/// The least share, of the cells around a vertex, at a depth.
-fn least_share(cut: &Cut, around: &Around, depth: u8) -> f32 {
-    around.iter().flatten().fold(1.0, |least, &place| {
+/// The least share, of the cells around a vertex, at the depth of the leaf in an octant.
+fn least_share(cut: &Cut, around: &Around, octant: usize, permits: &impl Permission) -> f32 {
+    let Some(own) = around[octant].map(|place| cut.node(place).key) else { return 1.0 };
+    (0..8).fold(1.0, |least, other| {
+        let Some(place) = around[other] else { return least };
         let node = cut.node(place);
-        least.min(match node.key.depth.cmp(&depth) {
-            std::cmp::Ordering::Less => node.permits,
+        least.min(match node.key.depth.cmp(&own.depth) {
+            std::cmp::Ordering::Less => permits(place, above(own, octant, other)),
             std::cmp::Ordering::Equal => node.shown,
             std::cmp::Ordering::Greater => 1.0,
         })
     })
+}
+
+/// The parent of the cell in octant `other` around a vertex, at the depth of the leaf `own` in octant `octant`.
+fn above(own: NodeKey, octant: usize, other: usize) -> NodeKey {
+    let bits = |octant: usize| IVec3::from_array([0, 1, 2].map(|axis| (octant >> axis & 1) as i32));
+    let cell = own.cell.as_ivec3() + bits(other) - bits(octant);
+    NodeKey { depth: own.depth - 1, cell: (cell / 2).as_uvec3() }
 }
