@@ -144,7 +144,8 @@ impl WorkingSet {
             Some(last) => ((moment.now_s - last) / moment.fade_s).clamp(0.0, 1.0) as f32,
         };
         self.last_s = Some(moment.now_s);
-        let tick = Tick { now_s: self.now_s, step, seen_since_s: self.seen_since() };
+        let new_since_s = self.now_s - MEMORY_S;
+        let tick = Tick { now_s: self.now_s, step, seen_since_s: self.seen_since(), new_since_s };
         let lost = &self.lost;
         let is_lost = |key| lost.get(&key).is_some_and(|&until| tick.now_s < until);
         advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
@@ -168,8 +169,13 @@ impl WorkingSet {
     }
 
     /// Since when rays count: while nothing changes, all of them do, so that what is chosen by them comes to rest.
-    pub(super) fn seen_since(&self) -> f64 {
+    fn seen_since(&self) -> f64 {
         self.still_since_s.min(self.now_s - MEMORY_S)
+    }
+
+    /// Whether somebody may see a node: rays met it, or have not had the time to tell.
+    pub(super) fn is_seen(&self, node: &CutNode) -> bool {
+        node.met.time_s >= self.seen_since() || node.met.since_s >= self.now_s - MEMORY_S
     }
 
     /// Whether a node is a leaf that rays meet.

@@ -10,9 +10,13 @@ mod lod;
 mod prefetch;
 mod presence;
 mod priority;
+#[cfg(test)]
+mod rest_tests;
 mod retry;
 mod room;
 mod slots;
+#[cfg(test)]
+mod test_world;
 mod touched;
 mod touching;
 mod trace;

@@ -16,6 +16,8 @@ pub struct Tick {
     pub step: f32,
     /// Nodes that rays met since then count as seen, seconds.
     pub seen_since_s: f64,
+    /// Nodes that began to show since then count as seen, too: rays have not had the time to tell.
+    pub new_since_s: f64,
 }
 
 /// Tells every node of the cut what the frame thinks of it.
@@ -54,7 +56,7 @@ pub fn advance(
     for &place in order {
         let wants = cut.wants_children(place);
         let node = cut.node(place);
-        let is_seen = node.met.time_s.max(node.met.since_s) >= tick.seen_since_s;
+        let is_seen = node.met.time_s >= tick.seen_since_s || node.met.since_s >= tick.new_since_s;
         let is_ready = node.permits == 0.0 || !is_seen;
         let family = match node.family {
             Family::Hidden if wants && is_ready && cut.may_show(shape, place) => {

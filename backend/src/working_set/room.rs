@@ -169,11 +169,7 @@ impl<'a> Room<'a> {
     fn is_seen(&self, set: &WorkingSet, place: u32) -> bool {
         let node = set.cut.node(place);
         let Some(first) = node.first_child.filter(|_| node.family != Family::Hidden) else { return false };
-        let since = set.seen_since();
-        (first..first + 8).any(|child| {
-            let met = set.cut.node(child).met;
-            met.time_s.max(met.since_s) >= since
-        })
+        (first..first + 8).any(|child| set.is_seen(set.cut.node(child)))
     }
 
     /// Slots that a family holds or has reserved.

@@ -1,0 +1,122 @@
+//! The time of a whole update of the working set on one core: feedback, priorities, restriction, weights.
+//!
+//! `cargo bench -p lightloom-tests --bench working_set`; LIGHTLOOM_BENCH_ROUNDS=n measures n frames of each size (60). The
+//! volume is a box of solid values that moves to and fro before the screen; every leaf is met by rays, a tenth of them
+//! changes its depth in a second, and every brick comes at once.
+
+use backend::store::{NodeKey, NodeSummary, OctreeShape};
+use backend::working_set::{IndexRules, LodRule, Met, Moment, WorkingSet, corner_weights};
+use glam::{DAffine3, DVec3, UVec3};
+use shaders::optics::{Curve, ExtinctionUnit, Optics};
+use std::time::Instant;
+
+/// Finest voxels along an edge: eight levels.
+const EDGE: u32 = 28 << 7;
+/// Nodes asked for.
+const SIZES: [usize; 6] = [1_000, 2_000, 5_000, 10_000, 30_000, 100_000];
+
+fn optics() -> Optics {
+    Optics {
+        domain: (0.0, 1.0),
+        extinction: Curve::constant(1.0),
+        extinction_unit: ExtinctionUnit::PerVoxel,
+        colour: Curve::constant(DVec3::ONE),
+        mimda: None,
+        refraction: None,
+        materials: None,
+        enhancers: Vec::new(),
+    }
+}
+
+/// A display on which the volume, a metre wide, takes some number of nodes: the finer its pixels, the more.
+fn rule(pixel_size_m: f64, z: f64) -> LodRule {
+    let scale = 1.0 / f64::from(EDGE);
+    LodRule {
+        display_from_volume: DAffine3::from_translation(DVec3::new(-0.5, -0.5, z - 0.5))
+            * DAffine3::from_scale(DVec3::splat(scale)),
+        pixel_size_m,
+        angular_accuracy: 0.8_f64.to_radians(),
+        lod_scale: 1.0,
+    }
+}
+
+/// One frame; milliseconds of the update, without what stands for rays and disk.
+fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Optics, now_s: f64) -> f64 {
+    let summary = |_: NodeKey| NodeSummary { min: 0.4, max: 0.6 };
+    let rules = IndexRules { shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None };
+    let moment =
+        Moment { rules, summary: &summary, now_s, is_still: false, fade_s: 0.3, most_in_flight: 1 << 20 };
+    let leaf = |place: &u32| {
+        let node = set.cut.node(*place);
+        node.shown_child().is_none() && shape.contains(node.key)
+    };
+    let met: Vec<Met> = set
+        .cut
+        .walk_shown()
+        .filter(leaf)
+        .map(|place| Met { key: set.cut.node(place).key, rays: place % 97 })
+        .collect();
+    let started = Instant::now();
+    set.update(&moment, &met);
+    let mut spent = started.elapsed();
+    for key in set.wanted().to_vec() {
+        set.arrived(key, 0.0, 1.0);
+    }
+    let started = Instant::now();
+    set.show(&moment);
+    std::hint::black_box(corner_weights(&set.cut));
+    spent += started.elapsed();
+    spent.as_secs_f64() * 1e3
+}
+
+/// The pixel size with which about so many nodes are resident, and a working set at rest with it.
+fn settled(shape: &OctreeShape, optics: &Optics, nodes: usize) -> (f64, WorkingSet) {
+    let (mut low, mut high) = (1e-5, 1.0);
+    loop {
+        let pixel = f64::sqrt(low * high);
+        let mut set = WorkingSet::new(NodeSummary { min: 0.4, max: 0.6 }, 1 << 20);
+        let mut before = 0;
+        for n in 0..200 {
+            frame(&mut set, shape, &rule(pixel, 0.7), optics, f64::from(n) * 0.1);
+            let now = set.cut.walk().count();
+            if (now == before && n > 12) || now > 2 * nodes {
+                break;
+            }
+            before = now;
+        }
+        let found = set.cut.walk().count();
+        if found.abs_diff(nodes) * 8 < nodes || high / low < 1.0001 {
+            return (pixel, set);
+        }
+        if found > nodes { low = pixel } else { high = pixel }
+    }
+}
+
+fn main() {
+    let rounds: u32 = std::env::var("LIGHTLOOM_BENCH_ROUNDS")
+        .map_or(60, |text| text.parse().expect("the number of rounds is a whole number"));
+    let (shape, optics) = (OctreeShape::new(UVec3::splat(EDGE)), optics());
+    println!("One update on one core, the median and the largest of {rounds} frames\n");
+    println!("| nodes | families that came or went a frame | ms, median | ms, 90 % | µs per node · log2 |");
+    println!("| ---: | ---: | ---: | ---: | ---: |");
+    for size in SIZES {
+        let (pixel, mut set) = settled(&shape, &optics, size);
+        let (mut times, mut nodes, mut changes) = (Vec::new(), 0, 0);
+        for n in 0..rounds {
+            let z = 0.7 + 0.05 * (f64::from(n) * 0.1).sin();
+            let now_s = 100.0 + f64::from(n) / 60.0;
+            times.push(frame(&mut set, &shape, &rule(pixel, z), &optics, now_s));
+            nodes += set.cut.walk().count();
+            changes += set.splits + set.collapses;
+        }
+        times.sort_by(f64::total_cmp);
+        let nodes = nodes as f64 / f64::from(rounds);
+        let median = times[times.len() / 2];
+        println!(
+            "| {nodes:.0} | {:.1} | {median:.3} | {:.3} | {:.4} |",
+            changes as f64 / f64::from(rounds),
+            times[times.len() * 9 / 10],
+            1e3 * median / (nodes * nodes.log2())
+        );
+    }
+}
