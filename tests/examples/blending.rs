@@ -67,7 +67,7 @@ fn main() {
     println!("| scene | how | samples per ray | processor time, ms | ratio |");
     println!("| --- | --- | ---: | ---: | ---: |");
     for (base, light) in
-        [(blending_scenes::busy as fn(&Display) -> TestScene, true), (blending_scenes::sparse, false)]
+        [(blending_scenes::busy as fn(&Display) -> TestScene, true), (blending_scenes::half_hidden, false)]
     {
         for light in [None, light.then(Light::default)].into_iter().take(1 + usize::from(light)) {
             let mut scene = base(&display);

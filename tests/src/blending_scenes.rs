@@ -20,12 +20,21 @@ pub fn busy(display: &Display) -> TestScene {
     scene(display, "bumps", source, &extinction)
 }
 
-/// A shell around the middle and nothing else to be seen; each node knows the range of its own samples.
-pub fn sparse(display: &Display) -> TestScene {
-    let ball = |p: DVec3| 1.0 - ((p - 56.0).length() / 56.0).min(1.0) + 0.02 * (0.9 * p.x).sin();
-    let volume = ClosureVolume::new(UVec3::splat(112), (-0.02, 1.02), ball);
+/// Stripes that only coarser levels sample, at whole numbers of voxels, in the half of which the finest level shows nothing;
+/// each node knows the range of its own samples and of those below it.
+pub fn half_hidden(display: &Display) -> TestScene {
+    let field = |p: DVec3| {
+        let wave = (0.2 * p.x).sin() * (0.15 * p.y + 0.5).cos();
+        let stripes = (std::f64::consts::PI * p.x).cos().powi(2);
+        if p.z < 56.0 {
+            0.2 + 0.05 * wave + 0.3 * stripes * (1.0 + (0.1 * p.y).sin())
+        } else {
+            0.5 + 0.3 * wave
+        }
+    };
+    let volume = ClosureVolume::new(UVec3::splat(112), (0.0, 1.0), field);
     let source: Arc<dyn BrickSource> = Arc::new(WithOwnRanges::new(volume));
-    scene(display, "a shell", source, &vec![(0.3, 0.0), (0.38, 0.3), (0.46, 0.0)])
+    scene(display, "half hidden", source, &vec![(0.4, 0.0), (0.5, 0.02), (1.0, 0.1)])
 }
 
 fn scene(
@@ -46,15 +55,19 @@ pub fn is_split(key: NodeKey) -> bool {
     key.depth == 0 || (key.depth == 1 && key.cell.element_sum() % 2 == 0)
 }
 
-/// 0 where a coarser leaf touches the corner; else 1 at half of the corners and anything at the others.
+/// 0 where a coarser leaf touches the corner, 1 where a finer one does, which there shows the samples of this depth alone;
+/// elsewhere anything.
 pub fn weight(corner: Corner) -> f64 {
     if corner.touches_coarser {
         return 0.0;
     }
+    if corner.touches_finer {
+        return 1.0;
+    }
     let [x, y, z] = corner.point.to_array().map(u64::from);
     let hash =
         (x + 11 * (y + 11 * (z + 11 * u64::from(corner.depth))) + 7).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    if hash >> 63 == 1 { 1.0 } else { (hash >> 40 & 0xff) as f64 / 255.0 }
+    (hash >> 40 & 0xff) as f64 / 255.0
 }
 
 /// A scene's cut with those weights.
@@ -75,12 +88,12 @@ pub const LOOKS: [(&str, Change); 8] = [
     }),
     ("quadrilinear", |frame| {
         frame.quality.quadrilinear = true;
-        frame.quality.lod_scale = 1.6;
+        frame.quality.lod_scale = 0.6;
     }),
     ("quadrilinear, Phong", |frame| {
         frame.light = Some(Light::default());
         frame.quality.quadrilinear = true;
-        frame.quality.lod_scale = 1.6;
+        frame.quality.lod_scale = 0.6;
     }),
     ("refraction", |frame| {
         let index = Curve::new(vec![(0.15, 1.0), (0.5, 1.08), (0.9, 1.12)]).expect("the points rise");

@@ -25,6 +25,8 @@ pub struct Corner {
     pub point: UVec3,
     /// Whether a coarser leaf touches it.
     pub touches_coarser: bool,
+    /// Whether a finer leaf touches it.
+    pub touches_finer: bool,
 }
 
 /// A cut over a source.
@@ -55,7 +57,7 @@ impl Presented {
         let code = |corner| ((weight(corner) * 255.0).round() / 255.0) as f32;
         let weights = leaves
             .iter()
-            .map(|&key| (key, std::array::from_fn(|i| code(corner_of(&leaves, key, i as u32)))))
+            .map(|&key| (key, std::array::from_fn(|i| code(corner_of(&leaves, &inner, key, i as u32)))))
             .collect();
         Self { source, inner, weights }
     }
@@ -139,17 +141,23 @@ impl Presented {
 }
 
 /// Corner x + 2 y + 4 z of a leaf.
-fn corner_of(leaves: &HashSet<NodeKey>, key: NodeKey, corner: u32) -> Corner {
+fn corner_of(leaves: &HashSet<NodeKey>, inner: &HashSet<NodeKey>, key: NodeKey, corner: u32) -> Corner {
     let offset = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2);
     let point = key.cell + offset;
     let around =
         (0..8u32).map(|i| point.as_ivec3() - IVec3::from([i & 1, i >> 1 & 1, i >> 2].map(|c| c as i32)));
-    let is_coarse = |cell: IVec3| {
-        let inside = cell.min_element() >= 0 && cell.max_element() < 1 << key.depth;
-        let at = NodeKey { depth: key.depth, cell: cell.max(IVec3::ZERO).as_uvec3() };
-        inside && std::iter::successors(at.parent(), |key| key.parent()).any(|above| leaves.contains(&above))
+    let inside = |cell: &IVec3| cell.min_element() >= 0 && cell.max_element() < 1 << key.depth;
+    let nodes: Vec<NodeKey> =
+        around.filter(inside).map(|cell| NodeKey { depth: key.depth, cell: cell.as_uvec3() }).collect();
+    let lies_in_leaf = |node: &NodeKey| {
+        std::iter::successors(node.parent(), |key| key.parent()).any(|above| leaves.contains(&above))
     };
-    Corner { depth: key.depth, point, touches_coarser: around.into_iter().any(is_coarse) }
+    Corner {
+        depth: key.depth,
+        point,
+        touches_coarser: nodes.iter().any(lies_in_leaf),
+        touches_finer: nodes.iter().any(|node| inner.contains(node)),
+    }
 }
 
 impl TwinScene {

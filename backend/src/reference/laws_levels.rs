@@ -3,6 +3,7 @@
 use super::test_scene::*;
 use super::{Field, Integrator, Radiance, Ray, Reference, StoredField, Tracer};
 use crate::protocol::FrameState;
+use crate::store::NodeKey;
 use crate::working_set::LodRule;
 use glam::{DVec3, UVec3};
 use shaders::optics::{Curve, Detail, Light, Material, Optics, Quality};
@@ -157,13 +158,48 @@ fn a_walk_shows_the_values_of_the_points() {
             std::ops::ControlFlow::Continue(())
         }
     }
-    let field = StoredField::quadrilinear(source(120), &LodRule { pixel_size_m: 0.8 * VOXEL_M, ..deep() });
+    let rule = LodRule { pixel_size_m: 0.8 * VOXEL_M, ..deep() };
     let line = Ray::new(DVec3::new(-0.1, 0.2, 0.05), DVec3::new(0.8, 0.3, 0.9))
         .line(&frame(busy(), None).display_from_volume.inverse());
-    let within = line.clip(field.extent(), (0.0, f64::INFINITY)).unwrap();
-    let mut check = Check(&field, line, 0);
-    field.walk(&line, within, 1e-10, &mut check).unwrap();
-    assert!(check.2 > 100, "{}", check.2);
+    for field in [StoredField::quadrilinear(source(120), &rule), blended(), blended().filtered(&rule)] {
+        let within = line.clip(field.extent(), (0.0, f64::INFINITY)).unwrap();
+        let mut check = Check(&field, line, 0);
+        field.walk(&line, within, 1e-10, &mut check).unwrap();
+        assert!(check.2 > 100, "{}", check.2);
+    }
+}
+
+/// Weights of every kind at the corners of the eight leaves of 112 voxels' depth 1, one of which is split.
+fn blended() -> StoredField {
+    let split = NodeKey::ROOT.child(3);
+    let leaves = (0..8).map(|octant| NodeKey::ROOT.child(octant)).filter(|&leaf| leaf != split);
+    let leaves = leaves.chain((0..8).map(|octant| split.child(octant)));
+    let weights =
+        |leaf: NodeKey| std::array::from_fn(|i| f64::from((leaf.cell.x as usize + 3 * i) as u32 % 5) / 4.0);
+    StoredField::presented(source(112), leaves.map(|leaf| (leaf, weights(leaf))), &busy())
+}
+
+#[test]
+fn a_corner_has_its_weight_and_the_parent_has_the_rest() {
+    let key = NodeKey { depth: 2, cell: UVec3::new(1, 2, 0) };
+    let all = |depth: u8| {
+        (0..1 << depth).flat_map(move |x| {
+            (0..1 << depth)
+                .flat_map(move |y| (0..1 << depth).map(move |z| NodeKey { depth, cell: UVec3::new(x, y, z) }))
+        })
+    };
+    let weights: [f64; 8] = std::array::from_fn(|i| 0.1 * i as f64 + 0.15);
+    let of = |depth: u8, weights: [f64; 8]| {
+        StoredField::presented(source(112), all(depth).map(|leaf| (leaf, weights)), &busy())
+    };
+    let [blended, own, parent] = [of(2, weights), of(2, [1.0; 8]), of(1, [1.0; 8])];
+    for (corner, weight) in weights.into_iter().enumerate() {
+        let far =
+            [corner & 1, corner >> 1 & 1, corner >> 2].map(|bit| if bit == 1 { 1.0 - 1e-9 } else { 1e-9 });
+        let at = (key.cell.as_dvec3() + DVec3::from_array(far)) * 28.0;
+        let [seen, own, parent] = [&blended, &own, &parent].map(|field| field.value(at).unwrap());
+        assert!((seen - (parent + (own - parent) * weight)).abs() < 1e-8 && (own - parent).abs() > 1e-4);
+    }
 }
 
 #[test]
