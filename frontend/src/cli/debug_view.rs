@@ -6,7 +6,7 @@ use shaders::compose::DebugView;
 /// See [`DebugView`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DebugViewArg {
-    /// Light in the colour of the level that it comes from: the finest is blue, 6 levels above it yellow.
+    /// Light in the colour of the level that it comes from: the finest is blue, 4 levels above it yellow.
     Lod,
     /// Light in the colour of what its node lacks: fine enough is blue, 4 levels too coarse yellow.
     Deficit,

@@ -92,7 +92,7 @@ fn key(report: &Report, out: &Path) -> Result<String, OutputError> {
     let image = embedded_image(&out.join(debug.legend), &format!("colours of {numbers}"), None)?;
     Ok(format!(
         "<h2>In place of the pictures</h2><figure class=\"key\">{image}\
-         <figcaption><b>{}</b> from left to right: {}</figcaption></figure>",
+         <figcaption><b>{}</b>; from left to right: {}</figcaption></figure>",
         escape(debug.shows),
         escape(&numbers)
     ))

@@ -27,8 +27,8 @@ impl DebugView {
     /// The values at the ends of the scale; what lies beyond has the colour of the end.
     pub fn scale(self) -> (f64, f64) {
         match self {
-            Self::Lod => (0.0, 6.0),
-            Self::Deficit => (0.0, 4.0),
+            // Few displays see more than three levels of a volume at once; each is a colour of its own.
+            Self::Lod | Self::Deficit => (0.0, 4.0),
             Self::Samples => (0.0, 1024.0),
             Self::Weights => (0.0, 1.0),
         }

@@ -15,14 +15,14 @@ pub(super) struct FrameFeedback {
     places: usize,
     /// Whether what the table holds is of an earlier frame, or of another index.
     is_stale: bool,
-    copies: UnderWay<Copy>,
+    copies: UnderWay<TableCopy>,
     /// Host-visible buffers that no copy uses.
     free: Vec<wgpu::Buffer>,
 }
 
 /// A table on its way to the host.
 #[derive(Debug)]
-struct Copy {
+struct TableCopy {
     buffer: wgpu::Buffer,
     places: usize,
     /// Told once, when the copy can be read or has failed.
@@ -77,7 +77,7 @@ impl FrameFeedback {
             // A closed channel means that this table was given up.
             let _ = tell.send(outcome);
         });
-        self.copies.start(Copy { buffer, places: self.places, told });
+        self.copies.start(TableCopy { buffer, places: self.places, told });
     }
 
     /// A buffer that no copy uses, of at least so many bytes.
@@ -113,7 +113,7 @@ impl FrameFeedback {
                 true
             }
         });
-        let Some(Copy { buffer, places, .. }) = arrived else { return Ok(None) };
+        let Some(TableCopy { buffer, places, .. }) = arrived else { return Ok(None) };
         if let Some(why) = outcome {
             return Err(failed(why));
         }
