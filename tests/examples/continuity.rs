@@ -35,6 +35,8 @@ const USAGE: &str = "give [-o DIR] [--fade S] [--blended true|false] [--frames N
 const PROJECTOR: u32 = 36;
 /// Every so many frames, borders are looked for.
 const BORDERS_EVERY: usize = 10;
+/// See [`continuity`].
+const LEAST_FRAMES: u32 = 4;
 /// Difference pictures are so much brighter.
 const GAIN: f32 = 8.0;
 
@@ -81,6 +83,11 @@ fn arguments() -> Result<Arguments, String> {
             }
             _ => return Err(format!("`{flag}` is unknown; {USAGE}")),
         }
+    }
+    if found.frames < LEAST_FRAMES {
+        return Err(format!(
+            "`--frames` must be at least {LEAST_FRAMES}: a pop is told from so many pictures"
+        ));
     }
     Ok(found)
 }
