@@ -24,7 +24,7 @@ use lightloom_tests::motion::{
 };
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::scenes::{self, with_raster};
-use shaders::optics::Optics;
+use shaders::optics::{Light, Optics};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -229,7 +229,7 @@ fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[P
     let mut outcome = play(stage, &coarse);
     let middle = fine.len() / 2;
     for (number, (image, surface)) in outcome.images.iter_mut().zip(surfaces).enumerate() {
-        let is_coarse = |leaf: &Shown| (leaf.leaf.depth % 2 == 0) == (number < middle);
+        let is_coarse = |leaf: &Shown| leaf.leaf.depth.is_multiple_of(2) == (number < middle);
         let kept = surface.iter().map(|shown| shown.as_ref().is_some_and(is_coarse));
         let pixels = image.rgba.chunks_exact_mut(4).zip(fine[number].rgba.chunks_exact(4));
         for ((pixel, fine), _) in pixels.zip(kept).filter(|(_, kept)| !kept) {
@@ -294,7 +294,10 @@ fn main() -> Result<(), String> {
         frames,
     };
     let stage = Stage { display, source, device, out };
-    let moving = approach.frames(&stage.display, &*stage.source, &optics(edge));
+    // Gradients are per voxel, and voxels are small here: surfaces are to be shaded all the same.
+    let light =
+        Light { gradient_half: 0.2 / f64::from(edge), ambient: 0.1, diffuse: 0.9, ..Light::default() };
+    let moving = approach.frames(&stage.display, &*stage.source, &optics(edge), light);
     let live = |fade_s| Pace::Live { upload_bytes: upload_mib << 20, fade_s };
     let blends = Manner { name: "live, blended", pace: live(fade_s), blended: true };
     let jumps = Manner { name: "live, not blended", pace: live(0.0), blended: false };

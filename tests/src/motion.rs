@@ -30,15 +30,20 @@ pub struct Approach {
 }
 
 impl Approach {
-    /// The frames, complete ones, shaded.
-    pub fn frames(&self, display: &Display, source: &dyn BrickSource, optics: &Optics) -> Vec<FrameState> {
-        let light = Some(Light::default());
+    /// The frames, complete ones.
+    pub fn frames(
+        &self,
+        display: &Display,
+        source: &dyn BrickSource,
+        optics: &Optics,
+        light: Light,
+    ) -> Vec<FrameState> {
         let along = |index: u32| f64::from(index) / f64::from(self.frames.max(2) - 1);
         let length = |index| self.from_m * (self.to_m / self.from_m).powf(along(index));
         let frame = |index| {
             let place = scenes::placed(source, length(index), self.rotation);
             let time_s = f64::from(index) / FRAMES_PER_SECOND;
-            FrameState { index, time_s, ..scenes::frame(display, place, optics.clone(), light) }
+            FrameState { index, time_s, ..scenes::frame(display, place, optics.clone(), Some(light)) }
         };
         (0..self.frames).map(frame).collect()
     }
