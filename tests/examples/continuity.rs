@@ -8,7 +8,8 @@
 //! One projector of holo72 with a reduced raster, and nested shells that double in size in one second. Complete frames tell
 //! what motion alone changes, and what pops when the rule of detail changes its mind; live ones what loading adds, from an
 //! empty cache: with blending (`--fade`, half a second without it) and without it. `--blended` picks one of the two. With
-//! the object still, all that changes is detail that comes.
+//! the object still, all that changes is detail that comes. The canary is a sequence with seams and a jump of detail: both
+//! measures have to find them.
 
 use backend::output::write_png;
 use backend::protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
@@ -23,7 +24,7 @@ use lightloom_tests::motion::{
 };
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::scenes::{self, with_raster};
-use shaders::optics::Optics;
+use shaders::optics::{Light, Optics};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -34,6 +35,8 @@ const USAGE: &str = "give [-o DIR] [--fade S] [--blended true|false] [--frames N
 const PROJECTOR: u32 = 36;
 /// Every so many frames, borders are looked for.
 const BORDERS_EVERY: usize = 10;
+/// See [`continuity`].
+const LEAST_FRAMES: u32 = 4;
 /// Difference pictures are so much brighter.
 const GAIN: f32 = 8.0;
 
@@ -80,6 +83,11 @@ fn arguments() -> Result<Arguments, String> {
             }
             _ => return Err(format!("`{flag}` is unknown; {USAGE}")),
         }
+    }
+    if found.frames < LEAST_FRAMES {
+        return Err(format!(
+            "`--frames` must be at least {LEAST_FRAMES}: a pop is told from so many pictures"
+        ));
     }
     Ok(found)
 }
@@ -211,25 +219,53 @@ fn row(
     );
 }
 
+/// What both measures must find: pictures whose leaves of even depth are too coarse by three levels, and from the middle
+/// of the sequence on those of odd depth instead.
+fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[ProjectorImage]) -> Outcome {
+    let mut coarse = frames.to_vec();
+    for frame in &mut coarse {
+        frame.quality.lod_scale *= 8.0;
+    }
+    let mut outcome = play(stage, &coarse);
+    let middle = fine.len() / 2;
+    for (number, (image, surface)) in outcome.images.iter_mut().zip(surfaces).enumerate() {
+        let is_coarse = |leaf: &Shown| leaf.leaf.depth.is_multiple_of(2) == (number < middle);
+        let kept = surface.iter().map(|shown| shown.as_ref().is_some_and(is_coarse));
+        let pixels = image.rgba.chunks_exact_mut(4).zip(fine[number].rgba.chunks_exact(4));
+        for ((pixel, fine), _) in pixels.zip(kept).filter(|(_, kept)| !kept) {
+            pixel.copy_from_slice(fine);
+        }
+    }
+    outcome
+}
+
 fn measure(stage: &Stage, motion: &str, frames: &[FrameState], manners: &[Manner]) -> Result<(), String> {
     let surfaces = surfaces(stage, frames);
     let raster = &stage.display.projectors[PROJECTOR as usize].raster;
     let pixel_m = stage.display.width_m / f64::from(raster.width);
-    let mut truth: Option<ProjectorImage> = None;
-    for manner in manners {
-        let outcome = play(stage, &manner.of(frames));
+    let mut truth: Option<Vec<ProjectorImage>> = None;
+    let mut tell = |name: &str, outcome: &Outcome| {
+        let truth = truth.get_or_insert_with(|| outcome.images.clone());
         let whole = continuity(&outcome.images, |_, _| true);
         let found = continuity(&outcome.images, |first, pixel| stays(&surfaces, first, pixel, pixel_m));
         let borders = worst_borders(&surfaces, &outcome.images, pixel_m);
-        let name = format!("{motion}, {}", manner.name);
-        let last = outcome.images.last().ok_or("a sequence has at least one frame")?;
-        let truth = truth.get_or_insert_with(|| last.clone());
-        row(&name, whole, found, borders, Spread::of(steps(last, truth)), &outcome);
-        if let Some(folder) = &stage.out {
-            write_pictures(folder, &name, &outcome.images, found.pops_at)?;
+        let name = format!("{motion}, {name}");
+        let ends = outcome.images.last().zip(truth.last());
+        let last = ends.map_or_else(Vec::new, |(image, truth)| steps(image, truth));
+        row(&name, whole, found, borders, Spread::of(last), outcome);
+        match &stage.out {
+            Some(folder) => write_pictures(folder, &name, &outcome.images, found.pops_at),
+            None => Ok(()),
         }
-        if matches!(manner.pace, Pace::Live { .. }) && outcome.live == 0 {
-            eprintln!("{name}: this renderer drew every frame complete");
+    };
+    let complete = play(stage, frames);
+    tell("complete", &complete)?;
+    tell("canary", &spoiled(stage, frames, &surfaces, &complete.images))?;
+    for manner in manners {
+        let outcome = play(stage, &manner.of(frames));
+        tell(manner.name, &outcome)?;
+        if outcome.live == 0 {
+            eprintln!("{motion}, {}: this renderer drew every frame complete", manner.name);
         }
     }
     Ok(())
@@ -258,13 +294,15 @@ fn main() -> Result<(), String> {
         frames,
     };
     let stage = Stage { display, source, device, out };
-    let moving = approach.frames(&stage.display, &*stage.source, &optics(edge));
+    // Gradients are per voxel, and voxels are small here: surfaces are to be shaded all the same.
+    let light =
+        Light { gradient_half: 0.2 / f64::from(edge), ambient: 0.1, diffuse: 0.9, ..Light::default() };
+    let moving = approach.frames(&stage.display, &*stage.source, &optics(edge), light);
     let live = |fade_s| Pace::Live { upload_bytes: upload_mib << 20, fade_s };
-    let complete = Manner { name: "complete", pace: Pace::Complete, blended: true };
     let blends = Manner { name: "live, blended", pace: live(fade_s), blended: true };
     let jumps = Manner { name: "live, not blended", pace: live(0.0), blended: false };
-    let mut manners = vec![complete];
-    manners.extend([blends, jumps].into_iter().filter(|manner| blended.is_none_or(|b| b == manner.blended)));
+    let is_asked_for = |manner: &Manner| blended.is_none_or(|b| b == manner.blended);
+    let manners: Vec<Manner> = [blends, jumps].into_iter().filter(is_asked_for).collect();
     println!(
         "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
         raster.0, raster.1

@@ -258,11 +258,12 @@ fn arguments() -> Result<(DeviceChoice, String), String> {
 fn main() -> Result<(), String> {
     let (device, only) = arguments()?;
     let holo = Display::load("holo72").map_err(|error| error.to_string())?;
-    let subjects: Vec<Subject> = [cranium(), Some(shells(4096, 0.79)), Some(vessels(4096, 0.79))]
-        .into_iter()
-        .flatten()
-        .filter(|subject| subject.name.contains(&only))
-        .collect();
+    let subjects: Vec<Subject> =
+        [cranium(), Some(shells(4096, holo.height_m)), Some(vessels(4096, holo.height_m))]
+            .into_iter()
+            .flatten()
+            .filter(|subject| subject.name.contains(&only))
+            .collect();
     visibility(&holo, &subjects, device);
     for subject in [shells(2048, holo.height_m)].into_iter().filter(|subject| subject.name.contains(&only)) {
         back_ends(&holo, &subject, device);

@@ -24,6 +24,9 @@ use rayon::prelude::*;
 const FARTHEST_PX: f64 = 2.5;
 /// Share of the light that is left at the point that a pixel shows.
 const SHOWN_AT: f64 = 0.5;
+/// From the first to the second share, light must fall within the same distance: what is thinner is haze, or a rim.
+const STILL_CLEAR: f64 = 0.95;
+const QUITE_DARK: f64 = 0.02;
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +51,7 @@ pub struct BorderSteps {
 }
 
 /// What the pixels of one projector show, row by row: by the field itself, so whatever levels a picture was made of.
+/// None where a ray loses its light bit by bit or not at all.
 pub fn shown(
     display: &Display,
     projector: u32,
@@ -61,6 +65,7 @@ pub fn shown(
         .expect("a test scene goes with its display");
     let rule = LodRule::new(display, frame);
     let volume_from_display = frame.display_from_volume.inverse();
+    let pixel_m = display.width_m / f64::from(raster.width);
     let unit = f64::from(shape.dims().max_element());
     // The display resolves no less on its screen.
     let step_m = 0.5 * display.pixel_size_m;
@@ -70,19 +75,29 @@ pub fn shown(
         let origin = volume_from_display.transform_point3(ray.origin_in_display);
         let direction = volume_from_display.transform_vector3(ray.direction_in_display);
         let (from, to) = passage(origin, direction, shape.dims().as_dvec3())?;
-        let mut depth = 0.0;
+        let (mut depth, mut entered, mut halfway) = (0.0, from, None);
         for step in 0..((to - from) / step_m).ceil() as u32 {
             let distance = from + (f64::from(step) + 0.5) * step_m;
             let position = origin + direction * distance;
             let s = frame.optics.normalise(field.value(position / unit));
-            let more = per_step * frame.optics.extinction.at(s);
-            let needed = -SHOWN_AT.ln() - depth;
-            if more >= needed {
-                let point = ray.at(distance + step_m * (needed / more - 0.5));
-                let leaf = leaf_at(&rule, shape, volume_from_display.transform_point3(point));
-                return Some(Shown { point_in_display: point, leaf });
+            let before = depth;
+            depth += per_step * frame.optics.extinction.at(s);
+            let passes = |left: f64| before < -left.ln() && depth >= -left.ln();
+            if passes(STILL_CLEAR) {
+                entered = distance;
             }
-            depth += more;
+            if passes(SHOWN_AT) {
+                let part = (-SHOWN_AT.ln() - before) / (depth - before);
+                halfway = Some(distance + step_m * (part - 0.5));
+            }
+            if passes(QUITE_DARK) {
+                let is_surface = distance - entered < FARTHEST_PX * pixel_m;
+                return halfway.filter(|_| is_surface).map(|distance| {
+                    let point = ray.at(distance);
+                    let position = volume_from_display.transform_point3(point);
+                    Shown { point_in_display: point, leaf: leaf_at(&rule, shape, position) }
+                });
+            }
         }
         None
     };

@@ -93,8 +93,9 @@ fn doubled_voxels(raw: &[u8], dims: UVec3) -> Vec<u8> {
         i32::from(i16::from_le_bytes([raw[at], raw[at + 1]]))
     };
     // Between voxels i / 2 and the one before or after it, three quarters of the way toward the former.
-    let near_far =
-        |i: u32, n: u32| (i / 2, if i % 2 == 0 { (i / 2).saturating_sub(1) } else { (i / 2 + 1).min(n - 1) });
+    let near_far = |i: u32, n: u32| {
+        (i / 2, if i.is_multiple_of(2) { (i / 2).saturating_sub(1) } else { (i / 2 + 1).min(n - 1) })
+    };
     let voxel = |x, y, z| {
         let [xs, ys, zs] = [near_far(x, dims.x), near_far(y, dims.y), near_far(z, dims.z)];
         let along_x = |y, z| 3 * value(UVec3::new(xs.0, y, z)) + value(UVec3::new(xs.1, y, z));

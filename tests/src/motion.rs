@@ -30,15 +30,20 @@ pub struct Approach {
 }
 
 impl Approach {
-    /// The frames, complete ones, shaded.
-    pub fn frames(&self, display: &Display, source: &dyn BrickSource, optics: &Optics) -> Vec<FrameState> {
-        let light = Some(Light::default());
+    /// The frames, complete ones.
+    pub fn frames(
+        &self,
+        display: &Display,
+        source: &dyn BrickSource,
+        optics: &Optics,
+        light: Light,
+    ) -> Vec<FrameState> {
         let along = |index: u32| f64::from(index) / f64::from(self.frames.max(2) - 1);
         let length = |index| self.from_m * (self.to_m / self.from_m).powf(along(index));
         let frame = |index| {
             let place = scenes::placed(source, length(index), self.rotation);
             let time_s = f64::from(index) / FRAMES_PER_SECOND;
-            FrameState { index, time_s, ..scenes::frame(display, place, optics.clone(), light) }
+            FrameState { index, time_s, ..scenes::frame(display, place, optics.clone(), Some(light)) }
         };
         (0..self.frames).map(frame).collect()
     }
@@ -128,18 +133,23 @@ pub struct Continuity {
     pub pops_at: usize,
 }
 
-/// Measures a sequence, four pictures at a time. `counts(first, pixel)` tells whether a pixel of the pictures `first` to
+/// Measures a sequence of four pictures or more. `counts(first, pixel)` tells whether a pixel of the pictures `first` to
 /// `first + 3` is looked at: where a silhouette passes, a pixel jumps whatever the detail does.
 pub fn continuity(images: &[ProjectorImage], counts: impl Fn(usize, usize) -> bool) -> Continuity {
+    assert!(images.len() >= 4, "a pop is told from four pictures");
+    let kept = |first, numbers: Vec<f64>| {
+        let of = numbers.into_iter().enumerate().filter(|&(pixel, _)| counts(first, pixel));
+        Spread::of(of.map(|(_, number)| number).collect())
+    };
     let none = Spread::of(Vec::new());
     let mut found = Continuity { step: none, pop: none, pops_at: 0 };
+    for (number, pair) in images.windows(2).enumerate() {
+        // The first and the last step have no four pictures around them: the nearest four tell.
+        let first = number.saturating_sub(1).min(images.len() - 4);
+        found.step = found.step.max(kept(first, steps(&pair[0], &pair[1])));
+    }
     for (first, w) in images.windows(4).enumerate() {
-        let kept = |numbers: Vec<f64>| {
-            let of = numbers.into_iter().enumerate().filter(|&(pixel, _)| counts(first, pixel));
-            Spread::of(of.map(|(_, number)| number).collect())
-        };
-        found.step = found.step.max(kept(steps(&w[1], &w[2])));
-        let pop = kept(pops([&w[0], &w[1], &w[2], &w[3]]));
+        let pop = kept(first, pops([&w[0], &w[1], &w[2], &w[3]]));
         if pop.max > found.pop.max {
             found.pops_at = first + 2;
         }
@@ -181,6 +191,12 @@ mod tests {
         let images: Vec<_> = (0..8).map(|i| image(0.125 * i as f32)).collect();
         let found = continuity(&images, |_, _| true);
         assert_eq!((found.step.max, found.pop.max), (0.125, 0.0));
+    }
+
+    #[test]
+    fn the_first_step_counts() {
+        let images: Vec<_> = (0..8).map(|i| image(if i == 0 { 0.0 } else { 0.5 })).collect();
+        assert_eq!(continuity(&images, |_, _| true).step.max, 0.5);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Recorded sessions: what rays asked for, frame by frame, to compare policies without casting a ray.
+//! Recorded sequences of frames: what rays asked for in each, to compare policies without casting a ray.
 //!
 //! A trace tells the demand, not the feedback on one cut: which regions rays sampled, and at which level. So a replay can
 //! map it onto whatever cut its own policy has made.
