@@ -76,6 +76,7 @@ pub struct CastJob<'a> {
 
 impl CastJob<'_> {
     /// Rays that it casts.
+    #[cfg(feature = "gpu")]
     pub(super) fn rays(&self) -> u64 {
         let [width, height] = self.view.raster;
         self.tiles.iter().map(|&tile| self.grid.rays(tile, width, height)).sum()
