@@ -29,9 +29,15 @@ pub const SAMPLE_BYTES: u64 = 2 * BRICK_VOXELS as u64;
 /// # Errors
 /// It cannot be had.
 pub(super) fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickError> {
-    catch_unwind(AssertUnwindSafe(|| source.brick(key).and_then(|brick| unpack(brick, key)))).unwrap_or_else(
-        |_| Err(BrickError::damaged(format!("reading brick {key:?} failed inside the program"))),
-    )
+    let read = || {
+        // Who splits the node asks for its children's bounds, and must not wait for the disk then.
+        let children = (0..8).map(|octant| key.child(octant));
+        children.filter(|&child| source.shape().contains(child)).for_each(|child| _ = source.summary(child));
+        source.brick(key).and_then(|brick| unpack(brick, key))
+    };
+    catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
+        Err(BrickError::damaged(format!("reading brick {key:?} failed inside the program")))
+    })
 }
 
 fn unpack(brick: Brick, key: NodeKey) -> Result<LoadedBrick, BrickError> {
