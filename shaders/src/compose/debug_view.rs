@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A view of the working set in place of the picture. Colours are those of [`crate::twin::debug::heat`].
+/// A view of the working set in place of the picture. Colours are those of [`crate::twin::debug::heat()`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DebugView {
