@@ -30,6 +30,17 @@ fn every_permutation_is_valid() {
 }
 
 #[test]
+fn blending_is_seen_with_every_slot_that_looks_at_it_and_no_more() {
+    let keys = KernelKey::samples();
+    let blended: Vec<_> = keys.iter().filter(|key| key.needs.blends).collect();
+    for key in &keys {
+        let slots = |key: &KernelKey| (key.needs.levels, key.needs.shading, key.needs.way);
+        assert!(blended.iter().any(|other| slots(other) == slots(key)), "{key:?}");
+    }
+    assert!(8 * blended.len() < keys.len(), "{} of {}", blended.len(), keys.len());
+}
+
+#[test]
 fn a_spoiled_kernel_is_not_valid() {
     let key = KernelKey::samples()[0];
     assert!(is_valid(&key.wgsl().replace("fn lighting(", "fn not_lighting(")).is_err());

@@ -52,7 +52,7 @@ fn scene(
 
 /// Half of the nodes of depth 1 are split, like the black squares of a chessboard.
 pub fn is_split(key: NodeKey) -> bool {
-    key.depth == 0 || (key.depth == 1 && key.cell.element_sum() % 2 == 0)
+    key.depth == 0 || (key.depth == 1 && key.cell.element_sum().is_multiple_of(2))
 }
 
 /// 0 where a coarser leaf touches the corner, 1 where a finer one does, which there shows the samples of this depth alone;

@@ -48,6 +48,9 @@ fn kept(scene: &TestScene) -> Limits {
     }
 }
 
+/// A wrong reading of a node's weights.
+type Spoil = fn([u32; 2]) -> [u32; 2];
+
 type Plainest = Full<Plain, Over>;
 
 fn display() -> Display {
@@ -125,7 +128,7 @@ fn twin_and_reference_tell_the_same_picture() {
         let errors = between(&seen, &numbers(&twin.cast(&exact, &pixels(&display, STRIDE))));
         println!("{:20} f32 against f64: {errors}", "");
         assert!(ROUNDING.hold(&errors), "{}: {errors}", scene.name);
-        let spoils: [(&str, fn([u32; 2]) -> [u32; 2]); 2] =
+        let spoils: [(&str, Spoil); 2] =
             [("no blending", |_| FULL_WEIGHTS), ("corners in another order", |[a, b]| [b.reverse_bits(), a])];
         for (what, spoil) in spoils {
             let errors = between(&twin_sees(&display, &scene, &with_weights(&twin, spoil), STRIDE), &truth);
@@ -165,7 +168,7 @@ fn kernel_and_twin_tell_the_same_picture() {
             twin.load(device);
             picture(device, twin.needs, &view)
         };
-        let Some((cpu, [gpu])) = devices.split_first_mut().map(|(cpu, rest)| (cpu, rest)) else { return };
+        let Some((cpu, [gpu])) = devices.split_first_mut() else { return };
         let (expected, samples) = draw(cpu, &twin);
         let (found, samples_found) = draw(gpu, &twin);
         let errors = between(&colours(&found), &colours(&expected));
