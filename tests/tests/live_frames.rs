@@ -5,11 +5,12 @@
 use backend::protocol::{DeviceChoice, FrameReport, FrameState, Pace, ProjectorImage};
 use backend::render::Renderer;
 use backend::store::{BrickSource, NodeKey};
-use backend::volume::procedural::{ProceduralVolume, field_named};
+use backend::volume::procedural::ProceduralVolume;
 use display_config::Display;
-use glam::{DQuat, DVec3, UVec3};
+use glam::{DQuat, UVec3};
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::faulty_source::{FOR_EVER, Fault, FaultySource};
+use lightloom_tests::remembered::Remembered;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use shaders::optics::{Light, Quality};
 use std::sync::Arc;
@@ -17,17 +18,20 @@ use std::time::Duration;
 
 /// Two neighbours of one back-end.
 const PROJECTORS: [u32; 2] = [35, 36];
+/// Voxels along an edge.
+const EDGE: u32 = 700;
 /// A view that has not come to rest by then does not.
 const MOST_FRAMES: u32 = 4000;
 
-/// Shells that take four depths at once on holo72.
+/// Shells that take three depths at once on holo72.
 fn scene(display: &Display) -> TestScene {
-    let size = UVec3::splat(700);
-    let volume = ProceduralVolume::new(field_named("shells").unwrap(), size, DVec3::splat(1e-3));
-    let source: Arc<dyn BrickSource> = Arc::new(volume);
-    let like = scenes::shells(display);
+    let volume = ProceduralVolume::new("shells", UVec3::splat(EDGE), 1e-3).unwrap();
+    let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(Arc::new(volume)));
+    let mut optics = scenes::shells(display).frame.optics;
+    // The scene's own volume has 128 voxels along an edge.
+    optics.extinction = scenes::scaled(&optics.extinction, 128.0 / f64::from(EDGE));
     let place = scenes::placed(&*source, 1.2, DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.7, 0.1));
-    let frame = scenes::frame(display, place, like.frame.optics.clone(), Some(Light::default()));
+    let frame = scenes::frame(display, place, optics, Some(Light::default()));
     TestScene { name: "shells", source, frame }
 }
 

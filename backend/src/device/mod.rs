@@ -11,6 +11,8 @@ pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use job::{CastJob, CastOutcome, Gather, TileGrid};
 
+pub(crate) use under_way::MOST_UNDER_WAY;
+
 use shaders::layout::{FeedbackEntry, NodeRecord};
 use shaders::tables::Tables;
 

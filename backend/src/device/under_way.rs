@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 /// Tables that may be under way: one that is read, one that is copied, and one to spare.
-const MOST: usize = 3;
+pub(crate) const MOST_UNDER_WAY: usize = 3;
 
 /// Tables under way, in the order of their frames.
 #[derive(Debug)]
@@ -13,7 +13,7 @@ pub(super) struct UnderWay<T> {
 
 impl<T> Default for UnderWay<T> {
     fn default() -> Self {
-        Self { tables: VecDeque::with_capacity(MOST) }
+        Self { tables: VecDeque::with_capacity(MOST_UNDER_WAY) }
     }
 }
 
@@ -21,7 +21,7 @@ impl<T> UnderWay<T> {
     /// Adds the table of the latest frame. Where nobody has taken tables for long the oldest is given up: a frame is
     /// never held up by tables, and what it says is told again by later ones.
     pub(super) fn start(&mut self, table: T) {
-        if self.tables.len() == MOST {
+        if self.tables.len() == MOST_UNDER_WAY {
             self.tables.pop_front();
         }
         self.tables.push_back(table);

@@ -24,6 +24,8 @@ const LEAST_IN_FLIGHT: u64 = 64;
 const HORIZON: Duration = Duration::from_millis(500);
 /// Bricks fetched ahead at a time.
 const MOST_AHEAD: usize = 128;
+/// Feedback tables under way: of more, the device gives up the oldest.
+const MOST_TABLES: usize = crate::device::MOST_UNDER_WAY;
 /// Bytes of a brick in the cache.
 const SLOT_BYTES: u64 = 2 * crate::store::BRICK_VOXELS as u64;
 
@@ -67,10 +69,10 @@ pub(super) fn draw(
 ) -> Result<FrameReport, RenderError> {
     let started = Instant::now();
     let Setting { views, needs, tables } = Setting::new(renderer, frame)?;
-    let mut live = renderer.live.take().unwrap_or_else(|| {
-        renderer.residency.set.restart();
-        Live::default()
-    });
+    let mut live = match renderer.live.take() {
+        Some(live) => live,
+        None => Live::start(renderer)?,
+    };
     let mut stages = Stages::default();
     let upload = Instant::now();
     renderer.device.write_tables(tables.clone());
@@ -109,6 +111,9 @@ pub(super) fn draw(
         sink(RenderEvent::Progress { done: rays, total });
     }
     renderer.device.end_feedback();
+    while live.tables.len() > MOST_TABLES {
+        live.tables.pop_front();
+    }
     live.last_rule = Some((rules.lod, frame.time_s));
     live.last = Some(frame.clone());
     let report = live.report(renderer, frame, upkeep, stages, (rays, samples), milliseconds(started));
@@ -117,6 +122,13 @@ pub(super) fn draw(
 }
 
 impl Live {
+    /// From the root alone: what complete frames left is no restricted cut, and tables of earlier frames are of no use.
+    fn start(renderer: &mut Renderer) -> Result<Self, RenderError> {
+        renderer.residency.set.restart();
+        while renderer.device.wait_feedback()?.is_some() {}
+        Ok(Self::default())
+    }
+
     /// Brings the working set up to the frame's time: what rays met, what to fetch, what has come, what is shown.
     fn keep_up(
         &mut self,
