@@ -126,7 +126,7 @@ fn a_small_cache_shows_something_that_stays() {
         let (images, report) = draw_with(&mut small, &live(&scene.frame, index));
         assert!(report.bricks_resident <= 96, "the cache holds 96 bricks");
         if index >= 500 {
-            assert!(index == 500 || images == last, "frame {index} flickers");
+            assert!(index == 500 || images == last, "frame {index} flickers: {:?}", report.upkeep);
             assert!(!report.complete && report.upkeep.unwrap().largest_deficit > 0.0);
         }
         last = images;

@@ -32,7 +32,7 @@ pub struct Upkeep {
     pub in_flight: u64,
     /// Bricks that were asked for and are not wanted any more.
     pub cancelled: u64,
-    /// Leaves that blend with their parent because detail comes or goes.
+    /// Leaves whose blend is on its way because detail comes or goes, there or beside them.
     pub fading: u64,
     /// The largest level-of-detail deficit that a ray met, levels; 0 where none was too coarse.
     pub largest_deficit: f64,

@@ -257,7 +257,6 @@ impl Live {
     fn upkeep(&self, renderer: &Renderer) -> Upkeep {
         let set = &renderer.residency.set;
         let leaves = || set.cut.walk_shown().filter(|&place| set.cut.node(place).shown_child().is_none());
-        let is_fading = |&place: &u32| set.cut.node(place).shown < 1.0;
         let coarse = |told: &Told| told.deficit.max(0.0);
         let rays: f64 = self.met.iter().map(|told| f64::from(told.rays)).sum();
         let weighted: f64 = self.met.iter().map(|told| f64::from(told.rays) * coarse(told)).sum();
@@ -268,7 +267,7 @@ impl Live {
             collapses: set.collapses,
             in_flight: set.wanted().len() as u64,
             cancelled: 0,
-            fading: leaves().filter(is_fading).count() as u64,
+            fading: set.moving,
             largest_deficit: self.met.iter().map(coarse).fold(0.0, f64::max),
             mean_deficit: if rays > 0.0 { weighted / rays } else { 0.0 },
             update_ms: 0.0,

@@ -68,6 +68,8 @@ pub struct WorkingSet {
     pub splits: u64,
     /// Families that went in the last update.
     pub collapses: u64,
+    /// Resident leaves whose shares have not come to rest.
+    pub moving: u64,
 }
 
 impl WorkingSet {
@@ -84,6 +86,7 @@ impl WorkingSet {
             wanted: Vec::new(),
             splits: 0,
             collapses: 0,
+            moving: 0,
         }
     }
 
@@ -148,7 +151,7 @@ impl WorkingSet {
         let tick = Tick { now_s: self.now_s, step, seen_since_s: self.seen_since(), new_since_s };
         let lost = &self.lost;
         let is_lost = |key| lost.get(&key).is_some_and(|&until| tick.now_s < until);
-        advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
+        self.moving = advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
     }
 
     /// Whether the detail below a node is known not to be had now.
@@ -249,7 +252,13 @@ impl WorkingSet {
         });
         let mut room = Room::new(self, moment, priority);
         room.pay_debts(self);
-        for place in candidates {
+        let candidates: Vec<(u32, NodeKey)> =
+            candidates.into_iter().map(|place| (place, self.cut.node(place).key)).collect();
+        for (place, key) in candidates {
+            // Another may have needed it split, or needed its room.
+            if self.cut.find(key) != place || self.cut.node(place).first_child.is_some() {
+                continue;
+            }
             let urgency = priority[place as usize];
             for split in room.make(self, place, urgency) {
                 self.split(moment, split);

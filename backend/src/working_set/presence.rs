@@ -44,7 +44,7 @@ pub fn settle(cut: &mut Cut) {
     }
 }
 
-/// Moves all shares toward what the rule of detail asks for. Families begin and end one by one, each in sight of what the
+/// Moves all shares toward what the rule of detail asks for; tells how many leaves are not there yet. Families begin and end one by one, each in sight of what the
 /// ones before it did; `order` has parents before children. `is_lost` tells whether the detail below a node cannot be had.
 pub fn advance(
     cut: &mut Cut,
@@ -52,7 +52,7 @@ pub fn advance(
     order: &[u32],
     tick: &Tick,
     is_lost: impl Fn(NodeKey) -> bool,
-) {
+) -> u64 {
     for &place in order {
         let wants = cut.wants_children(place);
         let node = cut.node(place);
@@ -76,6 +76,13 @@ pub fn advance(
             node.permits += (target - node.permits).clamp(-tick.step, tick.step);
         }
     }
+    let is_moving = |place: &u32| {
+        let node = cut.node(*place);
+        let is_met = node.met.time_s >= tick.seen_since_s && !is_lost(node.key);
+        let target = permitted(node.is_visible, node.deficit, is_met);
+        node.shown_child().is_none() && (node.permits != target || node.shown < 1.0)
+    };
+    cut.walk_shown().filter(is_moving).count() as u64
 }
 
 /// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they
