@@ -64,7 +64,7 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
     }
     let started = Instant::now();
     set.show(&moment);
-    std::hint::black_box(corner_weights(&set.cut));
+    std::hint::black_box(corner_weights(&set.cut, &rules, &summary, |_| false));
     spent += started.elapsed();
     spent.as_secs_f64() * 1e3
 }

@@ -64,7 +64,8 @@ fn come_to_rest(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorIm
 fn assert_same(live: &[ProjectorImage], complete: &[ProjectorImage], what: &str) {
     for (a, b) in live.iter().zip(complete) {
         let differ = a.rgba.iter().zip(&b.rgba).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
-        assert_eq!(differ, 0, "{what}: projector {}", a.projector);
+        let most = a.rgba.iter().zip(&b.rgba).fold(0.0, |most: f32, (a, b)| most.max((a - b).abs()));
+        assert_eq!(differ, 0, "{what}: projector {}, by {most} at most", a.projector);
         assert!(a.rgba.iter().any(|&c| c > 0.1), "{what}: a black picture proves nothing");
     }
 }

@@ -5,7 +5,7 @@ use super::rules::FrameRules;
 use super::views::{ProjectorView, views};
 use super::{RenderError, RenderEvent, Renderer};
 use crate::device::{CastJob, CastOutcome, Gather, TileGrid};
-use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages};
+use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use crate::store::NodeKey;
 use crate::working_set::{LodRule, Touched};
 use shaders::compose::Needs;
@@ -244,18 +244,22 @@ fn shortfall(without_room: usize, residency: &Residency) -> String {
     full.into_iter().chain(damages(residency)).collect::<Vec<_>>().join("; ")
 }
 
-/// The same of a live frame, by what rays of the frame before met.
-pub(super) fn live_shortfall(short: usize, in_flight: u64, fading: u64, residency: &Residency) -> String {
-    let is_root_there = residency.set.cut.node(0).brick.is_some() || !residency.set.cut.node(0).is_visible;
-    let start = (!is_root_there).then(|| "the volume's coarsest brick has not come yet".to_owned());
-    let coarse = (short > 0).then(|| {
-        format!(
+/// The same of a live frame, by what rays of the frame before told, if it showed the same.
+pub(super) fn live_shortfall(short: usize, is_told: bool, upkeep: &Upkeep, residency: &Residency) -> String {
+    let Upkeep { in_flight, fading, .. } = upkeep;
+    let root = residency.set.cut.node(0);
+    let first = if root.brick.is_none() && root.is_visible {
+        Some("the volume's coarsest brick has not come yet".to_owned())
+    } else if short > 0 {
+        Some(format!(
             "{short} nodes are shown coarser than the display resolves, {in_flight} bricks are on their way"
-        )
-    });
-    let fades =
-        (fading > 0 && short == 0).then(|| format!("the detail of {fading} nodes is coming or going"));
-    start.into_iter().chain(coarse).chain(fades).chain(damages(residency)).collect::<Vec<_>>().join("; ")
+        ))
+    } else if *fading > 0 {
+        Some(format!("the detail of {fading} nodes is coming or going"))
+    } else {
+        (!is_told).then(|| "rays have not told yet what this frame lacks".to_owned())
+    };
+    first.into_iter().chain(damages(residency)).collect::<Vec<_>>().join("; ")
 }
 
 fn damages(residency: &Residency) -> Option<String> {

@@ -49,6 +49,8 @@ pub(super) struct Live {
     tables: VecDeque<Vec<NodeKey>>,
     /// What the latest table told.
     met: Vec<Told>,
+    /// Whether that was the table of the frame before.
+    is_fresh: bool,
     retry: Retry,
 }
 
@@ -82,7 +84,7 @@ pub(super) fn draw(
     // What fades blends, wherever the display resolves the same.
     rules.blends |= frame.quality.blended && upkeep.fading > 0;
     let weighing = Instant::now();
-    let weights = if rules.blends { corner_weights(&renderer.residency.set.cut) } else { Vec::new() };
+    let weights = if rules.blends { live_weights(renderer, &rules) } else { Vec::new() };
     stages.refine_ms += milliseconds(weighing);
     upkeep.update_ms = stages.refine_ms;
     renderer.residency.write_shown(&weights, &rules, &mut renderer.device, &mut stages);
@@ -115,10 +117,17 @@ pub(super) fn draw(
         live.tables.pop_front();
     }
     live.last_rule = Some((rules.lod, frame.time_s));
-    live.last = Some(frame.clone());
     let report = live.report(renderer, frame, upkeep, stages, (rays, samples), milliseconds(started));
+    live.last = Some(frame.clone());
     renderer.live = Some(live);
     Ok(report)
+}
+
+fn live_weights(renderer: &Renderer, rules: &FrameRules) -> Vec<[f32; 8]> {
+    let residency = &renderer.residency;
+    let index_rules = rules.for_index(&residency.shape, 0);
+    let summary = |key| residency.source.summary(key);
+    corner_weights(&residency.set.cut, &index_rules, &summary, |key| residency.set.is_lost(key))
 }
 
 impl Live {
@@ -180,6 +189,7 @@ impl Live {
             };
             self.met = keys.iter().zip(&table).filter_map(told).collect();
         }
+        self.is_fresh = self.last.is_some() && self.tables.is_empty();
         Ok(())
     }
 
@@ -290,7 +300,10 @@ impl Live {
             residency.damage.note_missed(&family);
         }
         let short = self.met.iter().filter(is_short).count();
-        let shortfall = super::frame::live_shortfall(short, upkeep.in_flight, upkeep.fading, residency);
+        let is_told = self.last.as_ref().is_some_and(|last| is_same_view(last, frame))
+            && self.is_fresh
+            && !residency.has_changed;
+        let shortfall = super::frame::live_shortfall(short, is_told, &upkeep, residency);
         FrameReport {
             frame: frame.index,
             backend: renderer.backend,

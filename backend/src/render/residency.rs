@@ -11,7 +11,7 @@ use crate::working_set::{
     LoadedBrick, Loader, ResidentBrick, Wanted, WorkingSet, build_index, is_shown, refresh, settle,
     settled_weights,
 };
-use shaders::layout::CELL_WORDS;
+use shaders::layout::{CELL_WORDS, NodeRecord};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use std::time::Instant;
@@ -30,6 +30,12 @@ pub(super) struct Residency {
     cells: Vec<u32>,
     /// Of each slot: whether its cells are those of a node that blends with its parent.
     has_blended_cells: Vec<bool>,
+    /// Whether the device has other cells.
+    are_cells_stale: bool,
+    /// The index that the device has.
+    index: Vec<NodeRecord>,
+    /// Whether that was another one before it was last told.
+    pub(super) has_changed: bool,
     /// Whether the cut is another one than the device's index tells.
     is_index_stale: bool,
     pub(super) damage: Damage,
@@ -61,6 +67,9 @@ impl Residency {
             // Everything shows in the blank slot, which is never written to.
             cells: vec![u32::MAX; slots as usize * CELL_WORDS],
             has_blended_cells: vec![false; slots as usize],
+            are_cells_stale: true,
+            index: Vec::new(),
+            has_changed: true,
             is_index_stale: true,
             damage: Damage::default(),
             wanted: HashSet::new(),
@@ -191,7 +200,9 @@ impl Residency {
         let slot = brick.slot as usize;
         let Some(ranges) = &self.ranges[slot] else { return };
         let cells = rules.visible_cells(ranges, brick, &self.ancestors(place, rules, blends));
-        self.cells[slot * CELL_WORDS..(slot + 1) * CELL_WORDS].copy_from_slice(&cells);
+        let known = &mut self.cells[slot * CELL_WORDS..(slot + 1) * CELL_WORDS];
+        self.are_cells_stale |= *known != cells;
+        known.copy_from_slice(&cells);
         self.has_blended_cells[slot] = blends;
     }
 
@@ -352,8 +363,12 @@ impl Residency {
         let index = build_index(&self.set.cut, weights, &rules.for_index(&self.shape, self.blank_slot));
         stages.refine_ms += milliseconds(started);
         let started = Instant::now();
-        device.write_index(&index, &self.cells);
-        self.is_index_stale = false;
+        let is_other = bytemuck::cast_slice::<_, u8>(&index) != bytemuck::cast_slice::<_, u8>(&self.index);
+        self.has_changed = is_other || self.are_cells_stale;
+        if self.has_changed {
+            device.write_index(&index, &self.cells);
+        }
+        (self.index, self.are_cells_stale, self.is_index_stale) = (index, false, false);
         stages.upload_ms += milliseconds(started);
     }
 }

@@ -181,10 +181,15 @@ impl WorkingSet {
         node.met.time_s >= self.seen_since() || node.met.since_s >= self.now_s - MEMORY_S
     }
 
+    /// Whether rays met a node, be it that they meet its children now.
+    pub(super) fn has_met(&self, place: u32) -> bool {
+        let node = self.cut.node(place);
+        node.is_visible && node.met.time_s >= self.seen_since()
+    }
+
     /// Whether a node is a leaf that rays meet.
     fn is_met(&self, place: u32) -> bool {
-        let node = self.cut.node(place);
-        node.is_visible && node.shown_child().is_none() && node.met.time_s >= self.seen_since()
+        self.cut.node(place).shown_child().is_none() && self.has_met(place)
     }
 
     fn note(&mut self, met: &[Met]) {

@@ -1,8 +1,8 @@
 //! Laws of the live working set.
 
 use super::live::{Arrival, Met, Moment, WorkingSet};
-use super::test_world::{Random, World, optics, rule};
-use super::{Cut, Family, IndexRules, corner_weights, visit_vertices};
+use super::test_world::{Random, World, live_weights, optics, rule};
+use super::{Cut, Family, IndexRules, visit_vertices};
 use crate::store::{NodeKey, NodeSummary, OctreeShape};
 use glam::UVec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -63,7 +63,7 @@ fn assert_restricted(cut: &Cut, shape: &OctreeShape, of_shown: bool) {
 
 /// The weights by depth and corner; the same for all leaves that share a corner.
 fn weights_by_corner(cut: &Cut, shape: &OctreeShape) -> BTreeMap<(u8, [u32; 3]), f32> {
-    let weights = corner_weights(cut);
+    let weights = live_weights(cut);
     let mut found = BTreeMap::new();
     for place in leaves(cut, shape, true) {
         let key = cut.node(place).key;

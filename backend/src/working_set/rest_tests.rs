@@ -1,8 +1,8 @@
 //! A still view comes to rest: at the picture that an unlimited cache gives, or as evenly short of it as the cache is small.
 
 use super::live::{Arrival, Met, Moment, WorkingSet};
-use super::test_world::{Random, World, optics, rule};
-use super::{Family, IndexRules, LodRule, corner_weights, settle, settled_weights};
+use super::test_world::{Random, World, live_weights, optics, rule};
+use super::{Family, IndexRules, LodRule, settle, settled_weights};
 use crate::store::NodeKey;
 use glam::UVec3;
 use shaders::optics::Optics;
@@ -72,7 +72,7 @@ impl Still {
 
     /// What rays meet, with weights.
     fn shown(&self) -> BTreeMap<NodeKey, [f32; 8]> {
-        let weights = corner_weights(&self.set.cut);
+        let weights = live_weights(&self.set.cut);
         let places = self.set.cut.walk_shown().filter(|&place| {
             let node = self.set.cut.node(place);
             node.shown_child().is_none() && node.is_visible && self.sees(node.key)

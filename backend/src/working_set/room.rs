@@ -195,6 +195,10 @@ impl<'a> Room<'a> {
         let node = set.cut.node(place);
         // Families of this very update have no priority yet: they are as needed as the leaf that they were split from.
         let priority = self.priority.get(place as usize).copied().unwrap_or(f64::INFINITY);
+        // Detail may hide behind what it was too coarse to hide behind before. Were it given up for that, it would be seen
+        // again, and wanted again.
+        let was_met = if set.has_met(place) { node.deficit } else { f64::NEG_INFINITY };
+        let priority = priority.max(was_met);
         (Ordered(priority), Ordered(node.met.time_s), node.met.rays, node.key)
     }
 }

@@ -1,6 +1,6 @@
 //! A made-up volume for the laws of the live working set: random ranges, no voxels.
 
-use super::LodRule;
+use super::{Cut, IndexRules, LodRule, corner_weights};
 use crate::store::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
 use shaders::optics::{Curve, ExtinctionUnit, Optics};
@@ -86,4 +86,13 @@ pub(super) fn rule(shape: &OctreeShape, z: f64) -> LodRule {
         angular_accuracy: 0.02,
         lod_scale: 1.0,
     }
+}
+
+/// The weights of a cut of which nothing is lost.
+pub(super) fn live_weights(cut: &Cut) -> Vec<[f32; 8]> {
+    let shape = OctreeShape::new(UVec3::ONE);
+    let (lod, optics) = (rule(&shape, 0.0), optics(0.5));
+    let rules =
+        IndexRules { shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false, blank_slot: None };
+    corner_weights(cut, &rules, &|_| NodeSummary { min: 0.0, max: 0.0 }, |_| false)
 }

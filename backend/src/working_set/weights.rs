@@ -14,8 +14,17 @@ impl<F: Fn(u32, NodeKey) -> f32> Permission for F {}
 /// The weights of corners x + 2 y + 4 z of every place: for leaves that rays meet, the least share of all cells around the
 /// corner at the leaf's depth. A cell that is covered by a coarser leaf has what that leaf permits; a finer one is whole.
 /// All leaves of a depth that share a corner have the same weight there. Other places have full weights.
-pub fn corner_weights(cut: &Cut) -> Vec<[f32; 8]> {
-    weigh_all(cut, |place, _| cut.node(place).permits)
+/// Where the detail below a leaf `is_lost`, the rule of detail tells, as in [`settled_weights`].
+pub fn corner_weights(
+    cut: &Cut,
+    rules: &IndexRules,
+    summary: &dyn Fn(NodeKey) -> NodeSummary,
+    is_lost: impl Fn(NodeKey) -> bool,
+) -> Vec<[f32; 8]> {
+    weigh_all(cut, |place, key| {
+        let node = cut.node(place);
+        if is_lost(node.key) { settled(rules, summary, key) } else { node.permits }
+    })
 }
 
 /// The same where everything is shown at once, see [`super::settle`]: by the rule of detail alone, whatever is resident.
@@ -26,12 +35,15 @@ pub fn settled_weights(
     rules: &IndexRules,
     summary: &dyn Fn(NodeKey) -> NodeSummary,
 ) -> Vec<[f32; 8]> {
-    weigh_all(cut, |_, key| {
-        let is_border = rules.shape.contains(key)
-            && rules.lod.is_fine_enough(rules.shape, key)
-            && is_shown(rules.optics, summary(key));
-        if is_border { 0.0 } else { 1.0 }
-    })
+    weigh_all(cut, |_, key| settled(rules, summary, key))
+}
+
+/// What the cell `key` lets finer neighbours show, by the rule of detail alone.
+fn settled(rules: &IndexRules, summary: &dyn Fn(NodeKey) -> NodeSummary, key: NodeKey) -> f32 {
+    let is_border = rules.shape.contains(key)
+        && rules.lod.is_fine_enough(rules.shape, key)
+        && is_shown(rules.optics, summary(key));
+    if is_border { 0.0 } else { 1.0 }
 }
 
 fn weigh_all(cut: &Cut, permits: impl Permission) -> Vec<[f32; 8]> {
