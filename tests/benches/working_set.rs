@@ -28,15 +28,15 @@ fn optics() -> Optics {
     }
 }
 
-/// A display on which the volume, a metre wide, takes some number of nodes: the finer its pixels, the more.
-fn rule(pixel_size_m: f64, z: f64) -> LodRule {
+/// A display like holo72 on which the volume, a metre wide, takes some number of nodes: the finer the detail, the more.
+fn rule(lod_scale: f64, z: f64) -> LodRule {
     let scale = 1.0 / f64::from(EDGE);
     LodRule {
         display_from_volume: DAffine3::from_translation(DVec3::new(-0.5, -0.5, z - 0.5))
             * DAffine3::from_scale(DVec3::splat(scale)),
-        pixel_size_m,
+        pixel_size_m: 1.5e-3,
         angular_accuracy: 0.8_f64.to_radians(),
-        lod_scale: 1.0,
+        lod_scale,
     }
 }
 
@@ -69,15 +69,15 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
     spent.as_secs_f64() * 1e3
 }
 
-/// The pixel size with which about so many nodes are resident, and a working set at rest with it.
+/// The scale of detail with which about so many nodes are resident, and a working set at rest with it.
 fn settled(shape: &OctreeShape, optics: &Optics, nodes: usize) -> (f64, WorkingSet) {
-    let (mut low, mut high) = (1e-5, 1.0);
+    let (mut low, mut high) = (0.01, 10.0);
     loop {
-        let pixel = f64::sqrt(low * high);
+        let scale = f64::sqrt(low * high);
         let mut set = WorkingSet::new(NodeSummary { min: 0.4, max: 0.6 }, 1 << 20);
         let mut before = 0;
         for n in 0..200 {
-            frame(&mut set, shape, &rule(pixel, 0.7), optics, f64::from(n) * 0.1);
+            frame(&mut set, shape, &rule(scale, 0.7), optics, f64::from(n) * 0.1);
             let now = set.cut.walk().count();
             if (now == before && n > 12) || now > 2 * nodes {
                 break;
@@ -86,9 +86,9 @@ fn settled(shape: &OctreeShape, optics: &Optics, nodes: usize) -> (f64, WorkingS
         }
         let found = set.cut.walk().count();
         if found.abs_diff(nodes) * 8 < nodes || high / low < 1.0001 {
-            return (pixel, set);
+            return (scale, set);
         }
-        if found > nodes { low = pixel } else { high = pixel }
+        if found > nodes { low = scale } else { high = scale }
     }
 }
 
@@ -100,12 +100,12 @@ fn main() {
     println!("| nodes | families that came or went a frame | ms, median | ms, 90 % | µs per node · log2 |");
     println!("| ---: | ---: | ---: | ---: | ---: |");
     for size in SIZES {
-        let (pixel, mut set) = settled(&shape, &optics, size);
+        let (scale, mut set) = settled(&shape, &optics, size);
         let (mut times, mut nodes, mut changes) = (Vec::new(), 0, 0);
         for n in 0..rounds {
             let z = 0.7 + 0.05 * (f64::from(n) * 0.1).sin();
             let now_s = 100.0 + f64::from(n) / 60.0;
-            times.push(frame(&mut set, &shape, &rule(pixel, z), &optics, now_s));
+            times.push(frame(&mut set, &shape, &rule(scale, z), &optics, now_s));
             nodes += set.cut.walk().count();
             changes += set.splits + set.collapses;
         }
