@@ -6,13 +6,15 @@
 //! ```
 //!
 //! One projector of holo72 with a reduced raster, and nested shells that double in size in one second. Complete frames tell
-//! what motion alone changes, and what pops when the rule of detail changes its mind; live ones what loading adds, from an
-//! empty cache: with blending (`--fade`, half a second without it) and without it. `--blended` picks one of the two. With
-//! the object still, all that changes is detail that comes. The canary is a sequence with seams and a jump of detail: both
+//! what motion alone changes, and what pops when the rule of detail changes its mind; live ones what loading adds: with
+//! blending (`--fade`, half a second without it) and without it. `--blended` picks one of the two. A motion begins when the
+//! detail of its first frame is at rest; with the object still, the sequence begins with the coarsest brick alone, and all
+//! that changes is detail that comes. The canary is a sequence with seams and a jump of detail: both
 //! measures have to find them. Compare RMS with RMS: at steep rims the largest numbers are the surface's own bends.
 
 use backend::output::write_png;
 use backend::protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
+use backend::render::Renderer;
 use backend::store::BrickSource;
 use backend::volume::procedural::{ProceduralVolume, field_named};
 use display_config::Display;
@@ -20,7 +22,8 @@ use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::borders::{BorderSteps, Shown, border_steps, is_one_surface, shown};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::motion::{
-    Approach, Continuity, Spread, borrowed, continuity, difference, draw_sequence, standing_still, steps,
+    Approach, Continuity, FRAMES_PER_SECOND, Spread, borrowed, continuity, difference, draw_sequence,
+    standing_still, steps,
 };
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::scenes::{self, with_raster};
@@ -37,6 +40,8 @@ const PROJECTOR: u32 = 36;
 const BORDERS_EVERY: usize = 10;
 /// See [`continuity`].
 const LEAST_FRAMES: u32 = 4;
+/// Frames until a sequence must have started.
+const MOST_WARMING: u32 = 3000;
 /// Difference pictures are so much brighter.
 const GAIN: f32 = 8.0;
 
@@ -130,11 +135,42 @@ struct Outcome {
     seconds: f64,
 }
 
+/// When live frames begin to count.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    /// When all detail of the first of them is there.
+    AtRest,
+    /// When its coarsest brick is.
+    AtRoot,
+}
+
+/// Draws the first frame of a live sequence again and again until it may start; yields the sequence, which goes on from
+/// there in time.
+fn warm_up(renderer: &mut Renderer, frames: &[FrameState], start: Start) -> Vec<FrameState> {
+    let later = |frame: &FrameState, by_s: f64| FrameState { time_s: frame.time_s + by_s, ..frame.clone() };
+    for number in 0..MOST_WARMING {
+        let by_s = f64::from(number) / FRAMES_PER_SECOND;
+        let (_, report) = draw::draw_with(renderer, &later(&frames[0], by_s));
+        let is_ready = match start {
+            Start::AtRest => report.complete,
+            Start::AtRoot => report.bricks_resident > 0,
+        };
+        if is_ready {
+            return frames.iter().map(|frame| later(frame, by_s + 1.0 / FRAMES_PER_SECOND)).collect();
+        }
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    panic!("not ready after {MOST_WARMING} frames");
+}
+
 /// Draws a sequence from an empty cache.
-fn play(stage: &Stage, frames: &[FrameState]) -> Outcome {
+fn play(stage: &Stage, frames: &[FrameState], start: Start) -> Outcome {
     let started = Instant::now();
     let with = With { cache_bytes: 2 << 30, ..With::device(stage.device) };
     let (mut renderer, _) = draw::renderer(&stage.display, &stage.source, &[PROJECTOR], with);
+    let is_live = matches!(frames[0].pace, Pace::Live { .. });
+    let warm = if is_live { warm_up(&mut renderer, frames, start) } else { frames.to_vec() };
+    let frames = warm.as_slice();
     let mut outcome = Outcome { images: Vec::new(), bricks_loaded: 0, live: 0, seconds: 0.0 };
     draw_sequence(&mut renderer, frames, |_, report, images| {
         outcome.images.extend(images);
@@ -226,7 +262,7 @@ fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[P
     for frame in &mut coarse {
         frame.quality.lod_scale *= 8.0;
     }
-    let mut outcome = play(stage, &coarse);
+    let mut outcome = play(stage, &coarse, Start::AtRest);
     let middle = fine.len() / 2;
     for (number, (image, surface)) in outcome.images.iter_mut().zip(surfaces).enumerate() {
         let is_coarse = |leaf: &Shown| leaf.leaf.depth.is_multiple_of(2) == (number < middle);
@@ -239,7 +275,12 @@ fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[P
     outcome
 }
 
-fn measure(stage: &Stage, motion: &str, frames: &[FrameState], manners: &[Manner]) -> Result<(), String> {
+fn measure(
+    stage: &Stage,
+    (motion, start): (&str, Start),
+    frames: &[FrameState],
+    manners: &[Manner],
+) -> Result<(), String> {
     let surfaces = surfaces(stage, frames);
     let raster = &stage.display.projectors[PROJECTOR as usize].raster;
     let pixel_m = stage.display.width_m / f64::from(raster.width);
@@ -258,11 +299,11 @@ fn measure(stage: &Stage, motion: &str, frames: &[FrameState], manners: &[Manner
             None => Ok(()),
         }
     };
-    let complete = play(stage, frames);
+    let complete = play(stage, frames, start);
     tell("complete", &complete)?;
     tell("canary", &spoiled(stage, frames, &surfaces, &complete.images))?;
     for manner in manners {
-        let outcome = play(stage, &manner.of(frames));
+        let outcome = play(stage, &manner.of(frames), start);
         tell(manner.name, &outcome)?;
         if outcome.live == 0 {
             eprintln!("{motion}, {}: this renderer drew every frame complete", manner.name);
@@ -311,6 +352,6 @@ fn main() -> Result<(), String> {
         "| sequence | step of any pixel | step on surfaces | pop on surfaces | at frame | excess inside leaves (pairs) | across leaves of a level | across levels | last frame against complete | bricks loaded | live frames | seconds |"
     );
     println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
-    measure(&stage, "moving", &moving, &manners)?;
-    measure(&stage, "still", &standing_still(&moving), &manners)
+    measure(&stage, ("moving", Start::AtRest), &moving, &manners)?;
+    measure(&stage, ("still", Start::AtRoot), &standing_still(&moving), &manners)
 }
