@@ -75,6 +75,7 @@ pub(super) fn renderer(source: Arc<dyn BrickSource>) -> Renderer {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Auto,
         cache_bytes: 64 << 20,
+        trace: None,
     };
     Renderer::new(&setup, source).unwrap().0
 }

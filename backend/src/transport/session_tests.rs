@@ -30,6 +30,7 @@ fn setups(count: u32) -> Vec<Setup> {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Exact,
         cache_bytes: 0,
+        trace: None,
     };
     (0..count).map(setup).collect()
 }
