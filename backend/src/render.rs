@@ -9,6 +9,8 @@ mod live;
 #[cfg(test)]
 mod mirror_tests;
 mod recording;
+#[cfg(test)]
+mod recording_tests;
 mod residency;
 mod rules;
 #[cfg(test)]

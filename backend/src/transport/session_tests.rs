@@ -231,6 +231,24 @@ fn answers_that_were_not_asked_for_are_refused() {
 }
 
 #[test]
+fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
+    let end = |answer: FromBackend| {
+        let start = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
+        let end = [(0, FromBackend::Finished), (1, answer)];
+        let script = Script(start.into_iter().chain(ready()).chain(end).collect());
+        let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
+        let setups = setups(2).into_iter().map(traced).collect();
+        Session::start(Box::new(script), setups, SHORT).unwrap().finish().map_err(|error| error.to_string())
+    };
+    assert_eq!(end(FromBackend::Finished), Ok(()));
+    let full = end(FromBackend::Failed("the disk is full".to_owned()));
+    assert_eq!(full, Err("back-end 1 failed while finishing: the disk is full".to_owned()));
+    assert!(end(FromBackend::Ready(device())).is_err_and(|error| error.contains("does not fit")));
+    // Without traces nobody waits for answers, which this script would not give.
+    started(ready()).unwrap().finish().unwrap();
+}
+
+#[test]
 fn another_protocol_is_refused_at_the_hello() {
     let script = Script([(0, hello(PROTOCOL_VERSION + 1))].into());
     let error = Session::start(Box::new(script), setups(2), SHORT).map(drop).unwrap_err();
