@@ -108,7 +108,7 @@ mod tests {
         assert_eq!((both.frames, both.bricks_loaded, both.bytes_read), (8, 24, 80));
         assert_eq!((both.mean_deficit, both.high_deficit), (7.5 / 7.0, 3.0));
         assert_eq!((both.deficit_at_end, both.seconds_to_rest), (1.0, Some(3.0)));
-        assert_eq!(Account::of(&[fast.clone()]).seconds_to_rest, Some(2.0));
+        assert_eq!(Account::of(std::slice::from_ref(&fast)).seconds_to_rest, Some(2.0));
         assert_eq!(Account::of(&[fast, run(&[Some(1.0)])]).seconds_to_rest, None);
     }
 
