@@ -94,7 +94,7 @@ fn what_was_recorded_is_replayed_under_every_policy() {
     let bench = Bench::new();
     let traces = bench.record("procedural:shells@256");
     let lists =
-        ["--cache-mib", "1,512", "--disk", "5:5,inf:0", "--fade", "0.1", "--order", "deficit,rays,arrival"];
+        ["--cache-mib", "1,512", "--disk", "50:5,inf:0", "--fade", "0.1", "--order", "deficit,rays,arrival"];
     let rows_found = rows(&traces, &lists);
     assert_eq!(rows_found.len(), 12);
     assert_eq!(rows_found, rows(&traces, &lists), "a replay repeats itself");
