@@ -8,6 +8,9 @@ mod frame;
 mod live;
 #[cfg(test)]
 mod mirror_tests;
+mod recording;
+#[cfg(test)]
+mod recording_tests;
 mod residency;
 mod rules;
 #[cfg(test)]
@@ -17,14 +20,12 @@ mod views;
 use crate::device::{ChosenDevice, Device, DeviceError, open_device};
 use crate::protocol::{DeviceInfo, FrameReport, FrameState, Pace, ProjectorImage, Setup};
 use crate::store::{BrickError, BrickSource};
-use crate::working_set::Loader;
+use crate::working_set::{Loader, PANTRY_BYTES};
 use display_config::Display;
 use live::Live;
+use recording::Recording;
 use residency::Residency;
 use std::sync::Arc;
-
-/// Bricks in memory that were read before they were asked for: a second or so of a fast disk.
-const PANTRY_BYTES: u64 = 256 << 20;
 
 /// Why a frame could not be drawn.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -52,6 +53,9 @@ pub enum RenderError {
     /// The quality is no quality.
     #[error("the quality's {0}")]
     Quality(shaders::optics::OutOfBounds),
+    /// The trace cannot be written; the sentence is the trace's.
+    #[error("{0}")]
+    Trace(String),
 }
 
 /// What a renderer tells while it draws.
@@ -76,6 +80,7 @@ pub struct Renderer {
     device: Device,
     residency: Residency,
     live: Option<Live>,
+    recording: Recording,
 }
 
 impl Renderer {
@@ -98,6 +103,7 @@ impl Renderer {
             device,
             residency,
             live: None,
+            recording: Recording::new(setup, &shape),
         };
         Ok((renderer, info))
     }
@@ -129,6 +135,17 @@ impl Renderer {
                 live::draw(self, frame, live::Limits { upload_bytes, fade_s }, sink)
             }
         }
+    }
+
+    /// No frame follows: completes the trace, where one is wanted.
+    ///
+    /// # Errors
+    /// The device fails, or the trace cannot be written.
+    pub fn finish(&mut self) -> Result<(), RenderError> {
+        if let Some(mut live) = self.live.take() {
+            live.take_last_feedback(self)?;
+        }
+        self.recording.finish()
     }
 }
 

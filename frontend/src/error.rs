@@ -64,6 +64,12 @@ pub enum FrontendError {
         /// How many there are.
         count: u32,
     },
+    /// `--trace` without `--live`.
+    #[error("--trace records what live frames ask for, and these frames are complete ones; add --live")]
+    TraceOfCompleteFrames,
+    /// A trace cannot be read, or is not of the volume that it is replayed with.
+    #[error("{0}")]
+    Trace(String),
     /// A display that no eye at the observer's distance sees whole.
     #[error(
         "{distance_m} m before this display there is no viewing zone to spread eyes over; choose another display or another observer"

@@ -52,6 +52,7 @@ pub fn renderer(
         device: with.device,
         filter: with.filter,
         cache_bytes: with.cache_bytes,
+        trace: None,
     };
     Renderer::new(&setup, Arc::clone(source)).expect("the device was found before")
 }

@@ -46,7 +46,7 @@ pub fn open_device(
 }
 
 /// Slots for the bricks that fit, at least the nine that show a root and its children, and a blank one.
-pub(super) fn slots_within(cache_bytes: u64, slots_needed: u64) -> u32 {
+pub(crate) fn slots_within(cache_bytes: u64, slots_needed: u64) -> u32 {
     let bytes_per_slot = 2 * crate::store::BRICK_VOXELS as u64;
     slots_needed.min(cache_bytes / bytes_per_slot).clamp(9, 1 << 20) as u32 + 1
 }

@@ -15,6 +15,8 @@ pub enum FromFrontend {
     Frame(Box<FrameState>),
     /// The front-end is alive; nothing to do.
     Alive,
+    /// No frame follows: complete what is written beside the pictures, and say so.
+    Finish,
     /// Finish.
     Quit,
 }
@@ -37,6 +39,8 @@ pub enum FromBackend {
     Image(ProjectorImage),
     /// The current frame is done; all its pictures have been sent.
     Done(Box<FrameReport>),
+    /// What it wrote beside the pictures is complete.
+    Finished,
     /// It cannot go on: one sentence.
     Failed(String),
 }

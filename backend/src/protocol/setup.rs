@@ -64,6 +64,8 @@ pub struct Setup {
     pub filter: FilterChoice,
     /// Size of the brick cache, bytes.
     pub cache_bytes: u64,
+    /// Where the working set's trace of live frames is to be written; None where none is wanted.
+    pub trace: Option<PathBuf>,
 }
 
 /// What a back-end says of itself when it starts.

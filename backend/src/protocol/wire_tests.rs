@@ -82,13 +82,19 @@ prop_compose! {
         };
         FromFrontend::Setup(Box::new(Setup {
             display, projectors: indices, backend: 1, volume, device: DeviceChoice::Cpu, filter: FilterChoice::Exact,
-            cache_bytes: n,
+            cache_bytes: n, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
         }))
     }
 }
 
 fn from_frontend() -> impl Strategy<Value = FromFrontend> {
-    prop_oneof![frame(), setup(), Just(FromFrontend::Alive), Just(FromFrontend::Quit)]
+    prop_oneof![
+        frame(),
+        setup(),
+        Just(FromFrontend::Alive),
+        Just(FromFrontend::Finish),
+        Just(FromFrontend::Quit)
+    ]
 }
 
 prop_compose! {

@@ -8,26 +8,16 @@ use crate::device::{CastJob, Gather, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use crate::store::{BrickError, BrickErrorKind, NodeKey};
 use crate::working_set::{
-    Arrival, LoadedBrick, LodRule, Met, Moment, Motion, Retry, corner_weights, is_shown, prefetch,
+    Arrival, HORIZON, LoadedBrick, LodRule, MOST_AHEAD, Met, Moment, Motion, Retry, corner_weights, is_shown,
+    most_in_flight, prefetch,
 };
 use shaders::compose::Needs;
 use shaders::layout::{FeedbackEntry, deficit_from_code};
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Bricks whose samples may be on their way, in frames' worth of uploads: enough to keep a disk busy, few enough that
-/// what was asked for is still wanted when it comes.
-const FRAMES_IN_FLIGHT: u64 = 4;
-/// The same at least.
-const LEAST_IN_FLIGHT: u64 = 64;
-/// How far ahead motion is followed when the disk is idle.
-const HORIZON: Duration = Duration::from_millis(500);
-/// Bricks fetched ahead at a time.
-const MOST_AHEAD: usize = 128;
 /// Feedback tables under way: of more, the device gives up the oldest.
 const MOST_TABLES: usize = crate::device::MOST_UNDER_WAY;
-/// Bytes of a brick in the cache.
-const SLOT_BYTES: u64 = 2 * crate::store::BRICK_VOXELS as u64;
 
 /// What a live frame may take.
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +82,7 @@ pub(super) fn draw(
 
     let cut = &renderer.residency.set.cut;
     live.tables.push_back(cut.nodes().iter().map(|node| node.key).collect());
+    renderer.recording.began(frame)?;
     renderer.device.begin_feedback();
     let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
     let (mut rays, mut samples) = (0, 0);
@@ -134,6 +125,7 @@ impl Live {
     /// From the root alone: what complete frames left is no restricted cut, and tables of earlier frames are of no use.
     fn start(renderer: &mut Renderer) -> Result<Self, RenderError> {
         renderer.residency.set.restart();
+        renderer.recording.forget();
         while renderer.device.wait_feedback()?.is_some() {}
         Ok(Self::default())
     }
@@ -163,8 +155,7 @@ impl Live {
             now_s: frame.time_s,
             is_still: self.last.as_ref().is_some_and(|last| is_same_view(last, frame)),
             fade_s: limits.fade_s,
-            most_in_flight: (FRAMES_IN_FLIGHT * limits.upload_bytes / SLOT_BYTES).max(LEAST_IN_FLIGHT)
-                as usize,
+            most_in_flight: most_in_flight(limits.upload_bytes),
         };
         let started = Instant::now();
         let met: Vec<Met> = self.met.iter().map(|told| Met { key: told.key, rays: told.rays }).collect();
@@ -182,12 +173,27 @@ impl Live {
 
     fn take_feedback(&mut self, renderer: &mut Renderer) -> Result<(), RenderError> {
         while let Some(table) = renderer.device.take_feedback()? {
-            let Some(keys) = self.tables.pop_front() else { continue };
+            self.learn(renderer, &table)?;
+        }
+        Ok(())
+    }
+
+    /// Waits for what rays of the latest frames told: none will follow.
+    pub(super) fn take_last_feedback(&mut self, renderer: &mut Renderer) -> Result<(), RenderError> {
+        while let Some(table) = renderer.device.wait_feedback()? {
+            self.learn(renderer, &table)?;
+        }
+        Ok(())
+    }
+
+    fn learn(&mut self, renderer: &mut Renderer, table: &[FeedbackEntry]) -> Result<(), RenderError> {
+        if let Some(keys) = self.tables.pop_front() {
             let told = |(key, entry): (&NodeKey, &FeedbackEntry)| {
                 let deficit = deficit_from_code(entry.deficit_code)?;
                 Some(Told { key: *key, rays: entry.rays, deficit: f64::from(deficit) })
             };
-            self.met = keys.iter().zip(&table).filter_map(told).collect();
+            self.met = keys.iter().zip(table).filter_map(told).collect();
+            renderer.recording.told(self.met.iter().map(|told| (told.key, told.rays)))?;
         }
         self.is_fresh = self.last.is_some() && self.tables.is_empty();
         Ok(())

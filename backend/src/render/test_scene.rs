@@ -65,9 +65,9 @@ pub(super) fn frame(least: f64) -> FrameState {
     }
 }
 
-/// A renderer on the CPU, whose cache holds any volume of these tests.
-pub(super) fn renderer(source: Arc<dyn BrickSource>) -> Renderer {
-    let setup = Setup {
+/// Both projectors on the CPU, with a cache that holds any volume of these tests.
+pub(super) fn setup() -> Setup {
+    Setup {
         display: display(),
         projectors: vec![0, 1],
         backend: 0,
@@ -75,8 +75,13 @@ pub(super) fn renderer(source: Arc<dyn BrickSource>) -> Renderer {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Auto,
         cache_bytes: 64 << 20,
-    };
-    Renderer::new(&setup, source).unwrap().0
+        trace: None,
+    }
+}
+
+/// The renderer of this setup.
+pub(super) fn renderer(source: Arc<dyn BrickSource>) -> Renderer {
+    Renderer::new(&setup(), source).unwrap().0
 }
 
 /// A picture per projector, four numbers per pixel.

@@ -41,4 +41,8 @@ impl Draw for Renderer {
         };
         Renderer::draw(self, frame, &mut pass_on).map_err(|error| error.to_string())
     }
+
+    fn finish(&mut self) -> Result<(), String> {
+        Renderer::finish(self).map_err(|error| error.to_string())
+    }
 }

@@ -133,6 +133,8 @@ pub struct Session {
     activity: String,
     last_alive: Instant,
     devices: Vec<DeviceInfo>,
+    /// Whether back-ends write something that is complete only at the end.
+    has_traces: bool,
 }
 
 impl Session {
@@ -142,7 +144,8 @@ impl Session {
             return Err(SessionError::Count { setups: setups.len(), backends: link.backends() });
         }
         let (activity, devices) = (String::new(), Vec::new());
-        let mut session = Self { link, limits, activity, last_alive: Instant::now(), devices };
+        let has_traces = setups.iter().any(|setup| setup.trace.is_some());
+        let mut session = Self { link, limits, activity, last_alive: Instant::now(), devices, has_traces };
         session.set_activity("starting".to_owned());
         session.gather(limits.opening, |_, message| match message {
             FromBackend::Hello(hello) if hello.protocol == PROTOCOL_VERSION => Answer::Given(()),
@@ -202,9 +205,16 @@ impl Session {
         self.link.broadcast(&FromFrontend::Alive).map_err(|error| self.lost(error))
     }
 
-    /// Lets the back-ends go.
+    /// Lets the back-ends go, once all that they write is complete.
     pub fn finish(mut self) -> Result<(), SessionError> {
         self.set_activity("finishing".to_owned());
+        if self.has_traces {
+            self.link.broadcast(&FromFrontend::Finish).map_err(|error| self.lost(error))?;
+            self.gather(self.limits.drawing, |_, message| match message {
+                FromBackend::Finished => Answer::Given(()),
+                _ => Answer::Misfit("it answered the end with something else than its own"),
+            })?;
+        }
         self.link.broadcast(&FromFrontend::Quit).map_err(|error| self.lost(error))?;
         let Self { link, activity, .. } = self;
         let names: Vec<String> = (0..link.backends()).map(|backend| link.name(backend)).collect();

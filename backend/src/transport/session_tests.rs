@@ -30,6 +30,7 @@ fn setups(count: u32) -> Vec<Setup> {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Exact,
         cache_bytes: 0,
+        trace: None,
     };
     (0..count).map(setup).collect()
 }
@@ -227,6 +228,24 @@ fn answers_that_were_not_asked_for_are_refused() {
     let other_frame = ready().into_iter().chain([(1, FromBackend::Done(Box::new(report(7, 1))))]).collect();
     let error = started(other_frame).unwrap().render(&frame(0), &mut |_| {}).unwrap_err();
     assert!(matches!(error, SessionError::Misfit { .. }), "{error}");
+}
+
+#[test]
+fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
+    let end = |answer: FromBackend| {
+        let start = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
+        let end = [(0, FromBackend::Finished), (1, answer)];
+        let script = Script(start.into_iter().chain(ready()).chain(end).collect());
+        let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
+        let setups = setups(2).into_iter().map(traced).collect();
+        Session::start(Box::new(script), setups, SHORT).unwrap().finish().map_err(|error| error.to_string())
+    };
+    assert_eq!(end(FromBackend::Finished), Ok(()));
+    let full = end(FromBackend::Failed("the disk is full".to_owned()));
+    assert_eq!(full, Err("back-end 1 failed while finishing: the disk is full".to_owned()));
+    assert!(end(FromBackend::Ready(device())).is_err_and(|error| error.contains("does not fit")));
+    // Without traces nobody waits for answers, which this script would not give.
+    started(ready()).unwrap().finish().unwrap();
 }
 
 #[test]

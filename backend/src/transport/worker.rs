@@ -15,6 +15,11 @@ pub trait Draw {
     /// Draws one frame and gives each finished picture to `sink`. Tell `sink` of the progress often: at least once
     /// per second tells the front-end that this back-end is alive. An error is one sentence, and ends the run.
     fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(DrawEvent)) -> Result<FrameReport, String>;
+
+    /// No frame follows: completes what it writes beside the pictures. An error is one sentence, and fails the run.
+    fn finish(&mut self) -> Result<(), String> {
+        Ok(())
+    }
 }
 
 /// What happens while a frame is drawn.
@@ -83,6 +88,11 @@ where
                 }
             }
             (FromFrontend::Frame(frame), Some(renderer)) => draw_frame(link, renderer.as_mut(), &frame)?,
+            (FromFrontend::Finish, Some(renderer)) => match guarded(|| renderer.finish()) {
+                Ok(()) => link.send(FromBackend::Finished)?,
+                Err(sentence) => return fail(link, sentence),
+            },
+            (FromFrontend::Finish, None) => return fail(link, "its end came before the setup".to_owned()),
             (FromFrontend::Setup(_), Some(_)) => return fail(link, "it was set up twice".to_owned()),
             (FromFrontend::Frame(_), None) => return fail(link, "a frame came before the setup".to_owned()),
         }

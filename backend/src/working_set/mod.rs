@@ -1,6 +1,7 @@
 //! Which bricks are resident: the cut through the octree, the index rays traverse, the loader.
 
 mod cut;
+mod in_flight;
 mod index;
 mod live;
 #[cfg(test)]
@@ -10,6 +11,7 @@ mod lod;
 mod prefetch;
 mod presence;
 mod priority;
+mod replay;
 #[cfg(test)]
 mod rest_tests;
 mod retry;
@@ -24,13 +26,17 @@ mod vertices;
 mod weights;
 
 pub use cut::{Cut, CutNode, Family, Meeting, ResidentBrick};
+pub use in_flight::most_in_flight;
 pub use index::{IndexRules, build_index, is_shown};
 pub use live::{Arrival, Met, Moment, WorkingSet};
-pub use loader::{Fetched, LoadedBrick, Loader, LoaderCounts, SAMPLE_BYTES};
+pub use loader::{Fetched, LoadedBrick, Loader, LoaderCounts, PANTRY_BYTES, SAMPLE_BYTES};
 pub use lod::LodRule;
-pub use prefetch::{Motion, prefetch};
+pub use prefetch::{HORIZON, MOST_AHEAD, Motion, prefetch};
 pub use presence::{Tick, advance, refresh, settle};
 pub use priority::priorities;
+pub use replay::{
+    Account, DiskModel, FetchOrder, Policy, ReplayRun, ReplayVolume, ReplayedFrame, Shortfall, replay,
+};
 pub use retry::Retry;
 pub use slots::SlotPool;
 pub use touched::{Touched, Wanted};

@@ -5,6 +5,10 @@ use crate::store::{NodeKey, OctreeShape};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::time::Duration;
 
+/// How far ahead motion is followed when the disk is idle.
+pub const HORIZON: Duration = Duration::from_millis(500);
+/// Bricks fetched ahead at a time.
+pub const MOST_AHEAD: usize = 128;
 /// Below this, a predicted scale is held: it falls linearly and must not pass zero. What shrinks asks for nothing finer.
 const LEAST_SCALE: f64 = 0.01;
 

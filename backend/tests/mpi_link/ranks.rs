@@ -118,6 +118,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Exact,
         cache_bytes: width.into(),
+        trace: None,
     };
     (0..count as u32).map(setup).collect()
 }

@@ -128,6 +128,7 @@ fn open(study: &Study, filter: FilterChoice, bits: u8) -> Result<(Renderer, Devi
         device: study.device,
         filter,
         cache_bytes: study.cache_bytes,
+        trace: None,
     };
     let source: Arc<dyn BrickSource> = match bits {
         8 => Arc::new(EightBits::new(Arc::clone(&study.source))),

@@ -2,11 +2,12 @@
 
 use backend::protocol::Pace;
 use clap::Args;
+use std::path::PathBuf;
 
 /// Seconds in which detail appears or goes, unless told otherwise.
-const FADE_S: f64 = 0.4;
+pub(super) const FADE_S: f64 = 0.4;
 /// MiB that one frame may upload, unless told otherwise.
-const UPLOAD_MIB: u64 = 64;
+pub(super) const UPLOAD_MIB: u64 = 64;
 /// The longest fade, seconds: an hour is no fade.
 const LONGEST_FADE_S: f64 = 3600.0;
 /// The largest upload of a frame, MiB.
@@ -25,6 +26,10 @@ pub struct LiveArgs {
     /// With --live: bricks that one frame of a back-end may upload. [default: 64]
     #[arg(long, value_name = "N", requires = "live", value_parser = upload, allow_hyphen_values = true)]
     pub upload_mib: Option<u64>,
+    /// With --live: folder for backend-N.trace, what rays of each back-end asked for in every frame, which `lightloom
+    /// replay` reads; made if it is not there. Traces of an earlier run go first.
+    #[arg(long, value_name = "DIR")]
+    pub trace: Option<PathBuf>,
 }
 
 impl LiveArgs {
@@ -40,12 +45,12 @@ impl LiveArgs {
     }
 }
 
-fn fade(text: &str) -> Result<f64, String> {
+pub(super) fn fade(text: &str) -> Result<f64, String> {
     let seconds = text.trim().parse().ok().filter(|seconds| (0.0..=LONGEST_FADE_S).contains(seconds));
     seconds.ok_or_else(|| format!("give a number of seconds from 0 to {LONGEST_FADE_S}"))
 }
 
-fn upload(text: &str) -> Result<u64, String> {
+pub(super) fn upload(text: &str) -> Result<u64, String> {
     let mib = text.trim().parse().ok().filter(|mib| (1..=MOST_UPLOAD_MIB).contains(mib));
     mib.ok_or_else(|| format!("give a whole number of MiB from 1 to {MOST_UPLOAD_MIB}"))
 }

@@ -9,6 +9,7 @@ mod import;
 mod info;
 mod live;
 mod parse;
+mod replay;
 mod simulate;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
 pub use live::LiveArgs;
+pub use replay::{DiskArg, FetchOrderArg, ReplayArgs};
 pub use simulate::SimulateArgs;
 pub use verify::VerifyArgs;
 
@@ -53,6 +55,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Measure error and time of many settings against the reference, and draw them as plots.
     Accuracy(AccuracyArgs),
+    /// Play recorded traces to the working set under other policies, without drawing anything.
+    Replay(ReplayArgs),
     /// List the displays that come with the program.
     Displays,
 }

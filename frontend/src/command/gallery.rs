@@ -23,7 +23,8 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;
     let backends = Backends::connect(args.drawing.backends)?;
-    let setups = session::setups(&args.drawing, &scene.volume_ref(), &gallery.display, backends.count())?;
+    let setups =
+        session::setups(&args.drawing, &scene.volume_ref(), &gallery.display, backends.count(), None)?;
     let (mut source, devices) = backends.start(setups)?;
     let mut progress = Progress::new(!args.quiet);
     let exhibits = gallery.draw(source.as_mut(), &mut progress)?;

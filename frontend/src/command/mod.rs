@@ -6,6 +6,7 @@ mod export;
 mod gallery;
 mod import;
 mod info;
+mod replay;
 mod simulate;
 mod table;
 mod verify;
@@ -24,6 +25,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Verify(args) => verify::verify(args),
         Command::Export(args) => export::export(args),
         Command::Accuracy(args) => accuracy::accuracy(args),
+        Command::Replay(args) => replay::replay(args),
         Command::Displays => displays::displays(),
     }
 }

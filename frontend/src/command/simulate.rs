@@ -15,6 +15,10 @@ use std::time::Instant;
 /// Renders, writes and reports. All that can be wrong with the arguments is found before any back-end starts.
 pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let started = Instant::now();
+    let traces = args.live.trace.as_deref();
+    if traces.is_some() && !args.live.live {
+        return Err(FrontendError::TraceOfCompleteFrames);
+    }
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = session::load_display(&args.display)?;
@@ -27,8 +31,9 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         exr: args.exr,
     };
     Job::prepare_output(&args.out)?;
+    traces.map_or(Ok(()), session::prepare_traces)?;
     let backends = Backends::connect(args.drawing.backends)?;
-    let setups = session::setups(&args.drawing, &scene.volume_ref(), &job.display, backends.count())?;
+    let setups = session::setups(&args.drawing, &scene.volume_ref(), &job.display, backends.count(), traces)?;
     let (mut source, devices) = backends.start(setups)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let frames = job.run(source.as_mut(), &mut progress)?;

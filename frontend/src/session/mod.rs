@@ -11,8 +11,12 @@ pub use levels::LevelSummary;
 pub use store::{StoreSummary, VerifySummary, store_summary, verify};
 
 mod export;
+mod replay;
+mod trace;
 
 pub use export::{ExportSummary, export};
+pub use replay::{ReplayRow, Traces};
+pub use trace::prepare_traces;
 
 use crate::FrontendError;
 use crate::cli::BackendArgs;
@@ -23,6 +27,7 @@ use backend::store::BrickSource;
 use backend::transport::{EventKind, Launch, Limits, Link, Session, launch, open_renderer, threads};
 use display_config::{Display, EyeModel};
 use glam::{DVec2, DVec3};
+use std::path::Path;
 use std::sync::Arc;
 
 /// The displays that come with the program: name, and a line about each.
@@ -146,12 +151,13 @@ pub fn assignment(display: &Display, backends: u32) -> Result<Vec<Vec<u32>>, Fro
     display.assign(backends as usize).map_err(|e| FrontendError::Display(e.to_string()))
 }
 
-/// What each of `backends` back-ends is told before the first frame.
+/// What each of `backends` back-ends is told before the first frame; `traces` is the folder for their traces.
 pub fn setups(
     args: &BackendArgs,
     volume: &VolumeRef,
     display: &Display,
     backends: u32,
+    traces: Option<&Path>,
 ) -> Result<Vec<Setup>, FrontendError> {
     let setup = |(projectors, backend)| Setup {
         display: display.clone(),
@@ -161,6 +167,7 @@ pub fn setups(
         device: args.device.into(),
         filter: args.filter.into(),
         cache_bytes: args.cache_mib << 20,
+        trace: traces.map(|folder| trace::path(folder, backend)),
     };
     Ok(assignment(display, backends)?.into_iter().zip(0..).map(setup).collect())
 }

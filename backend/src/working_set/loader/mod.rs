@@ -12,13 +12,16 @@ mod test_source;
 
 pub use load::{Fetched, LoadedBrick, SAMPLE_BYTES};
 pub use queue::LoaderCounts;
+pub(super) use queue::Queue;
 
 use crate::store::{BrickError, BrickSource, NodeKey};
 use crossbeam_channel::unbounded;
 use load::load;
-use queue::Queue;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+
+/// Bytes of bricks in memory that were read before they were asked for: a second or so of a fast disk.
+pub const PANTRY_BYTES: u64 = 256 << 20;
 
 /// How long a loader's end waits for reads that have begun. Most take a few milliseconds; a disk that does not answer
 /// must not hold up the end of the program.

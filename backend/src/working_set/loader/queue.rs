@@ -28,7 +28,7 @@ pub struct LoaderCounts {
 
 /// Knows no thread and no file: a thread asks what to read, and tells what came of it.
 #[derive(Debug)]
-pub(super) struct Queue {
+pub(in crate::working_set) struct Queue {
     threads: usize,
     /// For callers that wait: these go first.
     errands: VecDeque<NodeKey>,
