@@ -40,8 +40,8 @@ fn rule(lod_scale: f64, z: f64) -> LodRule {
     }
 }
 
-/// One frame; milliseconds of the update, without what stands for rays and disk.
-fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Optics, now_s: f64) -> f64 {
+/// One frame; milliseconds of choosing, showing and weighing, without what stands for rays and disk.
+fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Optics, now_s: f64) -> [f64; 3] {
     let summary = |_: NodeKey| NodeSummary { min: 0.4, max: 0.6 };
     let rules = IndexRules { shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None };
     let moment =
@@ -58,15 +58,16 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
         .collect();
     let started = Instant::now();
     set.update(&moment, &met);
-    let mut spent = started.elapsed();
+    let chosen = started.elapsed();
     for key in set.wanted().to_vec() {
         set.arrived(key, 0.0, 1.0);
     }
     let started = Instant::now();
     set.show(&moment);
+    let shown = started.elapsed();
+    let started = Instant::now();
     std::hint::black_box(corner_weights(&set.cut, &rules, &summary, |_| false));
-    spent += started.elapsed();
-    spent.as_secs_f64() * 1e3
+    [chosen, shown, started.elapsed()].map(|spent| spent.as_secs_f64() * 1e3)
 }
 
 /// The scale of detail with which about so many nodes are resident, and a working set at rest with it.
@@ -97,8 +98,10 @@ fn main() {
         .map_or(60, |text| text.parse().expect("the number of rounds is a whole number"));
     let (shape, optics) = (OctreeShape::new(UVec3::splat(EDGE)), optics());
     println!("One update on one core, the median and the largest of {rounds} frames\n");
-    println!("| nodes | families that came or went a frame | ms, median | ms, 90 % | µs per node · log2 |");
-    println!("| ---: | ---: | ---: | ---: | ---: |");
+    println!(
+        "| nodes | families that came or went a frame | choosing, ms | showing, ms | weights, ms | all, ms | 90 %, ms | ns per n log2 n |"
+    );
+    println!("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for size in SIZES {
         let (scale, mut set) = settled(&shape, &optics, size);
         let (mut times, mut nodes, mut changes) = (Vec::new(), 0, 0);
@@ -109,14 +112,23 @@ fn main() {
             nodes += set.cut.walk().count();
             changes += set.splits + set.collapses;
         }
-        times.sort_by(f64::total_cmp);
         let nodes = nodes as f64 / f64::from(rounds);
-        let median = times[times.len() / 2];
+        let [choosing, showing, weighing] =
+            [0, 1, 2].map(|part| quantile(times.iter().map(|parts: &[f64; 3]| parts[part]), 0.5));
+        let all = |share| quantile(times.iter().map(|parts| parts.iter().sum()), share);
         println!(
-            "| {nodes:.0} | {:.1} | {median:.3} | {:.3} | {:.4} |",
+            "| {nodes:.0} | {:.1} | {choosing:.3} | {showing:.3} | {weighing:.3} | {:.3} | {:.3} | {:.1} |",
             changes as f64 / f64::from(rounds),
-            times[times.len() * 9 / 10],
-            1e3 * median / (nodes * nodes.log2())
+            all(0.5),
+            all(0.9),
+            1e6 * all(0.5) / (nodes * nodes.log2())
         );
     }
+}
+
+/// What a share of some numbers stays within.
+fn quantile(numbers: impl Iterator<Item = f64>, share: f64) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers[((numbers.len() - 1) as f64 * share) as usize]
 }

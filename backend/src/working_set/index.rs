@@ -1,6 +1,6 @@
 //! The spatial index: the cut as rays traverse it.
 
-use super::{Cut, CutNode, LodRule};
+use super::{Cut, CutNode, LodRule, MeasuredRule};
 use crate::store::{NodeSummary, OctreeShape};
 use shaders::compose::{Compositing, Way};
 use shaders::layout::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
@@ -42,7 +42,12 @@ impl IndexRules<'_> {
 
     /// Levels that a node is too coarse by; at most 0 where no finer level exists.
     pub fn deficit(&self, node: &CutNode) -> f64 {
-        let deficit = self.lod.deficit(self.shape, node.key);
+        self.deficit_by(&self.lod.measured(), node)
+    }
+
+    /// The same by the rule that was worked out before.
+    pub(super) fn deficit_by(&self, rule: &MeasuredRule, node: &CutNode) -> f64 {
+        let deficit = rule.deficit(self.shape, node.key);
         if node.key.depth == self.shape.finest_depth() { deficit.min(0.0) } else { deficit }
     }
 

@@ -4,10 +4,11 @@
 //! [`WorkingSet::wanted`] tells which bricks to fetch, most needed first; what became of them comes back through
 //! [`WorkingSet::arrived`] and [`WorkingSet::failed`], and [`WorkingSet::show`] moves what rays meet.
 
-use super::presence::{Tick, advance, refresh};
+use super::presence::{Tick, advance, refresh, refresh_deficits};
 use super::room::Room;
 use super::{Cut, CutNode, Family, IndexRules, Meeting, ResidentBrick, SlotPool, priorities};
 use crate::store::{NodeKey, NodeSummary};
+use shaders::optics::Optics;
 use std::collections::HashMap;
 
 /// Rays that met a node within this many seconds still count, for views that move.
@@ -59,6 +60,8 @@ pub struct WorkingSet {
     still_since_s: f64,
     now_s: f64,
     last_s: Option<f64>,
+    /// What scalars looked like in the last update.
+    optics: Option<Optics>,
     /// Nodes whose children cannot be read, until when.
     lost: HashMap<NodeKey, f64>,
     /// Of families that were split because finer neighbours needed it: how urgent that was.
@@ -81,6 +84,7 @@ impl WorkingSet {
             still_since_s: 0.0,
             now_s: 0.0,
             last_s: None,
+            optics: None,
             lost: HashMap::new(),
             forced: HashMap::new(),
             wanted: Vec::new(),
@@ -96,7 +100,12 @@ impl WorkingSet {
         self.tell_time(moment);
         (self.splits, self.collapses) = (0, 0);
         let mut order: Vec<u32> = self.cut.walk().collect();
-        refresh(&mut self.cut, &moment.rules, &order);
+        if self.optics.as_ref() == Some(moment.rules.optics) {
+            refresh_deficits(&mut self.cut, &moment.rules, &order);
+        } else {
+            refresh(&mut self.cut, &moment.rules, &order);
+            self.optics = Some(moment.rules.optics.clone());
+        }
         self.note(met);
         self.drop_unwanted(moment, &order);
         order.clear();
@@ -150,13 +159,13 @@ impl WorkingSet {
         let new_since_s = self.now_s - MEMORY_S;
         let tick = Tick { now_s: self.now_s, step, seen_since_s: self.seen_since(), new_since_s };
         let lost = &self.lost;
-        let is_lost = |key| lost.get(&key).is_some_and(|&until| tick.now_s < until);
+        let is_lost = |key| !lost.is_empty() && lost.get(&key).is_some_and(|&until| tick.now_s < until);
         self.moving = advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
     }
 
     /// Whether the detail below a node is known not to be had now.
     pub fn is_lost(&self, key: NodeKey) -> bool {
-        self.lost.get(&key).is_some_and(|&until| self.now_s < until)
+        !self.lost.is_empty() && self.lost.get(&key).is_some_and(|&until| self.now_s < until)
     }
 
     /// Bricks that slots are kept for.

@@ -37,8 +37,19 @@ impl LodRule {
     /// Where lod_scale · s(z) rises with |z| faster than a restricted cut can follow, its slope is held to what it can:
     /// see [`LodRule::steepest`].
     pub fn deficit(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
-        let voxel_m = self.finest_voxel_m() * f64::from(1u32 << shape.level(node.depth));
-        (voxel_m / self.wanted_m(self.nearest_z_m(shape, node))).log2()
+        self.measured().deficit(shape, node)
+    }
+
+    /// The rule, ready to be asked of many nodes.
+    pub fn measured(&self) -> MeasuredRule {
+        let slope = self.lod_scale * 2.0 * (0.5 * self.angular_accuracy).tan();
+        MeasuredRule {
+            row: self.display_from_volume.matrix3.row(2),
+            offset_m: self.display_from_volume.translation.z,
+            finest_voxel_m: self.finest_voxel_m(),
+            wanted_at_screen_m: self.lod_scale * self.pixel_size_m,
+            slope: slope.min(self.steepest()),
+        }
     }
 
     /// The steepest slope of the wanted voxel edge over |z| at which touching leaves of the cut differ by one level at
@@ -56,21 +67,13 @@ impl LodRule {
 
     /// Whether the same depth is wanted everywhere in the volume: then no borders between levels are to be seen.
     pub fn is_uniform(&self, shape: &OctreeShape) -> bool {
-        let linear = self.display_from_volume.matrix3;
-        let (low, high) = shape.region(NodeKey::ROOT);
-        let along = |axis: usize| linear.col(axis).z.abs() * (high - low)[axis];
-        let deepest_m = self.nearest_z_m(shape, NodeKey::ROOT) + along(0) + along(1) + along(2);
+        let measured = self.measured();
+        let (nearest, farthest) = measured.depths_m(shape, NodeKey::ROOT);
         let wanted = |z_m: f64| {
-            let level = (self.wanted_m(z_m) / self.finest_voxel_m()).log2();
+            let level = (measured.wanted_m(z_m) / measured.finest_voxel_m).log2();
             level.floor().clamp(0.0, f64::from(shape.finest_depth()))
         };
-        wanted(self.nearest_z_m(shape, NodeKey::ROOT)) == wanted(deepest_m)
-    }
-
-    /// The longest voxel edge that is fine enough at |z|, metres.
-    fn wanted_m(&self, z_m: f64) -> f64 {
-        let slope = self.lod_scale * 2.0 * (0.5 * self.angular_accuracy).tan();
-        self.lod_scale * self.pixel_size_m + slope.min(self.steepest()) * z_m
+        wanted(nearest) == wanted(farthest)
     }
 
     /// The longest edge of the finest voxel, metres.
@@ -83,17 +86,39 @@ impl LodRule {
     pub fn is_fine_enough(&self, shape: &OctreeShape, node: NodeKey) -> bool {
         node.depth == shape.finest_depth() || self.deficit(shape, node) <= 0.0
     }
+}
 
-    /// Distance between the screen plane and the node's region, metres; 0 where the screen cuts it.
-    fn nearest_z_m(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
+/// A [`LodRule`] whose numbers are worked out.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredRule {
+    /// z in the display frame of a point p of the volume frame is `row · p + offset_m`.
+    row: DVec3,
+    offset_m: f64,
+    finest_voxel_m: f64,
+    wanted_at_screen_m: f64,
+    slope: f64,
+}
+
+impl MeasuredRule {
+    /// See [`LodRule::deficit`].
+    pub fn deficit(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
+        let voxel_m = self.finest_voxel_m * f64::from(1u32 << shape.level(node.depth));
+        (voxel_m / self.wanted_m(self.depths_m(shape, node).0)).log2()
+    }
+
+    /// The longest voxel edge that is fine enough at |z|, metres.
+    fn wanted_m(&self, z_m: f64) -> f64 {
+        self.wanted_at_screen_m + self.slope * z_m
+    }
+
+    /// The least and the largest distance between the screen plane and the node's region, metres; the least is 0 where
+    /// the screen cuts it.
+    fn depths_m(&self, shape: &OctreeShape, node: NodeKey) -> (f64, f64) {
         let (low, high) = shape.region(node);
-        let (mut front, mut back) = (f64::NEG_INFINITY, f64::INFINITY);
-        for corner in 0..8u32 {
-            let pick = |axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
-            let z = self.display_from_volume.transform_point3(DVec3::new(pick(0), pick(1), pick(2))).z;
-            front = front.max(z);
-            back = back.min(z);
-        }
-        if back <= 0.0 && front >= 0.0 { 0.0 } else { back.abs().min(front.abs()) }
+        let (a, b) = (self.row * low, self.row * high);
+        let back = self.offset_m + a.min(b).element_sum();
+        let front = self.offset_m + a.max(b).element_sum();
+        let nearest = if back <= 0.0 && front >= 0.0 { 0.0 } else { back.abs().min(front.abs()) };
+        (nearest, back.abs().max(front.abs()))
     }
 }

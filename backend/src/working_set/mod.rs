@@ -30,7 +30,7 @@ pub use in_flight::most_in_flight;
 pub use index::{IndexRules, build_index, is_shown};
 pub use live::{Arrival, Met, Moment, WorkingSet};
 pub use loader::{Fetched, LoadedBrick, Loader, LoaderCounts, PANTRY_BYTES, SAMPLE_BYTES};
-pub use lod::LodRule;
+pub use lod::{LodRule, MeasuredRule};
 pub use prefetch::{HORIZON, MOST_AHEAD, Motion, prefetch};
 pub use presence::{Tick, advance, refresh, settle};
 pub use priority::priorities;

@@ -20,13 +20,21 @@ pub struct Tick {
     pub new_since_s: f64,
 }
 
-/// Tells every node of the cut what the frame thinks of it.
+/// Tells nodes of the cut what the frame thinks of them.
 pub fn refresh(cut: &mut Cut, rules: &IndexRules, order: &[u32]) {
     for &place in order {
-        let node = cut.node(place);
-        let (is_visible, deficit) = (!rules.is_empty(node), rules.deficit(node));
-        let node = cut.node_mut(place);
-        (node.is_visible, node.deficit) = (is_visible, deficit);
+        let is_visible = !rules.is_empty(cut.node(place));
+        cut.node_mut(place).is_visible = is_visible;
+    }
+    refresh_deficits(cut, rules, order);
+}
+
+/// The same where the transfer functions are those of the frame before.
+pub(super) fn refresh_deficits(cut: &mut Cut, rules: &IndexRules, order: &[u32]) {
+    let rule = rules.lod.measured();
+    for &place in order {
+        let deficit = rules.deficit_by(&rule, cut.node(place));
+        cut.node_mut(place).deficit = deficit;
     }
 }
 
