@@ -44,5 +44,5 @@ pub use touching::neighbours;
 pub use trace::{
     Demand, Demanded, Seen, TraceError, TraceHeader, TraceReader, TraceWriter, TracedFrame, feedback_on,
 };
-pub use vertices::{Around, visit_vertices};
+pub use vertices::{Around, BEYOND, visit_vertices};
 pub use weights::{corner_weights, settled_weights};

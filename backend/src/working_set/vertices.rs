@@ -2,14 +2,22 @@
 
 use super::{Cut, CutNode};
 
-/// What is around a point: the place of the leaf in each octant (bit 0 = +x, bit 1 = +y, bit 2 = +z); None beyond the
-/// root.
-pub type Around = [Option<u32>; 8];
+/// Stands for what is beyond the root.
+pub const BEYOND: u32 = u32::MAX;
 
-/// A part of space that may hold vertices: a point, or an edge, face or cell without its border.
-struct Dual<'a, F> {
-    cut: &'a Cut,
-    visit: &'a mut F,
+/// What is around a point: the place of the leaf in each octant (bit 0 = +x, bit 1 = +y, bit 2 = +z), or [`BEYOND`].
+pub type Around = [u32; 8];
+
+/// The axes along which a part of space has an extent, as bits: none is a point, one an edge, two a face, three a cell,
+/// all without their borders. Cells around a part are the same on both sides along these axes.
+type Extent = usize;
+
+/// A part of a part.
+#[derive(Clone, Copy)]
+struct Inner {
+    /// Which child of the cell in each octant borders on it.
+    child: [u8; 8],
+    extent: Extent,
 }
 
 /// Where along an axis a part of a part lies.
@@ -20,10 +28,24 @@ enum Half {
     High,
 }
 
+/// A traversal.
+struct Dual<'a, F> {
+    /// Of each place: the first of the children that rays meet, or [`BEYOND`].
+    first_child: Vec<u32>,
+    /// The parts that each kind of part is made of.
+    parts: [Vec<Inner>; 8],
+    visit: &'a mut F,
+}
+
 /// Shows every vertex of the leaves that rays meet, once: the dual traversal of an octree. Takes time in proportion to
 /// the nodes.
 pub fn visit_vertices(cut: &Cut, visit: &mut impl FnMut(&Around)) {
-    let mut dual = Dual { cut, visit };
+    let first_child = |node: &CutNode| node.shown_child().unwrap_or(BEYOND);
+    let mut dual = Dual {
+        first_child: cut.nodes().iter().map(first_child).collect(),
+        parts: std::array::from_fn(parts_of),
+        visit,
+    };
     for part in 0..27 {
         let halves = halves(part);
         // The root's own border is between it and nothing.
@@ -33,9 +55,11 @@ pub fn visit_vertices(cut: &Cut, visit: &mut impl FnMut(&Around)) {
                 Half::Middle => false,
                 Half::High => octant >> axis & 1 == 1,
             };
-            (!(0..3).any(is_beyond)).then_some(0)
+            if (0..3).any(is_beyond) { BEYOND } else { 0 }
         });
-        dual.descend(around, halves.map(|half| half == Half::Middle));
+        let extent =
+            (0..3).filter(|&axis| halves[axis] == Half::Middle).fold(0, |bits, axis| bits | 1 << axis);
+        dual.descend(&around, extent);
     }
 }
 
@@ -44,46 +68,53 @@ fn halves(part: usize) -> [Half; 3] {
     [of(part), of(part / 3), of(part / 9)]
 }
 
+/// The parts of a part: a half or the middle along each axis in which it extends.
+fn parts_of(extent: Extent) -> Vec<Inner> {
+    let extends = |axis: usize| extent >> axis & 1 == 1;
+    let is_part = |halves: &[Half; 3]| (0..3).all(|axis| extends(axis) || halves[axis] == Half::Middle);
+    let inner = |halves: [Half; 3]| Inner {
+        child: std::array::from_fn(|octant| {
+            (0..3).fold(0, |child, axis| {
+                let side = (octant >> axis & 1) as u8;
+                let bit = match halves[axis] {
+                    Half::Low => 0,
+                    Half::High => 1,
+                    // In the middle of a cell its halves lie on their own sides; beside a border, on the border's.
+                    Half::Middle if extends(axis) => side,
+                    Half::Middle => 1 - side,
+                };
+                child | bit << axis
+            })
+        }),
+        extent: (0..3).filter(|&axis| halves[axis] != Half::Middle).fold(0, |bits, axis| bits | 1 << axis),
+    };
+    (0..27).map(halves).filter(is_part).map(inner).collect()
+}
+
 impl<F: FnMut(&Around)> Dual<'_, F> {
-    /// Looks for vertices in a part: `around` are the cells in its octants, the same on both sides along the axes in
-    /// which the part `extends`.
-    fn descend(&mut self, around: Around, extends: [bool; 3]) {
-        let children = around.map(|place| place.and_then(|place| self.children(place)));
-        if children.iter().all(Option::is_none) {
-            if extends == [false; 3] {
-                (self.visit)(&around);
+    /// Looks for vertices in a part with these cells in its octants.
+    fn descend(&mut self, around: &Around, extent: Extent) {
+        let mut has_children = false;
+        let children = around.map(|place| {
+            let first = if place == BEYOND { BEYOND } else { self.first_child[place as usize] };
+            has_children |= first != BEYOND;
+            first
+        });
+        if !has_children {
+            if extent == 0 {
+                (self.visit)(around);
             }
             return;
         }
-        for part in 0..27 {
-            let halves = halves(part);
-            if (0..3).any(|axis| !extends[axis] && halves[axis] != Half::Middle) {
-                continue;
+        for part in 0..self.parts[extent].len() {
+            let Inner { child, extent } = self.parts[extent][part];
+            let mut inner = *around;
+            for octant in 0..8 {
+                if children[octant] != BEYOND {
+                    inner[octant] = children[octant] + u32::from(child[octant]);
+                }
             }
-            let inner = std::array::from_fn(|octant| match children[octant] {
-                Some(first) => Some(first + child_at(octant, halves, extends)),
-                None => around[octant],
-            });
-            self.descend(inner, std::array::from_fn(|axis| halves[axis] != Half::Middle));
+            self.descend(&inner, extent);
         }
     }
-
-    fn children(&self, place: u32) -> Option<u32> {
-        CutNode::shown_child(self.cut.node(place))
-    }
-}
-
-/// The child of the cell in an octant that borders on a part of the part.
-fn child_at(octant: usize, halves: [Half; 3], extends: [bool; 3]) -> u32 {
-    (0..3).fold(0, |child, axis| {
-        let side = octant as u32 >> axis & 1;
-        let bit = match halves[axis] {
-            Half::Low => 0,
-            Half::High => 1,
-            // In the middle of a cell its halves lie on their own sides; beside a border, on the border's.
-            Half::Middle if extends[axis] => side,
-            Half::Middle => 1 - side,
-        };
-        child | bit << axis
-    })
 }

@@ -1,6 +1,6 @@
 //! The weights of a node's corners: how much of itself it shows there.
 
-use super::vertices::{Around, visit_vertices};
+use super::vertices::{Around, BEYOND, visit_vertices};
 use super::{Cut, IndexRules, is_shown};
 use crate::store::{NodeKey, NodeSummary};
 use glam::IVec3;
@@ -46,42 +46,58 @@ fn settled(rules: &IndexRules, summary: &dyn Fn(NodeKey) -> NodeSummary, key: No
     if is_border { 0.0 } else { 1.0 }
 }
 
+/// What a corner asks of a node.
+#[derive(Clone, Copy)]
+struct Share {
+    shown: f32,
+    depth: u8,
+}
+
 fn weigh_all(cut: &Cut, permits: impl Permission) -> Vec<[f32; 8]> {
     let mut weights = vec![[1.0; 8]; cut.nodes().len()];
-    visit_vertices(cut, &mut |around| weigh(cut, around, &permits, &mut weights));
+    let shares: Vec<Share> =
+        cut.nodes().iter().map(|node| Share { shown: node.shown, depth: node.key.depth }).collect();
+    visit_vertices(cut, &mut |around| weigh(cut, &shares, around, &permits, &mut weights));
     weights
 }
 
-fn weigh(cut: &Cut, around: &Around, permits: &impl Permission, weights: &mut [[f32; 8]]) {
-    let depth = |place: &u32| cut.node(*place).key.depth;
-    let depths = || around.iter().flatten().map(depth);
-    let (Some(coarsest), Some(finest)) = (depths().min(), depths().max()) else { return };
+fn weigh(cut: &Cut, shares: &[Share], around: &Around, permits: &impl Permission, weights: &mut [[f32; 8]]) {
+    let (mut coarsest, mut finest, mut least) = (u8::MAX, 0, 1.0_f32);
+    for &place in around.iter().filter(|&&place| place != BEYOND) {
+        let Share { shown, depth } = shares[place as usize];
+        (coarsest, finest, least) = (coarsest.min(depth), finest.max(depth), least.min(shown));
+    }
     // Mostly everything around is whole.
-    if coarsest == finest && around.iter().flatten().all(|&place| cut.node(place).shown == 1.0) {
+    if coarsest >= finest && least == 1.0 {
         return;
     }
-    for (octant, place) in around.iter().enumerate() {
-        let Some(place) = *place else { continue };
+    for (octant, &place) in around.iter().enumerate().filter(|&(_, &place)| place != BEYOND) {
         // On a face or an edge of a larger leaf there is no corner of it.
-        if around.iter().filter(|&&other| other == Some(place)).count() > 1 {
-            continue;
+        if around.iter().filter(|&&other| other == place).count() == 1 {
+            weights[place as usize][7 ^ octant] = least_share(cut, shares, around, octant, permits);
         }
-        weights[place as usize][7 ^ octant] = least_share(cut, around, octant, permits);
     }
 }
 
 /// The least share, of the cells around a vertex, at the depth of the leaf in an octant.
-fn least_share(cut: &Cut, around: &Around, octant: usize, permits: &impl Permission) -> f32 {
-    let Some(own) = around[octant].map(|place| cut.node(place).key) else { return 1.0 };
-    (0..8).fold(1.0, |least, other| {
-        let Some(place) = around[other] else { return least };
-        let node = cut.node(place);
-        least.min(match node.key.depth.cmp(&own.depth) {
+fn least_share(
+    cut: &Cut,
+    shares: &[Share],
+    around: &Around,
+    octant: usize,
+    permits: &impl Permission,
+) -> f32 {
+    let own = cut.node(around[octant]).key;
+    let mut least = 1.0_f32;
+    for (other, &place) in around.iter().enumerate().filter(|&(_, &place)| place != BEYOND) {
+        let Share { shown, depth } = shares[place as usize];
+        least = least.min(match depth.cmp(&own.depth) {
             std::cmp::Ordering::Less => permits(place, above(own, octant, other)),
-            std::cmp::Ordering::Equal => node.shown,
+            std::cmp::Ordering::Equal => shown,
             std::cmp::Ordering::Greater => 1.0,
-        })
-    })
+        });
+    }
+    least
 }
 
 /// The parent of the cell in octant `other` around a vertex, at the depth of the leaf `own` in octant `octant`.
