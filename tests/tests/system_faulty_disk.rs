@@ -115,6 +115,8 @@ fn a_disk_that_hangs_holds_up_neither_frames_nor_the_end() {
         loader.want(&nodes[frame..], &nodes[..frame]);
         assert!(loader.arrived(u64::MAX).is_empty());
     }
+    // All threads hang, and not on what is fetched ahead alone, which leaves one free.
+    loader.want(&nodes, &[]);
     source.wait_inside(4);
     assert_eq!(source.reads(), 4);
     drop(loader);
