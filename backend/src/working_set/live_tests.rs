@@ -116,7 +116,7 @@ impl Life {
         let mut random = Random(seed);
         let sizes = [UVec3::new(224, 224, 224), UVec3::new(448, 60, 100), UVec3::new(29, 400, 85)];
         let world = World::new(sizes[random.below(3) as usize], &mut random);
-        let slots = 1 + random.below(if seed % 2 == 0 { 60 } else { 2000 }) as u32;
+        let slots = 1 + random.below(if seed.is_multiple_of(2) { 60 } else { 2000 }) as u32;
         let set = WorkingSet::new(world.summary(NodeKey::ROOT), slots);
         Self { world, set, slots, random, now_s: 0.0, z: 0.1, threshold: 0.5 }
     }
