@@ -19,12 +19,14 @@ mod views;
 
 use crate::device::{ChosenDevice, Device, DeviceError, open_device};
 use crate::protocol::{DeviceInfo, FrameReport, FrameState, Pace, ProjectorImage, Setup};
-use crate::store::{BrickError, BrickSource};
+use crate::store::{BrickError, BrickSource, NodeKey};
 use crate::working_set::{Loader, PANTRY_BYTES};
 use display_config::Display;
+use glam::DVec3;
 use live::Live;
 use recording::Recording;
 use residency::Residency;
+use shaders::optics::Enhancer;
 use std::sync::Arc;
 
 /// Why a frame could not be drawn.
@@ -125,6 +127,9 @@ impl Renderer {
         frame: &FrameState,
         sink: &mut dyn FnMut(RenderEvent),
     ) -> Result<FrameReport, RenderError> {
+        frame.optics.check()?;
+        let in_reach = self.in_reach(frame);
+        let frame = in_reach.as_ref().unwrap_or(frame);
         match frame.pace {
             Pace::Complete => {
                 self.live = None;
@@ -135,6 +140,24 @@ impl Renderer {
                 live::draw(self, frame, live::Limits { upload_bytes, fade_s }, sink)
             }
         }
+    }
+
+    /// The frame without enhancers that the volume is out of reach of; None where there are none such. So tools cost
+    /// nothing while nobody holds them to the volume.
+    fn in_reach(&self, frame: &FrameState) -> Option<FrameState> {
+        let (low, high) = self.residency.shape().region(NodeKey::ROOT);
+        let corner = |i: usize| {
+            let pick = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };
+            frame.display_from_volume.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
+        };
+        let corners: [DVec3; 8] = std::array::from_fn(corner);
+        let acts = |enhancer: &Enhancer| enhancer.may_act_within(&corners);
+        if frame.optics.enhancers.iter().all(acts) {
+            return None;
+        }
+        let mut frame = frame.clone();
+        frame.optics.enhancers.retain(acts);
+        Some(frame)
     }
 
     /// No frame follows: completes the trace, where one is wanted.

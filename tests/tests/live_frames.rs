@@ -137,6 +137,28 @@ fn a_small_cache_shows_something_that_stays() {
 }
 
 #[test]
+fn complete_and_live_frames_follow_each_other() {
+    let _turn = draw::turn();
+    let display = display();
+    let scene = scene(&display);
+    // So small that families are on their way out when a complete frame comes.
+    let mut small = renderer(&display, &scene.source, DeviceChoice::Cpu, 6);
+    let mut alone = renderer(&display, &scene.source, DeviceChoice::Cpu, 64);
+    let (complete, _) = draw_with(&mut alone, &scene.frame);
+    for round in 0..12 {
+        for index in 0..10 * round {
+            draw_with(&mut small, &live(&scene.frame, index));
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        draw_with(&mut small, &scene.frame);
+    }
+    for index in 0..20 {
+        draw_with(&mut alone, &live(&scene.frame, index));
+    }
+    assert_same(&draw_with(&mut alone, &scene.frame).0, &complete, "after live frames");
+}
+
+#[test]
 fn a_disk_that_hangs_costs_detail_and_no_frame() {
     let _turn = draw::turn();
     let display = display();

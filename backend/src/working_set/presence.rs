@@ -42,6 +42,7 @@ pub(super) fn refresh_deficits(cut: &mut Cut, rules: &IndexRules, order: &[u32])
 /// what rays met, nor on what was shown before.
 pub fn settle(cut: &mut Cut) {
     for place in cut.walk().collect::<Vec<_>>() {
+        cut.node_mut(place).is_leaving = false;
         let is_shown = cut.wants_children(place);
         let node = cut.node_mut(place);
         node.family = if is_shown { Family::Shown } else { Family::Hidden };

@@ -199,6 +199,23 @@ impl Enhancer {
         }
     }
 
+    /// Whether it may change anything of a volume with these corners in the display frame. A tool that is held away from the
+    /// volume does not; the box around the corners stands for the volume.
+    pub fn may_act_within(&self, corners: &[DVec3; 8]) -> bool {
+        match self {
+            Self::ClipPlane(plane) => corners.iter().any(|&corner| {
+                plane.normal_in_display.dot(corner - plane.point_in_display) > -plane.thickness_m
+            }),
+            Self::Probe(probe) => {
+                let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+                let high = corners.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+                let nearest = probe.centre_in_display.clamp(low, high);
+                nearest.distance(probe.centre_in_display) <= probe.radius_m
+            }
+            Self::BandPicker(_) | Self::LayerOpacity(_) => true,
+        }
+    }
+
     /// The largest importance that it may leave to scalars in [lo, hi] of which none had more than `told`.
     pub fn most_importance(&self, lo: f64, hi: f64, told: f64) -> f64 {
         match self {
