@@ -143,8 +143,9 @@ fn complete_and_live_frames_follow_each_other() {
     let scene = scene(&display);
     // So small that families are on their way out when a complete frame comes.
     let mut small = renderer(&display, &scene.source, DeviceChoice::Cpu, 6);
-    let mut alone = renderer(&display, &scene.source, DeviceChoice::Cpu, 64);
-    let (complete, _) = draw_with(&mut alone, &scene.frame);
+    let mut alone = renderer(&display, &scene.source, DeviceChoice::Cpu, 256);
+    let (complete, report) = draw_with(&mut alone, &scene.frame);
+    assert!(report.complete, "{}", report.shortfall);
     for round in 0..12 {
         for index in 0..10 * round {
             draw_with(&mut small, &live(&scene.frame, index));
@@ -155,7 +156,9 @@ fn complete_and_live_frames_follow_each_other() {
     for index in 0..20 {
         draw_with(&mut alone, &live(&scene.frame, index));
     }
-    assert_same(&draw_with(&mut alone, &scene.frame).0, &complete, "after live frames");
+    let (images, report) = draw_with(&mut alone, &scene.frame);
+    assert!(report.complete, "{}", report.shortfall);
+    assert_same(&images, &complete, "after live frames");
 }
 
 #[test]

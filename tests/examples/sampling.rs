@@ -1,0 +1,70 @@
+//! Samples per ray against error: with blending and without, and with steps of one length, as a table in Markdown.
+//!
+//! `cargo run --release -p lightloom-tests --example sampling`. Shells of 700³ on holo72, three depths at once, CPU device.
+//! Each error is against the reference of the same setting: what sampling costs, not what levels of detail leave out.
+//! Samples are those of a second picture, when every brick is there; gradients are not counted.
+
+use backend::protocol::{DeviceChoice, FrameState};
+use backend::store::BrickSource;
+use backend::volume::procedural::ProceduralVolume;
+use display_config::Display;
+use glam::{DQuat, EulerRot, UVec3};
+use lightloom_tests::compare;
+use lightloom_tests::draw::{self, With, draw_with};
+use lightloom_tests::remembered::Remembered;
+use lightloom_tests::scenes::{self, with_raster};
+use shaders::optics::{Light, Quality};
+use std::sync::Arc;
+
+/// Near the middle.
+const PROJECTORS: [u32; 1] = [36];
+/// Voxels along an edge.
+const EDGE: u32 = 700;
+/// Pixels between those that are compared.
+const STRIDE: u32 = 4;
+
+fn main() -> Result<(), String> {
+    let display = with_raster(&Display::load("holo72").map_err(|e| e.to_string())?, 320, 240);
+    let volume =
+        ProceduralVolume::new("shells", UVec3::splat(EDGE), 1e-3).map_err(|error| error.to_string())?;
+    let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(Arc::new(volume)));
+    let mut optics = scenes::shells(&display).frame.optics;
+    // The scene's own volume has 128 voxels along an edge.
+    optics.extinction = scenes::scaled(&optics.extinction, 128.0 / f64::from(EDGE));
+    let place = scenes::placed(&*source, 1.2, DQuat::from_euler(EulerRot::XYZ, 0.4, 0.7, 0.1));
+    let frame = scenes::frame(&display, place, optics, Some(Light::default()));
+
+    let default = Quality::default();
+    let unblended = Quality { blended: false, ..default };
+    let uniform = |step_voxels| Quality { step_voxels, tolerance: f64::INFINITY, ..unblended };
+    // On the finest level everywhere a step of one length is the same number of metres all along a ray.
+    let finest = |step_voxels| Quality { lod_scale: 0.0, ..uniform(step_voxels) };
+    let mut settings = vec![("blended", default), ("not blended", unblended)];
+    settings.extend([2.0, 1.0, 0.5, 0.25].map(|step| ("one length in each node", uniform(step))));
+    settings.extend([4.0, 2.0, 1.0, 0.5].map(|step| ("one length along the ray", finest(step))));
+
+    println!("| steps | longest, voxels | samples per ray | RMS / 99.9 % / largest of 255 |");
+    println!("| --- | ---: | ---: | ---: |");
+    for (name, quality) in settings {
+        let frame = FrameState { quality, ..frame.clone() };
+        let with = With { cache_bytes: 2 << 30, ..With::device(DeviceChoice::Cpu) };
+        let (mut renderer, _) = draw::renderer(&display, &source, &PROJECTORS, with);
+        draw_with(&mut renderer, &frame);
+        let (images, report) = draw_with(&mut renderer, &frame);
+        if !report.complete {
+            return Err(report.shortfall);
+        }
+        let pixels: u64 = images.iter().map(|image| u64::from(image.width) * u64::from(image.height)).sum();
+        let truth = compare::truth(&display, &frame, &source, &PROJECTORS, STRIDE);
+        let errors = compare::errors(&images, &truth);
+        println!(
+            "| {name} | {} | {:.1} | {:.3} / {:.2} / {:.1} |",
+            quality.step_voxels,
+            report.samples as f64 / pixels as f64,
+            255.0 * errors.rms,
+            255.0 * errors.p999,
+            255.0 * errors.max
+        );
+    }
+    Ok(())
+}
