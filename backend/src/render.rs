@@ -22,7 +22,6 @@ use crate::protocol::{DeviceInfo, FrameReport, FrameState, Pace, ProjectorImage,
 use crate::store::{BrickError, BrickSource, NodeKey};
 use crate::working_set::{Loader, PANTRY_BYTES};
 use display_config::Display;
-use glam::DVec3;
 use live::Live;
 use recording::Recording;
 use residency::Residency;
@@ -128,6 +127,8 @@ impl Renderer {
         sink: &mut dyn FnMut(RenderEvent),
     ) -> Result<FrameReport, RenderError> {
         frame.optics.check()?;
+        frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
+        frame.quality.check().map_err(RenderError::Quality)?;
         let in_reach = self.in_reach(frame);
         let frame = in_reach.as_ref().unwrap_or(frame);
         match frame.pace {
@@ -145,12 +146,8 @@ impl Renderer {
     /// The frame without enhancers that the volume is out of reach of; None where there are none such. So tools cost
     /// nothing while nobody holds them to the volume.
     fn in_reach(&self, frame: &FrameState) -> Option<FrameState> {
-        let (low, high) = self.residency.shape().region(NodeKey::ROOT);
-        let corner = |i: usize| {
-            let pick = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };
-            frame.display_from_volume.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
-        };
-        let corners: [DVec3; 8] = std::array::from_fn(corner);
+        let corners = self.residency.shape().corners(NodeKey::ROOT);
+        let corners = corners.map(|corner| frame.display_from_volume.transform_point3(corner));
         let acts = |enhancer: &Enhancer| enhancer.may_act_within(&corners);
         if frame.optics.enhancers.iter().all(acts) {
             return None;

@@ -13,7 +13,9 @@ use display_config::Display;
 use glam::DVec3;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::{compare, data, draw};
-use shaders::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Light, Probe, Ramp, Trapezoid};
+use shaders::optics::{
+    BandPicker, ClipPlane, Enhancer, LayerOpacity, Light, Probe, Quality, Ramp, Trapezoid,
+};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;
@@ -132,7 +134,9 @@ fn unused(display: &Display) {
     head("The composed kernel against one written without what it can do");
     let with = draw::With { filter: FilterChoice::Hardware, ..draw::With::device(DeviceChoice::Gpu) };
     for scene in all(display) {
-        let frame = FrameState { light: None, ..scene.frame.clone() };
+        // A scene whose levels blend needs something that the frozen kernel does not know.
+        let quality = Quality { blended: false, ..scene.frame.quality };
+        let frame = FrameState { light: None, quality, ..scene.frame.clone() };
         let mut frozen = Contender::new(display, &scene, frame.clone(), with);
         assert!(frozen.renderer.substitute_kernel(FROZEN), "a GPU runs WGSL");
         frozen.draw();

@@ -1,7 +1,7 @@
 //! The cut that a picture would ask for if nothing hid anything: what visibility feedback is measured against.
 
 use backend::protocol::FrameState;
-use backend::store::{BrickSource, NodeKey, OctreeShape};
+use backend::store::{BrickSource, NodeKey};
 use backend::working_set::{LodRule, is_shown};
 use display_config::{BeamLaw, Clip, Display, Raster};
 use glam::{DVec2, DVec3};
@@ -64,7 +64,7 @@ pub fn ideal_cut(
     let sights: Vec<Sight> = projectors.iter().map(|&p| Sight::new(display, p, frame)).collect();
     let is_wanted = |key: &NodeKey| shape.contains(*key) && is_shown(&frame.optics, source.summary(*key));
     let is_in_view = |key| {
-        let corners = corners(&shape, key).map(|corner| frame.display_from_volume.transform_point3(corner));
+        let corners = shape.corners(key).map(|corner| frame.display_from_volume.transform_point3(corner));
         sights.iter().any(|sight| sight.meets(&corners))
     };
     let mut found = IdealCut { leaves: Vec::new(), held: 0 };
@@ -81,14 +81,6 @@ pub fn ideal_cut(
         }
     }
     found
-}
-
-fn corners(shape: &OctreeShape, key: NodeKey) -> [DVec3; 8] {
-    let (low, high) = shape.region(key);
-    std::array::from_fn(|corner| {
-        let pick = |axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
-        DVec3::new(pick(0), pick(1), pick(2))
-    })
 }
 
 #[cfg(test)]

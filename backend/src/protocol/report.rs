@@ -24,7 +24,7 @@ pub struct Upkeep {
     pub nodes: u64,
     /// Leaves that rays could meet.
     pub leaves: u64,
-    /// Families of eight that came, and that went.
+    /// Families of eight that came.
     pub splits: u64,
     /// Families of eight that went.
     pub collapses: u64,

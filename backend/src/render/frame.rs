@@ -42,10 +42,11 @@ pub(super) fn draw(
     sink: &mut dyn FnMut(RenderEvent),
 ) -> Result<FrameReport, RenderError> {
     let started = Instant::now();
-    let Setting { views, needs, tables } = Setting::new(renderer, frame)?;
+    let setting = Setting::new(renderer, frame)?;
+    let total = setting.rays();
+    let Setting { views, needs, tables } = setting;
     let mut drawing = Drawing::new(renderer, frame, needs, &tables);
     drawing.start(frame)?;
-    let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
     sink(RenderEvent::Progress { done: 0, total });
     drawing.look(&views, &mut || sink(RenderEvent::Progress { done: 0, total }))?;
     let mut working_sets = WorkingSets::default();
@@ -61,7 +62,7 @@ pub(super) fn draw(
     Ok(drawing.report(frame, &working_sets, milliseconds(started)))
 }
 
-/// What a frame is drawn with, checked.
+/// What a frame, which has been checked, is drawn with.
 pub(super) struct Setting {
     pub(super) views: Vec<ProjectorView>,
     /// Blending apart, which the working set tells.
@@ -71,13 +72,15 @@ pub(super) struct Setting {
 
 impl Setting {
     pub(super) fn new(renderer: &Renderer, frame: &FrameState) -> Result<Self, RenderError> {
-        frame.optics.check()?;
-        frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
-        frame.quality.check().map_err(RenderError::Quality)?;
         let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
         let needs =
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
         Ok(Self { views, needs, tables: Tables::new(&frame.optics, &needs) })
+    }
+
+    /// Rays of all views.
+    pub(super) fn rays(&self) -> u64 {
+        self.views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum()
     }
 }
 
@@ -116,7 +119,7 @@ impl<'a> Drawing<'a> {
         let cast = renderer.residency.set.cut.node(0).last_used;
         let rules = FrameRules::new(renderer, frame, tables);
         Self {
-            needs: Needs { blends: rules.blends, ..needs },
+            needs,
             renderer,
             rules,
             stages: Stages::default(),
@@ -144,7 +147,8 @@ impl<'a> Drawing<'a> {
     ) -> Result<CastOutcome, RenderError> {
         let started = Instant::now();
         let (gather, counts) = (Gather::Own, true);
-        let job = CastJob { view: &view.view, needs: self.needs, grid, tiles, gather, counts };
+        let needs = Needs { blends: self.renderer.residency.blends, ..self.needs };
+        let job = CastJob { view: &view.view, needs, grid, tiles, gather, counts };
         let outcome = self.renderer.device.cast(&job)?;
         self.cast += 1;
         self.rays += outcome.rays;

@@ -4,20 +4,14 @@ use super::frame::Setting;
 use super::residency::milliseconds;
 use super::rules::FrameRules;
 use super::{RenderError, RenderEvent, Renderer};
-use crate::device::{CastJob, Gather, TileGrid};
+use crate::device::{CastJob, Gather, MOST_UNDER_WAY, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use crate::store::{BrickError, BrickErrorKind, NodeKey};
-use crate::working_set::{
-    Arrival, HORIZON, LoadedBrick, LodRule, MOST_AHEAD, Met, Moment, Motion, Retry, corner_weights, is_shown,
-    most_in_flight, prefetch,
-};
+use crate::working_set::{Arrival, LoadedBrick, LodRule, Met, Moment, Retry, corner_weights, most_in_flight};
 use shaders::compose::Needs;
 use shaders::layout::{FeedbackEntry, deficit_from_code};
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
-
-/// Feedback tables under way: of more, the device gives up the oldest.
-const MOST_TABLES: usize = crate::device::MOST_UNDER_WAY;
 
 /// What a live frame may take.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +27,6 @@ pub(super) struct Limits {
 pub(super) struct Live {
     /// The frame before.
     last: Option<FrameState>,
-    /// The rule of detail of the frame before, and its time.
-    last_rule: Option<(LodRule, f64)>,
     /// Of each feedback table under way: the nodes of the index that its frame was cast with.
     tables: VecDeque<Vec<NodeKey>>,
     /// What the latest table told.
@@ -60,7 +52,9 @@ pub(super) fn draw(
     sink: &mut dyn FnMut(RenderEvent),
 ) -> Result<FrameReport, RenderError> {
     let started = Instant::now();
-    let Setting { views, needs, tables } = Setting::new(renderer, frame)?;
+    let setting = Setting::new(renderer, frame)?;
+    let total = setting.rays();
+    let Setting { views, needs, tables } = setting;
     let mut live = match renderer.live.take() {
         Some(live) => live,
         None => Live::start(renderer)?,
@@ -70,7 +64,8 @@ pub(super) fn draw(
     renderer.device.write_tables(tables.clone());
     stages.upload_ms += milliseconds(upload);
     let mut rules = FrameRules::new(renderer, frame, &tables);
-    let mut upkeep = live.keep_up(renderer, frame, &rules, limits, &mut stages)?;
+    let is_still = live.last.as_ref().is_some_and(|last| is_same_view(last, frame));
+    let mut upkeep = live.keep_up(renderer, frame, is_still, &rules, limits, &mut stages)?;
     // What fades blends, wherever the display resolves the same.
     rules.blends |= frame.quality.blended && upkeep.fading > 0;
     let weighing = Instant::now();
@@ -78,13 +73,12 @@ pub(super) fn draw(
     stages.refine_ms += milliseconds(weighing);
     upkeep.update_ms = stages.refine_ms;
     renderer.residency.write_shown(&weights, &rules, &mut renderer.device, &mut stages);
-    let needs = Needs { blends: rules.blends, ..needs };
+    let needs = Needs { blends: renderer.residency.blends, ..needs };
 
     let cut = &renderer.residency.set.cut;
     live.tables.push_back(cut.nodes().iter().map(|node| node.key).collect());
     renderer.recording.began(frame)?;
     renderer.device.begin_feedback();
-    let total = views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum();
     let (mut rays, mut samples) = (0, 0);
     for view in &views {
         let [width, height] = view.view.raster;
@@ -104,11 +98,12 @@ pub(super) fn draw(
         sink(RenderEvent::Progress { done: rays, total });
     }
     renderer.device.end_feedback();
-    while live.tables.len() > MOST_TABLES {
+    // Of more tables the device gives up the oldest.
+    while live.tables.len() > MOST_UNDER_WAY {
         live.tables.pop_front();
     }
-    live.last_rule = Some((rules.lod, frame.time_s));
-    let report = live.report(renderer, frame, upkeep, stages, (rays, samples), milliseconds(started));
+    let report =
+        live.report(renderer, frame, is_still, upkeep, stages, (rays, samples), milliseconds(started));
     live.last = Some(frame.clone());
     renderer.live = Some(live);
     Ok(report)
@@ -135,6 +130,7 @@ impl Live {
         &mut self,
         renderer: &mut Renderer,
         frame: &FrameState,
+        is_still: bool,
         rules: &FrameRules,
         limits: Limits,
         stages: &mut Stages,
@@ -153,7 +149,7 @@ impl Live {
             rules: rules.for_index(&shape, 0),
             summary: &summary,
             now_s: frame.time_s,
-            is_still: self.last.as_ref().is_some_and(|last| is_same_view(last, frame)),
+            is_still,
             fade_s: limits.fade_s,
             most_in_flight: most_in_flight(limits.upload_bytes),
         };
@@ -161,7 +157,8 @@ impl Live {
         let met: Vec<Met> = self.met.iter().map(|told| Met { key: told.key, rays: told.rays }).collect();
         residency.set.update(&moment, &met);
         stages.refine_ms += milliseconds(started);
-        let ahead = self.ahead(frame, rules, &moment, &summary);
+        let before = self.last.as_ref().map(|last| (LodRule::new(&renderer.display, last), last.time_s));
+        let ahead = moment.ahead(self.met.iter().map(|told| told.key), before);
         let cancelled = residency.loader.want(residency.set.wanted(), &ahead) as u64;
         self.take_arrived(renderer, frame, rules, limits, stages)?;
         let started = Instant::now();
@@ -197,25 +194,6 @@ impl Live {
         }
         self.is_fresh = self.last.is_some() && self.tables.is_empty();
         Ok(())
-    }
-
-    /// Bricks that the motion will ask for, if it goes on.
-    fn ahead(
-        &self,
-        frame: &FrameState,
-        rules: &FrameRules,
-        moment: &Moment,
-        summary: &dyn Fn(NodeKey) -> crate::store::NodeSummary,
-    ) -> Vec<NodeKey> {
-        let Some((before, then_s)) = &self.last_rule else { return Vec::new() };
-        if frame.time_s <= *then_s {
-            return Vec::new();
-        }
-        let between = Duration::from_secs_f64(frame.time_s - then_s);
-        let motion = Motion { now: &rules.lod, before, between };
-        let leaves = self.met.iter().map(|told| told.key);
-        let shows = |key| is_shown(rules.optics, summary(key));
-        prefetch(leaves, &motion, HORIZON, moment.rules.shape, shows, MOST_AHEAD)
     }
 
     /// Moves what has come to the device, first things first.
@@ -294,6 +272,7 @@ impl Live {
         &self,
         renderer: &mut Renderer,
         frame: &FrameState,
+        is_still: bool,
         upkeep: Upkeep,
         stages: Stages,
         (rays, samples): (u64, u64),
@@ -306,9 +285,7 @@ impl Live {
             residency.damage.note_missed(&family);
         }
         let short = self.met.iter().filter(is_short).count();
-        let is_told = self.last.as_ref().is_some_and(|last| is_same_view(last, frame))
-            && self.is_fresh
-            && !residency.has_changed;
+        let is_told = is_still && self.is_fresh && !residency.has_changed;
         let shortfall = super::frame::live_shortfall(short, is_told, &upkeep, residency);
         FrameReport {
             frame: frame.index,
@@ -335,6 +312,5 @@ impl Live {
 
 /// Whether two frames show the same, whatever the time.
 fn is_same_view(a: &FrameState, b: &FrameState) -> bool {
-    let timeless = |frame: &FrameState| FrameState { index: 0, time_s: 0.0, ..frame.clone() };
-    timeless(a) == timeless(b)
+    *a == FrameState { index: a.index, time_s: a.time_s, ..b.clone() }
 }

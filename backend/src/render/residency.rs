@@ -11,7 +11,7 @@ use crate::working_set::{
     LoadedBrick, Loader, ResidentBrick, Wanted, WorkingSet, build_index, is_shown, refresh, settle,
     settled_weights,
 };
-use shaders::layout::{CELL_WORDS, NodeRecord};
+use shaders::layout::{CELL_WORDS, FULL_WEIGHTS, NodeRecord};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use std::time::Instant;
@@ -34,6 +34,8 @@ pub(super) struct Residency {
     are_cells_stale: bool,
     /// The index that the device has.
     index: Vec<NodeRecord>,
+    /// Whether any node of it blends with its parent.
+    pub(super) blends: bool,
     /// Whether that was another one before it was last told.
     pub(super) has_changed: bool,
     /// Whether the cut is another one than the device's index tells.
@@ -69,6 +71,7 @@ impl Residency {
             has_blended_cells: vec![false; slots as usize],
             are_cells_stale: true,
             index: Vec::new(),
+            blends: false,
             has_changed: true,
             is_index_stale: true,
             damage: Damage::default(),
@@ -104,14 +107,14 @@ impl Residency {
         (self.bricks_loaded, self.bytes_loaded) = (0, 0);
         self.forget_hidden(rules);
         let known: Vec<u32> =
-            self.newly_visible(rules).into_iter().filter(|&p| self.known_damage(p).is_some()).collect();
+            self.newly_visible().into_iter().filter(|&p| self.known_damage(p).is_some()).collect();
         self.give_up(&known)?;
-        let mut places = self.newly_visible(rules);
+        let mut places = self.newly_visible();
         // Where the cache does not hold them, give up the least recently used detail; the root alone always fits.
         while places.len() > self.set.slots.free() {
             let Some(&oldest) = self.set.cut.collapsible(u64::MAX).first() else { break };
             self.collapse(oldest);
-            places = self.newly_visible(rules);
+            places = self.newly_visible();
         }
         tracing::debug!(frame = frame.index, bricks = places.len(), "bricks that became visible");
         self.load(&places, rules, device, stages)?;
@@ -180,11 +183,8 @@ impl Residency {
     }
 
     /// Nodes of the cut that the frame shows and that have no brick.
-    fn newly_visible(&self, rules: &FrameRules) -> Vec<u32> {
-        let rules = rules.for_index(&self.shape, self.blank_slot);
-        let lacks_brick =
-            |&p: &u32| self.set.cut.node(p).brick.is_none() && !rules.is_empty(self.set.cut.node(p));
-        self.set.cut.walk().filter(lacks_brick).collect()
+    fn newly_visible(&self) -> Vec<u32> {
+        self.set.cut.walk().filter(|&place| self.set.cut.lacks(place)).collect()
     }
 
     /// Tells the visible cells of all resident bricks anew: the transfer functions may have changed.
@@ -362,6 +362,8 @@ impl Residency {
         }
         let index = build_index(&self.set.cut, weights, &rules.for_index(&self.shape, self.blank_slot));
         stages.refine_ms += milliseconds(started);
+        // Where no leaf has less than all weight, a kernel without blending gives the same bits in half the time.
+        self.blends = self.set.cut.walk_shown().any(|place| index[place as usize].weights != FULL_WEIGHTS);
         let started = Instant::now();
         let is_other = bytemuck::cast_slice::<_, u8>(&index) != bytemuck::cast_slice::<_, u8>(&self.index);
         self.has_changed = is_other || self.are_cells_stale;

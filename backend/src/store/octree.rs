@@ -106,6 +106,15 @@ impl OctreeShape {
         (low, (low + edge).min(self.dims.as_dvec3()))
     }
 
+    /// The corners of that region, x + 2 y + 4 z.
+    pub fn corners(&self, node: NodeKey) -> [DVec3; 8] {
+        let (low, high) = self.region(node);
+        std::array::from_fn(|corner| {
+            let pick = |axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
+            DVec3::new(pick(0), pick(1), pick(2))
+        })
+    }
+
     /// All nodes of a depth, x fastest.
     pub fn nodes(&self, depth: u8) -> impl Iterator<Item = NodeKey> {
         let n = self.level_bricks(depth);

@@ -51,7 +51,14 @@ impl IndexRules<'_> {
         if node.key.depth == self.shape.finest_depth() { deficit.min(0.0) } else { deficit }
     }
 
-    fn record(&self, cut: &Cut, place: u32, neighbours: [u32; 6], weights: [u32; 2]) -> NodeRecord {
+    fn record(
+        &self,
+        rule: &MeasuredRule,
+        cut: &Cut,
+        place: u32,
+        neighbours: [u32; 6],
+        weights: [u32; 2],
+    ) -> NodeRecord {
         let node = cut.node(place);
         let content = self.content(cut, node, weights);
         NodeRecord {
@@ -60,7 +67,7 @@ impl IndexRules<'_> {
             parent: node.parent.unwrap_or(NO_NODE),
             first_child: node.shown_child().unwrap_or(NO_NODE),
             slot: content.slot,
-            deficit: self.deficit(node) as f32,
+            deficit: self.deficit_by(rule, node) as f32,
             offset: content.offset as f32,
             scale: content.scale as f32,
             neighbours,
@@ -121,6 +128,7 @@ pub fn is_shown(optics: &Optics, NodeSummary { min, max }: NodeSummary) -> bool 
 /// depth, or to the coarser leaf there. Rays meet what is shown; nodes blend by `weights` where there is a blank slot.
 pub fn build_index(cut: &Cut, weights: &[[f32; 8]], rules: &IndexRules) -> Vec<NodeRecord> {
     let mut records: Vec<NodeRecord> = vec![bytemuck::Zeroable::zeroed(); cut.nodes().len()];
+    let rule = rules.lod.measured();
     for place in cut.walk_shown() {
         let node = cut.node(place);
         let neighbours = match node.parent {
@@ -131,7 +139,7 @@ pub fn build_index(cut: &Cut, weights: &[[f32; 8]], rules: &IndexRules) -> Vec<N
             Some(_) => pack_weights(weights[place as usize]),
             None => FULL_WEIGHTS,
         };
-        records[place as usize] = rules.record(cut, place, neighbours, blend);
+        records[place as usize] = rules.record(&rule, cut, place, neighbours, blend);
     }
     records
 }
@@ -182,17 +190,6 @@ mod tests {
         }
     }
 
-    /// The live node at the key's depth or the coarser leaf above it.
-    fn find(cut: &Cut, key: NodeKey) -> u32 {
-        let mut at = 0;
-        while let Some(first) = cut.node(at).first_child.filter(|_| cut.node(at).key.depth < key.depth) {
-            let shift = u32::from(key.depth - cut.node(at).key.depth - 1);
-            let bits = (key.cell >> UVec3::splat(shift)) & UVec3::ONE;
-            at = first + (bits.x | bits.y << 1 | bits.z << 2);
-        }
-        at
-    }
-
     proptest! {
         /// After any splits and collapses, every link leads to the node that a search from the root finds.
         #[test]
@@ -231,7 +228,7 @@ mod tests {
                     cell[face / 2] += if face % 2 == 1 { 1 } else { -1 };
                     let inside = cell.min_element() >= 0 && cell.max_element() < 1 << key.depth;
                     let expected =
-                        if inside { find(&cut, NodeKey { depth: key.depth, cell: cell.as_uvec3() }) } else { NO_NODE };
+                        if inside { cut.find(NodeKey { depth: key.depth, cell: cell.as_uvec3() }) } else { NO_NODE };
                     prop_assert_eq!(records[place as usize].neighbours[face], expected);
                 }
             }

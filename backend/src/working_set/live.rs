@@ -4,12 +4,17 @@
 //! [`WorkingSet::wanted`] tells which bricks to fetch, most needed first; what became of them comes back through
 //! [`WorkingSet::arrived`] and [`WorkingSet::failed`], and [`WorkingSet::show`] moves what rays meet.
 
-use super::presence::{Tick, advance, refresh, refresh_deficits};
+use super::presence::{Seen, Tick, advance, refresh, refresh_deficits};
 use super::room::Room;
-use super::{Cut, CutNode, Family, IndexRules, Meeting, ResidentBrick, SlotPool, priorities};
+use super::{
+    Cut, CutNode, Family, HORIZON, IndexRules, LodRule, MOST_AHEAD, Meeting, Motion, ResidentBrick, SlotPool,
+    is_shown, prefetch, priorities,
+};
 use crate::store::{NodeKey, NodeSummary};
 use shaders::optics::Optics;
+use std::cmp::Ordering;
 use std::collections::HashMap;
+use std::time::Duration;
 
 /// Rays that met a node within this many seconds still count, for views that move.
 const MEMORY_S: f64 = 0.5;
@@ -31,6 +36,24 @@ pub struct Moment<'a> {
     pub most_in_flight: usize,
 }
 
+impl Moment<'_> {
+    /// Bricks that the motion since an earlier frame, of which this is the rule and the time, will ask for of these leaves,
+    /// if it goes on.
+    pub fn ahead(
+        &self,
+        leaves: impl IntoIterator<Item = NodeKey>,
+        before: Option<(LodRule, f64)>,
+    ) -> Vec<NodeKey> {
+        let Some((before, then_s)) = before.filter(|&(_, then_s)| then_s < self.now_s) else {
+            return Vec::new();
+        };
+        let between = Duration::from_secs_f64(self.now_s - then_s);
+        let motion = Motion { now: self.rules.lod, before: &before, between };
+        let shows = |key| is_shown(self.rules.optics, (self.summary)(key));
+        prefetch(leaves, &motion, HORIZON, self.rules.shape, shows, MOST_AHEAD)
+    }
+}
+
 /// A leaf that rays of the last frame met, on whatever view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {
@@ -49,6 +72,21 @@ pub enum Arrival {
     Unwanted,
 }
 
+/// A node that something is wanted of.
+struct Wish {
+    urgency: f64,
+    rays: u32,
+    key: NodeKey,
+    place: u32,
+}
+
+impl Wish {
+    /// By urgency, then by rays, then by key.
+    fn most_needed_first(a: &Self, b: &Self) -> Ordering {
+        b.urgency.total_cmp(&a.urgency).then(b.rays.cmp(&a.rays)).then(a.key.cmp(&b.key))
+    }
+}
+
 /// The cut, the slots of its bricks, and what is on its way.
 #[derive(Clone, Debug)]
 pub struct WorkingSet {
@@ -64,10 +102,10 @@ pub struct WorkingSet {
     optics: Option<Optics>,
     /// Nodes whose children cannot be read, until when.
     lost: HashMap<NodeKey, f64>,
-    /// Of families that were split because finer neighbours needed it: how urgent that was.
-    forced: HashMap<NodeKey, f64>,
+    /// Of split nodes: how urgent that was, for them or for the finer neighbours that needed it.
+    urgency: HashMap<NodeKey, f64>,
     wanted: Vec<NodeKey>,
-    /// Families that came and that went in the last update.
+    /// Families that came in the last update.
     pub splits: u64,
     /// Families that went in the last update.
     pub collapses: u64,
@@ -86,7 +124,7 @@ impl WorkingSet {
             last_s: None,
             optics: None,
             lost: HashMap::new(),
-            forced: HashMap::new(),
+            urgency: HashMap::new(),
             wanted: Vec::new(),
             splits: 0,
             collapses: 0,
@@ -156,16 +194,14 @@ impl WorkingSet {
             Some(last) => ((moment.now_s - last) / moment.fade_s).clamp(0.0, 1.0) as f32,
         };
         self.last_s = Some(moment.now_s);
-        let new_since_s = self.now_s - MEMORY_S;
-        let tick = Tick { now_s: self.now_s, step, seen_since_s: self.seen_since(), new_since_s };
-        let lost = &self.lost;
-        let is_lost = |key| !lost.is_empty() && lost.get(&key).is_some_and(|&until| tick.now_s < until);
+        let tick = Tick { now_s: self.now_s, step, seen: self.seen() };
+        let is_lost = |key| is_lost(&self.lost, key, tick.now_s);
         self.moving = advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
     }
 
     /// Whether the detail below a node is known not to be had now.
     pub fn is_lost(&self, key: NodeKey) -> bool {
-        !self.lost.is_empty() && self.lost.get(&key).is_some_and(|&until| self.now_s < until)
+        is_lost(&self.lost, key, self.now_s)
     }
 
     /// Bricks that slots are kept for.
@@ -181,19 +217,15 @@ impl WorkingSet {
     }
 
     /// Since when rays count: while nothing changes, all of them do, so that what is chosen by them comes to rest.
-    fn seen_since(&self) -> f64 {
-        self.still_since_s.min(self.now_s - MEMORY_S)
-    }
-
-    /// Whether somebody may see a node: rays met it, or have not had the time to tell.
-    pub(super) fn is_seen(&self, node: &CutNode) -> bool {
-        node.met.time_s >= self.seen_since() || node.met.since_s >= self.now_s - MEMORY_S
+    pub(super) fn seen(&self) -> Seen {
+        let new_since_s = self.now_s - MEMORY_S;
+        Seen { met_since_s: self.still_since_s.min(new_since_s), new_since_s }
     }
 
     /// Whether rays met a node, be it that they meet its children now.
     pub(super) fn has_met(&self, place: u32) -> bool {
         let node = self.cut.node(place);
-        node.is_visible && node.met.time_s >= self.seen_since()
+        node.is_visible && self.seen().has_met(node)
     }
 
     /// Whether a node is a leaf that rays meet.
@@ -220,12 +252,12 @@ impl WorkingSet {
 
     /// Gives up families that are on their way and that nobody wants any more, fine ones first.
     fn drop_unwanted(&mut self, moment: &Moment, order: &[u32]) {
-        let since = self.seen_since();
+        let seen = self.seen();
         for &place in order.iter().rev() {
             let node = self.cut.node(place);
             let Some(first) = node.first_child else { continue };
             let lacks = (first..first + 8).any(|child| self.cut.lacks(child));
-            let is_wanted = node.deficit > 0.0 && node.met.time_s >= since && !self.is_lost(node.key);
+            let is_wanted = node.deficit > 0.0 && seen.has_met(node) && !self.is_lost(node.key);
             let is_leaving = node.is_leaving && node.family == Family::Hidden;
             if ((lacks && !is_wanted) || is_leaving) && self.cut.may_collapse(moment.rules.shape, place) {
                 self.collapse(place);
@@ -252,31 +284,30 @@ impl WorkingSet {
         if was_shown {
             node.permits = shown;
         }
-        self.forced.remove(&key);
+        self.urgency.remove(&key);
         self.collapses += 1;
     }
 
     /// Splits all that rays found too coarse, as far as there is room.
     fn split_all(&mut self, moment: &Moment, order: &[u32], priority: &[f64]) {
-        let mut candidates: Vec<u32> = order.iter().copied().filter(|&p| self.is_candidate(p)).collect();
-        let rank = |place: u32| (priority[place as usize], self.cut.node(place));
-        candidates.sort_by(|&a, &b| {
-            let ((p, a), (q, b)) = (rank(a), rank(b));
-            q.total_cmp(&p).then(b.met.rays.cmp(&a.met.rays)).then(a.key.cmp(&b.key))
-        });
+        let is_candidate = |&place: &u32| self.is_candidate(place);
+        let mut candidates: Vec<Wish> = order
+            .iter()
+            .copied()
+            .filter(is_candidate)
+            .map(|place| self.wish(place, priority[place as usize], self.cut.node(place).met.rays))
+            .collect();
+        candidates.sort_by(Wish::most_needed_first);
         let mut room = Room::new(self, moment, priority);
         room.pay_debts(self);
-        let candidates: Vec<(u32, NodeKey)> =
-            candidates.into_iter().map(|place| (place, self.cut.node(place).key)).collect();
-        for (place, key) in candidates {
+        for Wish { urgency, key, place, .. } in candidates {
             // Another may have needed it split, or needed its room.
             if self.cut.find(key) != place || self.cut.node(place).first_child.is_some() {
                 continue;
             }
-            let urgency = priority[place as usize];
             for split in room.make(self, place, urgency) {
                 self.split(moment, split);
-                self.forced.insert(self.cut.node(split).key, urgency);
+                self.urgency.insert(self.cut.node(split).key, urgency);
             }
             if room.is_exhausted() {
                 break;
@@ -305,22 +336,30 @@ impl WorkingSet {
 
     /// Visible nodes without a brick, most urgent families first.
     fn missing(&self, priority: &[f64]) -> Vec<NodeKey> {
-        let mut missing: Vec<(f64, u32, u32)> = Vec::new();
+        let mut missing = Vec::new();
         for place in self.cut.walk().filter(|&place| self.awaits(place)) {
-            let node = self.cut.node(place);
-            let (urgency, rays) = match node.parent {
+            let (urgency, rays) = match self.cut.node(place).parent {
                 None => (f64::INFINITY, 0),
                 Some(parent) => {
                     let above = self.cut.node(parent);
-                    let forced = self.forced.get(&above.key).copied().unwrap_or(f64::NEG_INFINITY);
+                    let split = self.urgency.get(&above.key).copied().unwrap_or(f64::NEG_INFINITY);
                     let own = priority.get(parent as usize).copied().unwrap_or(f64::NEG_INFINITY);
-                    (own.max(forced), above.met.rays)
+                    (own.max(split), above.met.rays)
                 }
             };
-            missing.push((urgency, rays, place));
+            missing.push(self.wish(place, urgency, rays));
         }
-        let key = |place: u32| self.cut.node(place).key;
-        missing.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)).then_with(|| key(a.2).cmp(&key(b.2))));
-        missing.into_iter().map(|(.., place)| key(place)).collect()
+        missing.sort_by(Wish::most_needed_first);
+        missing.into_iter().map(|wish| wish.key).collect()
     }
+
+    fn wish(&self, place: u32, urgency: f64, rays: u32) -> Wish {
+        Wish { urgency, rays, key: self.cut.node(place).key, place }
+    }
+}
+
+/// Whether the detail below a node is not to be had now, by what is lost until when.
+fn is_lost(lost: &HashMap<NodeKey, f64>, key: NodeKey, now_s: f64) -> bool {
+    // Mostly nothing is.
+    !lost.is_empty() && lost.get(&key).is_some_and(|&until| now_s < until)
 }

@@ -4,8 +4,29 @@
 //! parent is too coarse for the display; every node has its share t of the blend with its parent, which rises or falls in
 //! time. So a family that is no longer needed fades away and stays in the cache until others need the room.
 
-use super::{Cut, Family, IndexRules};
+use super::{Cut, CutNode, Family, IndexRules};
 use crate::store::{NodeKey, OctreeShape};
+
+/// Since when nodes count as seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Those that rays met since then, seconds.
+    pub met_since_s: f64,
+    /// Those that began to show since then: rays have not had the time to tell.
+    pub new_since_s: f64,
+}
+
+impl Seen {
+    /// Whether rays met a node.
+    pub fn has_met(&self, node: &CutNode) -> bool {
+        node.met.time_s >= self.met_since_s
+    }
+
+    /// Whether somebody may see it.
+    pub fn may_see(&self, node: &CutNode) -> bool {
+        self.has_met(node) || node.met.since_s >= self.new_since_s
+    }
+}
 
 /// A moment on the working set's clock.
 #[derive(Clone, Copy, Debug)]
@@ -14,10 +35,8 @@ pub struct Tick {
     pub now_s: f64,
     /// By how much shares may change until now, 0 to 1.
     pub step: f32,
-    /// Nodes that rays met since then count as seen, seconds.
-    pub seen_since_s: f64,
-    /// Nodes that began to show since then count as seen, too: rays have not had the time to tell.
-    pub new_since_s: f64,
+    /// Which nodes count as seen.
+    pub seen: Seen,
 }
 
 /// Tells nodes of the cut what the frame thinks of them.
@@ -53,8 +72,9 @@ pub fn settle(cut: &mut Cut) {
     }
 }
 
-/// Moves all shares toward what the rule of detail asks for; tells how many leaves are not there yet. Families begin and end one by one, each in sight of what the
-/// ones before it did; `order` has parents before children. `is_lost` tells whether the detail below a node cannot be had.
+/// Moves all shares toward what the rule of detail asks for; tells how many leaves are not there yet. Families begin and
+/// end one by one, each in sight of what the ones before it did; `order` has parents before children. `is_lost` tells
+/// whether the detail below a node cannot be had.
 pub fn advance(
     cut: &mut Cut,
     shape: &OctreeShape,
@@ -65,7 +85,7 @@ pub fn advance(
     for &place in order {
         let wants = cut.wants_children(place);
         let node = cut.node(place);
-        let is_seen = node.met.time_s >= tick.seen_since_s || node.met.since_s >= tick.new_since_s;
+        let is_seen = tick.seen.may_see(node);
         let is_ready = node.permits == 0.0 || !is_seen;
         let family = match node.family {
             Family::Hidden if wants && is_ready && cut.may_show(shape, place) => {
@@ -87,7 +107,7 @@ pub fn advance(
     }
     let is_moving = |place: &u32| {
         let node = cut.node(*place);
-        let is_met = node.met.time_s >= tick.seen_since_s && !is_lost(node.key);
+        let is_met = tick.seen.has_met(node) && !is_lost(node.key);
         let target = permitted(node.is_visible, node.deficit, is_met);
         node.shown_child().is_none() && (node.permits != target || node.shown < 1.0)
     };

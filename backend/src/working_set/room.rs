@@ -169,7 +169,8 @@ impl<'a> Room<'a> {
     fn is_seen(&self, set: &WorkingSet, place: u32) -> bool {
         let node = set.cut.node(place);
         let Some(first) = node.first_child.filter(|_| node.family != Family::Hidden) else { return false };
-        (first..first + 8).any(|child| set.is_seen(set.cut.node(child)))
+        let seen = set.seen();
+        (first..first + 8).any(|child| seen.may_see(set.cut.node(child)))
     }
 
     /// Slots that a family holds or has reserved.

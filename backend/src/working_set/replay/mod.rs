@@ -18,15 +18,14 @@ pub use account::{Account, ReplayRun};
 pub use policy::{DiskModel, FetchOrder, Policy};
 
 use super::{
-    Arrival, HORIZON, IndexRules, MOST_AHEAD, Met, Moment, Motion, TraceHeader, TracedFrame, WorkingSet,
-    feedback_on, is_shown, most_in_flight, prefetch,
+    Arrival, IndexRules, Met, Moment, TraceHeader, TracedFrame, WorkingSet, feedback_on, most_in_flight,
 };
 use crate::store::{NodeKey, NodeSummary, OctreeShape};
 use disk::Disk;
 use policy::Waiting;
 use shaders::layout::{code_from_deficit, deficit_from_code};
 use std::collections::HashSet;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// The volume of a trace, without its voxels.
 #[derive(Clone, Copy)]
@@ -134,7 +133,8 @@ impl<'a> Replay<'a> {
         self.set.update(&moment, &self.met);
         let mut update = started.elapsed();
         let wanted = self.waiting.ordered(self.policy.order, &self.set);
-        let ahead = self.ahead(frame, &moment);
+        let before = self.last.map(|last| (last.lod_rule(self.header), last.time_s));
+        let ahead = moment.ahead(self.met.iter().map(|met| met.key), before);
         self.disk.run_until(frame.time_s);
         self.disk.want(&wanted, &ahead);
         self.disk.run_until(frame.time_s);
@@ -154,17 +154,6 @@ impl<'a> Replay<'a> {
             collapses: self.set.collapses,
             update_ms: update.as_secs_f64() * 1e3,
         }
-    }
-
-    /// Bricks that the motion will ask for, if it goes on.
-    fn ahead(&self, frame: &TracedFrame, moment: &Moment) -> Vec<NodeKey> {
-        let Some(last) = self.last.filter(|last| last.time_s < frame.time_s) else { return Vec::new() };
-        let before = last.lod_rule(self.header);
-        let between = Duration::from_secs_f64(frame.time_s - last.time_s);
-        let motion = Motion { now: moment.rules.lod, before: &before, between };
-        let leaves = self.met.iter().map(|met| met.key);
-        let shows = |key| is_shown(&frame.optics, (self.volume.summary)(key));
-        prefetch(leaves, &motion, HORIZON, &self.shape, shows, MOST_AHEAD)
     }
 
     /// Bricks that came into the cache, and those of them that had been there before.
