@@ -16,15 +16,21 @@ fn pairs_across(brick: Brick, middle: vec3<f32>, length: f32) -> f32 {
 }
 
 // Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something. A cell
-// is kept with a margin of one voxel; a blended node's steps are up to twice as long, so two points of a pair are asked.
+// is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points of a pair
+// are asked as leave none of it farther than a voxel.
 fn pairs_unseen(brick: Brick, t: f32, length: f32) -> f32 {
-    if BLENDS && is_blended(brick.weights) {
-        let first = point_in(brick.own, t + 0.5 * length);
-        let second = point_in(brick.own, t + 1.5 * length);
-        if is_visible_at(brick, first) || is_visible_at(brick, second) {
-            return 0.0;
+    if has_fractions(brick) {
+        let slope = abs(brick.own.slope);
+        let points = max(1.0, ceil(length * max(slope.x, max(slope.y, slope.z))));
+        var unseen = 1e6;
+        for (var j = 0.5; j < points; j += 1.0) {
+            let point = point_in(brick.own, t + 2.0 * length * (j / points));
+            if is_visible_at(brick, point) {
+                return 0.0;
+            }
+            unseen = min(unseen, pairs_across(brick, point, 2.0 * length));
         }
-        return min(pairs_across(brick, first, 2.0 * length), pairs_across(brick, second, 2.0 * length));
+        return unseen;
     }
     let middle = point_in(brick.own, t + length);
     if is_visible_at(brick, middle) {

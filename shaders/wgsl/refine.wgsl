@@ -17,19 +17,26 @@ fn step_voxels(depth: f32) -> f32 {
     return min(SAFE_DEPTH / max(depth, 1e-30), max(shortest, LONGEST_STEP));
 }
 
-// The same in metres along the ray.
-fn longest_step(node: NodeRecord, ray: Ray) -> f32 {
-    let edge = voxel_edge(node.depth) / ray.speed;
-    return step_voxels(node.most_extinction * params.quality.z * edge) * edge;
+// A voxel of a node, as a ray meets it.
+struct Voxel {
+    // Metres along the ray.
+    edge: f32,
+    // The largest extinction that the node may show, per metre.
+    most_extinction: f32,
 }
 
-// How much longer steps from t on are where the parent has a share of the samples, by the fractional level of both: so they
-// are as long as a coarser neighbour's on the border to it (LOD section 5).
-fn stretch_at(brick: Brick, t: f32) -> f32 {
-    if BLENDS && is_blended(brick.weights) {
-        return exp2(parents_share(brick.weights, brick.own, t));
+fn voxel_of(node: NodeRecord, ray: Ray) -> Voxel {
+    return Voxel(voxel_edge(node.depth) / ray.speed, node.most_extinction * params.quality.z);
+}
+
+// The longest step from t on, in metres. Where samples are of more than one level, voxels of the fractional level count: so
+// steps are as long as a coarser neighbour's on the border to it (LOD section 5).
+fn longest_step(voxel: Voxel, brick: Brick, ray: Ray, t: f32) -> f32 {
+    var edge = voxel.edge;
+    if has_fractions(brick) {
+        edge *= exp2(fraction_at(brick, ray, t));
     }
-    return 1.0;
+    return step_voxels(voxel.most_extinction * edge) * edge;
 }
 
 // What a pair of steps shows.

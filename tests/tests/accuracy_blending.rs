@@ -20,7 +20,7 @@ use shaders::layout::{FULL_WEIGHTS, NO_SLOT, NodeRecord};
 use shaders::twin::composite::Over;
 use shaders::twin::kernel::Full;
 use shaders::twin::levels::Brick;
-use shaders::twin::refine::{longest_step, stretch_at};
+use shaders::twin::refine::Voxel;
 use shaders::twin::shade::Plain;
 use shaders::twin::vector::Vec3;
 use shaders::twin::{FeedbackCell, Real, Scene, ray};
@@ -245,7 +245,7 @@ fn on_border(scene: &Scene<f64>, node: &NodeRecord, point: DVec3, direction: DVe
         ..ray
     };
     let brick = Brick::new::<Plainest>(scene, node, &ray);
-    let step = longest_step::<f64, Plainest>(scene, node, &ray) * stretch_at::<f64, Plainest>(&brick, 0.0);
+    let step = Voxel::new(scene, node, &ray).longest_step::<Plainest>(scene, &brick, &ray, 0.0);
     [brick.scalar_at::<Plainest>(scene, &ray, 0.0), step]
 }
 

@@ -40,17 +40,23 @@ impl<F: Real> Brick<'_, F> {
 
 impl<F: Real> Brick<'_, F> {
     /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something.
-    /// A cell is kept with a margin of one voxel; a blended node's steps are up to twice as long, so two points of a pair
-    /// are asked.
+    /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
+    /// of a pair are asked as leave none of it farther than a voxel.
     #[inline(always)]
     pub(super) fn pairs_unseen<K: Kernel>(&self, t: F, length: F) -> u32 {
         let both = F::of(2.0) * length;
-        if self.is_blended::<K>() {
-            let points = [0.5, 1.5].map(|share| self.own.point(t + F::of(share) * length));
-            if self.is_visible_at(points[0]) || self.is_visible_at(points[1]) {
-                return 0;
+        if self.has_fractions::<K>() {
+            let [x, y, z] = self.own.slope.0.map(F::abs);
+            let points = (length * x.most(y).most(z)).ceil().most(F::ONE);
+            let mut unseen = u32::MAX;
+            for j in 0..points.to_index() {
+                let point = self.own.point(t + both * ((F::of_u32(j) + F::of(0.5)) / points));
+                if self.is_visible_at(point) {
+                    return 0;
+                }
+                unseen = unseen.min(self.pairs_across(point, both));
             }
-            return self.pairs_across(points[0], both).min(self.pairs_across(points[1], both));
+            return unseen;
         }
         let middle = self.own.point(t + length);
         if self.is_visible_at(middle) { 0 } else { self.pairs_across(middle, both) }

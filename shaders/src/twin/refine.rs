@@ -29,19 +29,31 @@ pub fn step_voxels<F: Real>(shortest: F, depth: F, safe: F, tolerance: F) -> F {
 /// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
 const UNSEEN: f64 = 0.25;
 
-/// The same in metres along the ray.
-#[inline(always)]
-pub fn longest_step<F: Real, K: Kernel>(scene: &Scene<F>, node: &NodeRecord, ray: &Ray<F>) -> F {
-    let view = scene.view;
-    let edge = voxel_edge::<F>(view.finest_depth, node.depth) / ray.speed;
-    let depth = F::of_f32(node.most_extinction) * view.extinction_per_metre * edge;
-    step_voxels(view.step_voxels, depth, F::of(K::Shade::safe_depth(scene.needs)), view.tolerance) * edge
+/// A voxel of a node, as a ray meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct Voxel<F> {
+    /// Metres along the ray.
+    pub edge: F,
+    /// The largest extinction that the node may show, per metre.
+    pub most_extinction: F,
 }
 
-/// How much longer steps from t on are where the parent has a share of the samples; see the WGSL.
-#[inline(always)]
-pub fn stretch_at<F: Real, K: Kernel>(brick: &Brick<F>, t: F) -> F {
-    if brick.is_blended::<K>() { brick.parents_share(t).exp2() } else { F::ONE }
+impl<F: Real> Voxel<F> {
+    /// Of a node.
+    #[inline(always)]
+    pub fn new(scene: &Scene<F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+        let edge = voxel_edge::<F>(scene.view.finest_depth, node.depth) / ray.speed;
+        Self { edge, most_extinction: F::of_f32(node.most_extinction) * scene.view.extinction_per_metre }
+    }
+
+    /// The longest step from t on, in metres, by the fractional level there; see the WGSL.
+    #[inline(always)]
+    pub fn longest_step<K: Kernel>(&self, scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> F {
+        let has_fractions = brick.has_fractions::<K>();
+        let edge = if has_fractions { self.edge * brick.fraction(scene, ray, t).exp2() } else { self.edge };
+        let (view, safe) = (scene.view, F::of(K::Shade::safe_depth(scene.needs)));
+        step_voxels(view.step_voxels, self.most_extinction * edge, safe, view.tolerance) * edge
+    }
 }
 
 /// What a pair of steps shows.

@@ -15,6 +15,15 @@ fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
         abs(ray.inverse) * voxel_edge(node.depth));
 }
 
+// Whether samples may be of levels above the node's.
+fn has_fractions(brick: Brick) -> bool {
+    return false;
+}
+
+fn fraction_at(brick: Brick, ray: Ray, t: f32) -> f32 {
+    return 0.0;
+}
+
 fn scalar_at(brick: Brick, ray: Ray, t: f32) -> f32 {
     return clamp(scalar_in(brick.own, t), 0.0, 1.0);
 }

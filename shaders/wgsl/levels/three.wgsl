@@ -44,6 +44,11 @@ fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
     return brick;
 }
 
+// Whether samples may be of levels above the node's.
+fn has_fractions(brick: Brick) -> bool {
+    return (FILTERS_LEVELS && brick.coarsest > 0.0) || is_blended(brick.weights);
+}
+
 // The fractional level of samples at t, 0 is the node, 1 the parent, 2 the grandparent: the one that they are filtered at,
 // or the parent's share by the node's corners where that is more.
 fn fraction_at(brick: Brick, ray: Ray, t: f32) -> f32 {

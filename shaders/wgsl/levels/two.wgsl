@@ -26,6 +26,11 @@ fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
         abs(ray.inverse) * voxel_edge(node.depth));
 }
 
+// Whether samples may be of levels above the node's.
+fn has_fractions(brick: Brick) -> bool {
+    return is_blended(brick.weights);
+}
+
 // The fractional level of samples at t: 0 is the node, 1 the parent.
 fn fraction_at(brick: Brick, ray: Ray, t: f32) -> f32 {
     if !is_blended(brick.weights) {

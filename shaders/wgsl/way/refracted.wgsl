@@ -164,10 +164,10 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
             *count |= select(0u, MISSING, node.deficit > 0.0);
         }
         let brick = brick_of(node, bent.ray);
-        let voxel = voxel_edge(node.depth) / bent.ray.speed;
+        let voxel = voxel_of(node, bent.ray);
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
-        let span_left = max(min(t_out, next_break(bent.t)) - bent.t, LEAST_PAIR * voxel);
-        let longest = min(longest_step(node, bent.ray) * stretch_at(brick, bent.t), MOST_STEP * voxel);
+        let span_left = max(min(t_out, next_break(bent.t)) - bent.t, LEAST_PAIR * voxel.edge);
+        let longest = min(longest_step(voxel, brick, bent.ray, bent.t), MOST_STEP * voxel.edge);
         let pairs = max(1.0, ceil(span_left / (2.0 * longest)));
         var step = 0.5 * span_left / pairs;
         let t0 = bent.t;

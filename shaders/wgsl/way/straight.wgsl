@@ -7,12 +7,12 @@ struct Marched {
 }
 
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps are
-// too long for the tolerance, each of them is cut into equal parts. In a blended node the rest of the way is laid out anew
-// after each pair, in pairs as long as the level there allows.
-fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, longest: f32, t_in: f32, t_out: f32) -> Marched {
+// too long for the tolerance, each of them is cut into equal parts. Where samples are of more than one level the
+// rest of the way is laid out anew after each pair, in pairs as long as the level there allows.
+fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in: f32, t_out: f32) -> Marched {
     var from_t = t_in;
     var span = t_out - t_in;
-    var pairs = max(1.0, ceil(span / (2.0 * longest * stretch_at(brick, t_in))));
+    var pairs = max(1.0, ceil(span / (2.0 * longest_step(voxel, brick, ray, t_in))));
     var step = 0.5 * span / pairs;
     var front = front_of_brick;
     var marched = Marched(front, 0u, false);
@@ -22,10 +22,10 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, longest: f32, t_in
     while i < pairs {
         let t0 = from_t + 2.0 * i * step;
         // Steps too short for t to grow by them are counted instead, or there would be no end.
-        if BLENDS && is_blended(brick.weights) && t0 > from_t {
+        if has_fractions(brick) && t0 > from_t {
             from_t = t0;
             span = max(t_out - from_t, 0.0);
-            pairs = max(1.0, ceil(span / (2.0 * longest * stretch_at(brick, from_t))));
+            pairs = max(1.0, ceil(span / (2.0 * longest_step(voxel, brick, ray, from_t))));
             step = 0.5 * span / pairs;
             i = 0.0;
         }
@@ -78,12 +78,12 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         if node.slot != NO_SLOT && t_out > t {
             report(at, node.deficit);
             let brick = brick_of(node, ray);
-            let longest = longest_step(node, ray);
+            let voxel = voxel_of(node, ray);
             var is_done = false;
             // Cut where the law of an enhancer is not smooth.
             while t < t_out && !is_done {
                 let until = min(next_break(t), t_out);
-                let marched = march(front, brick, ray, longest, t, until);
+                let marched = march(front, brick, ray, voxel, t, until);
                 front = marched.front;
                 is_done = marched.is_done;
                 *count += marched.samples;

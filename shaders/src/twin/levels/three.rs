@@ -61,6 +61,12 @@ impl<'a, F: Real> Brick<'a, F> {
         K::BLENDS && self.weights.is_blended
     }
 
+    /// Whether samples may be of levels above the node's.
+    #[inline(always)]
+    pub fn has_fractions<K: Kernel>(&self) -> bool {
+        self.is_blended::<K>() || (K::IS_FULL && self.filters_levels && self.coarsest > F::ZERO)
+    }
+
     /// The parent's share at t, of a blended node.
     #[inline(always)]
     pub fn parents_share(&self, t: F) -> F {

@@ -8,7 +8,7 @@ use crate::twin::gradient::{Gradients, LEAST_SQUARE};
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
 use crate::twin::ray::{Ray, far};
-use crate::twin::refine::{longest_step, scalars_in_reach, stretch_at};
+use crate::twin::refine::{Voxel, scalars_in_reach};
 use crate::twin::tables::is_vacant;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
 use crate::twin::{Cast, Real, Scene, vector::Vec3};
@@ -191,12 +191,13 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
             cast.is_missing |= node.deficit > 0.0;
         }
         let brick = Brick::new::<K>(scene, node, &bent.ray);
-        let voxel = voxel_edge::<F>(scene.view.finest_depth, node.depth) / bent.ray.speed;
+        let voxel = Voxel::new(scene, node, &bent.ray);
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
-        let span_left = (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel);
+        let span_left =
+            (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel.edge);
         let two = F::of(2.0);
-        let longest = longest_step::<F, K>(scene, node, &bent.ray) * stretch_at::<F, K>(&brick, bent.t);
-        let longest = longest.least(F::of(MOST_STEP) * voxel);
+        let longest = voxel.longest_step::<K>(scene, &brick, &bent.ray, bent.t);
+        let longest = longest.least(F::of(MOST_STEP) * voxel.edge);
         let pairs = (span_left / (two * longest)).ceil().most(F::ONE);
         let mut step = F::of(0.5) * span_left / pairs;
         let t0 = bent.t;

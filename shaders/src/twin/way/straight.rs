@@ -6,7 +6,7 @@ use crate::twin::composite::{Accumulated, Composite};
 use crate::twin::enhance::Chain;
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
-use crate::twin::refine::{longest_step, scalars_in_reach, stretch_at};
+use crate::twin::refine::{Voxel, scalars_in_reach};
 use crate::twin::tables::is_vacant;
 use crate::twin::{Cast, Real, Scene, ray::Ray};
 
@@ -17,22 +17,23 @@ struct Marched<F> {
 }
 
 /// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps
-/// are too long for the tolerance, each of them is cut into equal parts. In a blended node the rest of the way is laid out
-/// anew after each pair, in pairs as long as the level there allows.
+/// are too long for the tolerance, each of them is cut into equal parts. Where samples are of more than one level the rest
+/// of the way is laid out anew after each pair, in pairs as long as the level there allows.
 #[inline(always)]
 fn march<F: Real, K: Kernel>(
     scene: &Scene<F>,
     chain: &Chain<F>,
     mut front: Accumulated<F>,
     way: Straight<F>,
-    longest: F,
+    voxel: Voxel<F>,
     (t_in, t_out): (F, F),
 ) -> Marched<F> {
     let Straight { brick, ray } = way;
     let two = F::of(2.0);
     let lay_out = |from: F| {
         let span = (t_out - from).most(F::ZERO);
-        let pairs = (span / (two * longest * stretch_at::<F, K>(brick, from))).ceil().most(F::ONE);
+        let longest = voxel.longest_step::<K>(scene, brick, ray, from);
+        let pairs = (span / (two * longest)).ceil().most(F::ONE);
         (F::of(0.5) * span / pairs, pairs.to_index())
     };
     let mut from = t_in;
@@ -43,7 +44,7 @@ fn march<F: Real, K: Kernel>(
     while i < count {
         let t0 = from + two * F::of_u32(i) * step;
         // Steps too short for t to grow by them are counted instead, or there would be no end.
-        if brick.is_blended::<K>() && t0 > from {
+        if brick.has_fractions::<K>() && t0 > from {
             from = t0;
             (step, count) = lay_out(from);
             i = 0;
@@ -105,13 +106,13 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Ca
         if node.slot != NO_SLOT && t_out > t {
             scene.feedback[at as usize].note(node.deficit);
             let brick = Brick::new::<K>(scene, node, ray);
-            let longest = longest_step::<F, K>(scene, node, ray);
+            let voxel = Voxel::new(scene, node, ray);
             let mut is_done = false;
             // Cut where the law of an enhancer is not smooth.
             while t < t_out && !is_done {
                 let until = chain.next_break::<K>(t).least(t_out);
                 let way = Straight { brick: &brick, ray };
-                let marched = march::<F, K>(scene, &chain, front, way, longest, (t, until));
+                let marched = march::<F, K>(scene, &chain, front, way, voxel, (t, until));
                 (front, is_done) = (marched.front, marched.is_done);
                 cast.samples += marched.samples;
                 t = until;
