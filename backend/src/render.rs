@@ -2,6 +2,15 @@
 
 mod ancestors;
 mod damage;
+fn check_clock(frame: &FrameState) -> Result<(), RenderError> {
+    let wrong = |what, seconds| Err(RenderError::Clock { what, seconds });
+    match frame.pace {
+        _ if !frame.time_s.is_finite() => wrong("time", frame.time_s),
+        Pace::Live { fade_s, .. } if !(fade_s >= 0.0 && fade_s.is_finite()) => wrong("fade", fade_s),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod damage_tests;
 mod frame;
@@ -54,6 +63,14 @@ pub enum RenderError {
     /// The quality is no quality.
     #[error("the quality's {0}")]
     Quality(shaders::optics::OutOfBounds),
+    /// The frame's clock is no clock.
+    #[error("the frame's {what} is {seconds} s; give a finite number{}", if *.what == "fade" { " of at least 0" } else { "" })]
+    Clock {
+        /// `time` or `fade`.
+        what: &'static str,
+        /// What it is.
+        seconds: f64,
+    },
     /// The trace cannot be written; the sentence is the trace's.
     #[error("{0}")]
     Trace(String),
@@ -129,6 +146,7 @@ impl Renderer {
         frame.optics.check()?;
         frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
         frame.quality.check().map_err(RenderError::Quality)?;
+        check_clock(frame)?;
         let in_reach = self.in_reach(frame);
         let frame = in_reach.as_ref().unwrap_or(frame);
         match frame.pace {

@@ -88,4 +88,7 @@ pub struct DeviceInfo {
     pub reason: String,
     /// The interpolation in use: `hardware` or `exact`.
     pub filter: String,
+    /// Bytes of its brick cache, which may be less than was asked for: no more than the volume has bricks, and on a GPU a
+    /// power of two of them.
+    pub cache_bytes: u64,
 }

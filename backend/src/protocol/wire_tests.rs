@@ -124,11 +124,9 @@ fn from_backend() -> impl Strategy<Value = FromBackend> {
             host,
             process
         })),
-        (".*", ".*", ".*").prop_map(|(adapter, reason, filter)| FromBackend::Ready(DeviceInfo {
-            adapter,
-            reason,
-            filter
-        })),
+        (".*", ".*", ".*", any::<u64>()).prop_map(|(adapter, reason, filter, cache_bytes)| {
+            FromBackend::Ready(DeviceInfo { adapter, reason, filter, cache_bytes })
+        }),
         (any::<u64>(), any::<u64>()).prop_map(|(done, total)| FromBackend::Progress { done, total }),
         image(),
         done(),

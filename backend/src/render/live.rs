@@ -27,6 +27,8 @@ pub(super) struct Limits {
 pub(super) struct Live {
     /// The frame before.
     last: Option<FrameState>,
+    /// By how much its own clock, which never runs back, is ahead of the frames', seconds.
+    ahead_s: f64,
     /// Of each feedback table under way: the nodes of the index that its frame was cast with.
     tables: VecDeque<Vec<NodeKey>>,
     /// What the latest table told.
@@ -65,6 +67,8 @@ pub(super) fn draw(
     stages.upload_ms += milliseconds(upload);
     let mut rules = FrameRules::new(renderer, frame, &tables);
     let is_still = live.last.as_ref().is_some_and(|last| is_same_view(last, frame));
+    let last_s = live.last.as_ref().map_or(-live.ahead_s, |last| last.time_s);
+    live.ahead_s += (last_s - frame.time_s).max(0.0);
     let mut upkeep = live.keep_up(renderer, frame, is_still, &rules, limits, &mut stages)?;
     // What fades blends, wherever the display resolves the same.
     rules.blends |= frame.quality.blended && upkeep.fading > 0;
@@ -77,7 +81,7 @@ pub(super) fn draw(
 
     let cut = &renderer.residency.set.cut;
     live.tables.push_back(cut.nodes().iter().map(|node| node.key).collect());
-    renderer.recording.began(frame)?;
+    renderer.recording.began(frame, live.now_s(frame))?;
     renderer.device.begin_feedback();
     let (mut rays, mut samples) = (0, 0);
     for view in &views {
@@ -125,6 +129,10 @@ impl Live {
         Ok(Self::default())
     }
 
+    fn now_s(&self, frame: &FrameState) -> f64 {
+        frame.time_s + self.ahead_s
+    }
+
     /// Brings the working set up to the frame's time: what rays met, what to fetch, what has come, what is shown.
     fn keep_up(
         &mut self,
@@ -148,7 +156,7 @@ impl Live {
         let moment = Moment {
             rules: rules.for_index(&shape, 0),
             summary: &summary,
-            now_s: frame.time_s,
+            now_s: self.now_s(frame),
             is_still,
             fade_s: limits.fade_s,
             most_in_flight: most_in_flight(limits.upload_bytes),
@@ -157,7 +165,7 @@ impl Live {
         let met: Vec<Met> = self.met.iter().map(|told| Met { key: told.key, rays: told.rays }).collect();
         residency.set.update(&moment, &met);
         stages.refine_ms += milliseconds(started);
-        let before = self.last.as_ref().map(|last| (LodRule::new(&renderer.display, last), last.time_s));
+        let before = self.last.as_ref().map(|last| (LodRule::new(&renderer.display, last), self.now_s(last)));
         let ahead = moment.ahead(self.met.iter().map(|told| told.key), before);
         let cancelled = residency.loader.want(residency.set.wanted(), &ahead) as u64;
         self.take_arrived(renderer, frame, rules, limits, stages)?;
@@ -172,6 +180,7 @@ impl Live {
         while let Some(table) = renderer.device.take_feedback()? {
             self.learn(renderer, &table)?;
         }
+        self.is_fresh = self.last.is_some() && self.tables.is_empty();
         Ok(())
     }
 
@@ -192,7 +201,6 @@ impl Live {
             self.met = keys.iter().zip(table).filter_map(told).collect();
             renderer.recording.told(self.met.iter().map(|told| (told.key, told.rays)))?;
         }
-        self.is_fresh = self.last.is_some() && self.tables.is_empty();
         Ok(())
     }
 
@@ -209,7 +217,7 @@ impl Live {
         for (key, fetched) in renderer.residency.loader.arrived(limits.upload_bytes) {
             match fetched {
                 Ok(brick) => self.put(renderer, key, brick, rules),
-                Err(error) => self.note_failure(renderer, key, error, frame.time_s)?,
+                Err(error) => self.note_failure(renderer, key, error, self.now_s(frame))?,
             }
         }
         stages.upload_ms += milliseconds(started);
@@ -259,7 +267,7 @@ impl Live {
             leaves: leaves().count() as u64,
             splits: set.splits,
             collapses: set.collapses,
-            in_flight: set.wanted().len() as u64,
+            in_flight: set.reserved() as u64,
             cancelled: 0,
             fading: set.moving,
             largest_deficit: self.met.iter().map(coarse).fold(0.0, f64::max),

@@ -32,13 +32,13 @@ impl Recording {
         Self { wanted, writer: None, frames: VecDeque::new() }
     }
 
-    /// The rays of a live frame are on their way.
-    pub(super) fn began(&mut self, frame: &FrameState) -> Result<(), RenderError> {
+    /// The rays of a live frame are on their way; `now_s` is its time on a clock that does not run back.
+    pub(super) fn began(&mut self, frame: &FrameState, now_s: f64) -> Result<(), RenderError> {
         let Some((path, header)) = &self.wanted else { return Ok(()) };
         if self.writer.is_none() {
             self.writer = Some(TraceWriter::create(path, header.clone())?);
         }
-        self.frames.push_back(frame.clone());
+        self.frames.push_back(FrameState { time_s: now_s, ..frame.clone() });
         // Of the device's tables, too, the oldest are given up.
         if self.frames.len() > MOST_UNDER_WAY {
             self.frames.pop_front();

@@ -104,7 +104,8 @@ impl Draw for Fake {
 }
 
 fn device() -> DeviceInfo {
-    DeviceInfo { adapter: "fake".to_owned(), reason: "a test".to_owned(), filter: "exact".to_owned() }
+    let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
+    DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 }
 }
 
 fn threads_with(mischief: fn() -> Result<(), String>) -> Box<ThreadLink> {

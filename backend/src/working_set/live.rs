@@ -47,7 +47,7 @@ impl Moment<'_> {
         let Some((before, then_s)) = before.filter(|&(_, then_s)| then_s < self.now_s) else {
             return Vec::new();
         };
-        let between = Duration::from_secs_f64(self.now_s - then_s);
+        let between = Duration::try_from_secs_f64(self.now_s - then_s).unwrap_or(Duration::MAX);
         let motion = Motion { now: self.rules.lod, before: &before, between };
         let shows = |key| is_shown(self.rules.optics, (self.summary)(key));
         prefetch(leaves, &motion, HORIZON, self.rules.shape, shows, MOST_AHEAD)

@@ -132,6 +132,7 @@ fn setting(report: &Report) -> String {
             ("adapter", device.adapter.clone()),
             ("why this one", device.reason.clone()),
             ("interpolation", device.filter.clone()),
+            ("brick cache", units::bytes(device.cache_bytes)),
         ];
         format!("<div class=\"card\"><h3>Back-end {index}</h3>{}</div>", facts(&rows))
     });

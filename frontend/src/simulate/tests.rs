@@ -171,7 +171,8 @@ fn all_files_appear_and_the_report_adds_up() {
 /// Runs a job and reads its reports: JSON and HTML.
 fn reports(scene: &Scene, job: &Job, folder: &Path) -> (serde_json::Value, String) {
     let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
-    let device = DeviceInfo { adapter: "fake".into(), reason: "a test".into(), filter: "exact".into() };
+    let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
+    let device = DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 };
     let report =
         Report::new(scene, &facts(), job, vec![device; 2], frames, std::time::Duration::from_secs(1));
     report::write(&report, folder).unwrap();

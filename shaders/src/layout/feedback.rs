@@ -22,9 +22,10 @@ pub fn deficit_from_code(code: u32) -> Option<f32> {
     (code > 0).then(|| (code as f32 - CODE_OF_ZERO) / CODES_PER_LEVEL)
 }
 
-/// The code of a deficit in levels, which is first held to ±100 levels.
+/// The code of a deficit in levels, which is first held to ±100 levels. Rounded up: what is too coarse by however little has
+/// a code above that of zero.
 pub fn code_from_deficit(deficit: f32) -> u32 {
-    (CODE_OF_ZERO + deficit.clamp(-100.0, 100.0) * CODES_PER_LEVEL) as u32
+    (CODE_OF_ZERO + (deficit.clamp(-100.0, 100.0) * CODES_PER_LEVEL).ceil()) as u32
 }
 
 #[cfg(test)]
@@ -36,6 +37,7 @@ mod tests {
         assert_eq!(deficit_from_code(0), None);
         assert_eq!(deficit_from_code(code_from_deficit(1.5)), Some(1.5));
         assert!(code_from_deficit(-1.0) < code_from_deficit(0.0));
+        assert!(code_from_deficit(1e-30) > code_from_deficit(0.0));
         assert!(code_from_deficit(f32::INFINITY) > code_from_deficit(3.0));
     }
 }

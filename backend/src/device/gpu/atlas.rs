@@ -4,7 +4,7 @@ use super::context::Context;
 use crate::device::DeviceError;
 use crate::store::BRICK_EDGE;
 
-/// Most slots along x and along y: 2⁴ × 32 texels = 512.
+/// Slots along x and along y, 2⁴ × 32 texels = 512, while there is room along z.
 const SLOT_BITS_ACROSS: u32 = 4;
 
 /// The texture, and how its slots lie.
@@ -21,11 +21,8 @@ impl Atlas {
     pub(super) fn new(context: &Context, slots: u32) -> Result<Self, DeviceError> {
         assert!(slots.is_power_of_two(), "the caller rounds the number of slots");
         let edge = BRICK_EDGE as u32;
-        let deepest = (context.device.limits().max_texture_dimension_3d / edge).ilog2();
-        let across = slots.ilog2().min(SLOT_BITS_ACROSS);
-        let down = (slots.ilog2() - across).min(SLOT_BITS_ACROSS);
-        let deep = (slots.ilog2() - across - down).min(deepest);
-        let slots = [1 << across, 1 << down, 1 << deep];
+        let most = (context.device.limits().max_texture_dimension_3d / edge).ilog2();
+        let slots = layout(slots.ilog2(), most).map(|bits| 1 << bits);
         let scope = context.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let texture = context.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("brick atlas"),
@@ -89,5 +86,38 @@ impl Atlas {
             },
             wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: edge },
         );
+    }
+}
+
+/// How 2ⁿ slots lie, as powers of two of at most 2^`most` along each axis: a slab of a fixed size, as thick as it must be,
+/// and larger where that is not enough.
+fn layout(n: u32, most: u32) -> [u32; 3] {
+    let across = n.min(SLOT_BITS_ACROSS.min(most));
+    let down = (n - across).min(SLOT_BITS_ACROSS.min(most));
+    let deep = (n - across - down).min(most);
+    let left = n - across - down - deep;
+    let more_down = left.min(most - down);
+    [across + (left - more_down).min(most - across), down + more_down, deep]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slots_lie_in_a_slab_that_grows_as_far_as_a_texture_goes() {
+        let expected = [
+            (0, [0, 0, 0]),
+            (3, [3, 0, 0]),
+            (7, [4, 3, 0]),
+            (14, [4, 4, 6]),
+            (15, [4, 5, 6]),
+            (17, [5, 6, 6]),
+            (18, [6, 6, 6]),
+            (20, [6, 6, 6]),
+        ];
+        for (n, bits) in expected {
+            assert_eq!(layout(n, 6), bits, "2^{n} slots");
+        }
     }
 }

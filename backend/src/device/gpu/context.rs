@@ -37,6 +37,11 @@ pub fn adapter_name() -> Result<String, DeviceError> {
     Ok(context()?.name.clone())
 }
 
+/// Bytes of a sample in the brick cache of `--device gpu`.
+pub(in crate::device) fn sample_bytes() -> Result<u64, DeviceError> {
+    Ok(context()?.sample_bytes())
+}
+
 impl Context {
     async fn open() -> Result<Self, DeviceError> {
         let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
@@ -79,6 +84,11 @@ impl Context {
             if has_unorm16 { wgpu::TextureFormat::R16Unorm } else { wgpu::TextureFormat::R32Float };
         let pipelines = PipelineCache::open(&device, &info);
         Ok(Self { device, queue, name, atlas_format, has_filter, pipelines, turn: Mutex::new(()) })
+    }
+
+    /// Bytes of a sample in the atlas.
+    pub(super) fn sample_bytes(&self) -> u64 {
+        if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 }
     }
 
     /// Waits for this thread's turn on the queue.

@@ -7,6 +7,7 @@ use super::kernels::Kernels;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
+use crate::device::choose::brick_bytes;
 use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
 use crate::protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
@@ -119,6 +120,7 @@ impl GpuDevice {
             adapter: self.context.name.clone(),
             reason: format!("a driver offers it; {measured}"),
             filter: filter.into(),
+            cache_bytes: u64::from(self.atlas.count()) * brick_bytes(self.context.sample_bytes()),
         }
     }
 

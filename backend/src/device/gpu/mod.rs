@@ -12,4 +12,5 @@ mod readback;
 mod storage;
 
 pub use context::adapter_name;
+pub(super) use context::sample_bytes;
 pub use device::GpuDevice;

@@ -1,6 +1,6 @@
 //! What a replay tries: a cache, a disk, and what is fetched first.
 
-use crate::device::slots_within;
+use crate::device::{CPU_SAMPLE_BYTES, slots_within};
 use crate::store::{NodeKey, OctreeShape};
 use crate::working_set::WorkingSet;
 use std::cmp::Reverse;
@@ -45,11 +45,11 @@ pub struct Policy {
 }
 
 impl Policy {
-    /// Bricks that the cache holds, as the renderer's does.
+    /// Bricks that the cache holds, as the CPU renderer's does; a GPU's holds a power of two.
     pub(super) fn slots(&self, shape: &OctreeShape) -> u32 {
         let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
         // The renderer keeps one of them blank.
-        slots_within(self.cache_bytes, (0..=shape.finest_depth()).map(level).sum()) - 1
+        slots_within(self.cache_bytes, CPU_SAMPLE_BYTES, (0..=shape.finest_depth()).map(level).sum()) - 1
     }
 }
 
