@@ -7,11 +7,11 @@ use super::{RenderError, RenderEvent, Renderer};
 use crate::device::{CastJob, Gather, MOST_UNDER_WAY, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use crate::store::{BrickError, BrickErrorKind, NodeKey};
-use crate::working_set::{Arrival, LoadedBrick, LodRule, Met, Moment, Retry, corner_weights, most_in_flight};
+use crate::working_set::{Arrival, LoadedBrick, LodRule, Met, Moment, corner_weights, most_in_flight};
 use shaders::compose::Needs;
 use shaders::layout::{FeedbackEntry, deficit_from_code};
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// What a live frame may take.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,6 @@ pub(super) struct Live {
     met: Vec<Told>,
     /// Whether that was the table of the frame before.
     is_fresh: bool,
-    retry: Retry,
 }
 
 /// What rays told of a leaf.
@@ -166,9 +165,9 @@ impl Live {
         residency.set.update(&moment, &met);
         stages.refine_ms += milliseconds(started);
         let before = self.last.as_ref().map(|last| (LodRule::new(&renderer.display, last), self.now_s(last)));
-        let ahead = moment.ahead(self.met.iter().map(|told| told.key), before);
+        let ahead = residency.set.ahead(&moment, self.met.iter().map(|told| told.key), before);
         let cancelled = residency.loader.want(residency.set.wanted(), &ahead) as u64;
-        self.take_arrived(renderer, frame, rules, limits, stages)?;
+        take_arrived(renderer, rules, limits, stages)?;
         let started = Instant::now();
         let residency = &mut renderer.residency;
         residency.set.show(&moment);
@@ -201,58 +200,6 @@ impl Live {
             self.met = keys.iter().zip(table).filter_map(told).collect();
             renderer.recording.told(self.met.iter().map(|told| (told.key, told.rays)))?;
         }
-        Ok(())
-    }
-
-    /// Moves what has come to the device, first things first.
-    fn take_arrived(
-        &mut self,
-        renderer: &mut Renderer,
-        frame: &FrameState,
-        rules: &FrameRules,
-        limits: Limits,
-        stages: &mut Stages,
-    ) -> Result<(), RenderError> {
-        let started = Instant::now();
-        for (key, fetched) in renderer.residency.loader.arrived(limits.upload_bytes) {
-            match fetched {
-                Ok(brick) => self.put(renderer, key, brick, rules),
-                Err(error) => self.note_failure(renderer, key, error, self.now_s(frame))?,
-            }
-        }
-        stages.upload_ms += milliseconds(started);
-        Ok(())
-    }
-
-    fn put(&mut self, renderer: &mut Renderer, key: NodeKey, brick: LoadedBrick, rules: &FrameRules) {
-        let Renderer { residency, device, .. } = renderer;
-        self.retry.came(key);
-        residency.damage.forget(key);
-        if let Arrival::Slot(slot) = residency.set.arrived(key, brick.low, brick.span) {
-            let place = residency.set.cut.find(key);
-            residency.fill(place, slot, brick, rules, device);
-        }
-    }
-
-    /// What is away is asked for again after a while; what is damaged is not.
-    fn note_failure(
-        &mut self,
-        renderer: &mut Renderer,
-        key: NodeKey,
-        error: BrickError,
-        now_s: f64,
-    ) -> Result<(), RenderError> {
-        let now = Duration::try_from_secs_f64(now_s).unwrap_or_default();
-        let is_damaged = error.kind == BrickErrorKind::Damaged;
-        let is_first = self.retry.failed(key, error.kind, now);
-        if key == NodeKey::ROOT && is_damaged {
-            return Err(error.into());
-        }
-        if is_first {
-            renderer.residency.damage.learn(key, error);
-        }
-        let again_s = self.retry.again_at(key).map_or(f64::INFINITY, |at| at.as_secs_f64());
-        renderer.residency.set.failed(key, again_s);
         Ok(())
     }
 
@@ -292,6 +239,9 @@ impl Live {
             let family: Vec<NodeKey> = (0..8).map(|octant| told.key.child(octant)).collect();
             residency.damage.note_missed(&family);
         }
+        if residency.set.cut.lacks(0) {
+            residency.damage.note_missed(&[NodeKey::ROOT]);
+        }
         let short = self.met.iter().filter(is_short).count();
         let is_told = is_still && self.is_fresh && !residency.has_changed;
         let shortfall = super::frame::live_shortfall(short, is_told, &upkeep, residency);
@@ -316,6 +266,46 @@ impl Live {
             total_ms,
         }
     }
+}
+
+/// Moves what has come to the device, first things first.
+fn take_arrived(
+    renderer: &mut Renderer,
+    rules: &FrameRules,
+    limits: Limits,
+    stages: &mut Stages,
+) -> Result<(), RenderError> {
+    let started = Instant::now();
+    for (key, fetched) in renderer.residency.loader.arrived(limits.upload_bytes) {
+        match fetched {
+            Ok(brick) => put(renderer, key, brick, rules),
+            Err(error) => note_failure(renderer, key, error)?,
+        }
+    }
+    stages.upload_ms += milliseconds(started);
+    Ok(())
+}
+
+fn put(renderer: &mut Renderer, key: NodeKey, brick: LoadedBrick, rules: &FrameRules) {
+    let Renderer { residency, device, .. } = renderer;
+    residency.damage.forget(key);
+    if let Arrival::Slot(slot) = residency.set.arrived(key, brick.low, brick.span) {
+        let place = residency.set.cut.find(key);
+        residency.fill(place, slot, brick, rules, device);
+    }
+}
+
+/// What is away is asked for again after a while; what is damaged is not.
+fn note_failure(renderer: &mut Renderer, key: NodeKey, error: BrickError) -> Result<(), RenderError> {
+    let is_damaged = error.kind == BrickErrorKind::Damaged;
+    let is_first = renderer.residency.set.failed(key, error.kind);
+    if key == NodeKey::ROOT && is_damaged {
+        return Err(error.into());
+    }
+    if is_first {
+        renderer.residency.damage.learn(key, error);
+    }
+    Ok(())
 }
 
 /// Whether two frames show the same, whatever the time.

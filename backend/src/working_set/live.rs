@@ -7,10 +7,10 @@
 use super::presence::{Seen, Tick, advance, refresh, refresh_deficits};
 use super::room::Room;
 use super::{
-    Cut, CutNode, Family, HORIZON, IndexRules, LodRule, MOST_AHEAD, Meeting, Motion, ResidentBrick, SlotPool,
-    is_shown, prefetch, priorities,
+    Cut, CutNode, Family, HORIZON, IndexRules, LodRule, MOST_AHEAD, Meeting, Motion, ResidentBrick, Retry,
+    SlotPool, is_shown, prefetch, priorities,
 };
-use crate::store::{NodeKey, NodeSummary};
+use crate::store::{BrickErrorKind, NodeKey, NodeSummary};
 use shaders::optics::Optics;
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -34,24 +34,6 @@ pub struct Moment<'a> {
     pub fade_s: f64,
     /// Bricks that may be asked for and not be there yet.
     pub most_in_flight: usize,
-}
-
-impl Moment<'_> {
-    /// Bricks that the motion since an earlier frame, of which this is the rule and the time, will ask for of these leaves,
-    /// if it goes on.
-    pub fn ahead(
-        &self,
-        leaves: impl IntoIterator<Item = NodeKey>,
-        before: Option<(LodRule, f64)>,
-    ) -> Vec<NodeKey> {
-        let Some((before, then_s)) = before.filter(|&(_, then_s)| then_s < self.now_s) else {
-            return Vec::new();
-        };
-        let between = Duration::try_from_secs_f64(self.now_s - then_s).unwrap_or(Duration::MAX);
-        let motion = Motion { now: self.rules.lod, before: &before, between };
-        let shows = |key| is_shown(self.rules.optics, (self.summary)(key));
-        prefetch(leaves, &motion, HORIZON, self.rules.shape, shows, MOST_AHEAD)
-    }
 }
 
 /// A leaf that rays of the last frame met, on whatever view.
@@ -100,8 +82,7 @@ pub struct WorkingSet {
     last_s: Option<f64>,
     /// What scalars looked like in the last update.
     optics: Option<Optics>,
-    /// Nodes whose children cannot be read, until when.
-    lost: HashMap<NodeKey, f64>,
+    retry: Retry,
     /// Of split nodes: how urgent that was, for them or for the finer neighbours that needed it.
     urgency: HashMap<NodeKey, f64>,
     wanted: Vec<NodeKey>,
@@ -123,7 +104,7 @@ impl WorkingSet {
             now_s: 0.0,
             last_s: None,
             optics: None,
-            lost: HashMap::new(),
+            retry: Retry::new(),
             urgency: HashMap::new(),
             wanted: Vec::new(),
             splits: 0,
@@ -154,8 +135,12 @@ impl WorkingSet {
         self.wanted = self.missing(&priority);
     }
 
-    /// Gives up all detail: the root alone stays.
+    /// Gives up all detail and all that is known, the time included: the root alone stays.
     pub fn restart(&mut self) {
+        (self.still_since_s, self.now_s, self.last_s) = (0.0, 0.0, None);
+        (self.optics, self.retry) = (None, Retry::new());
+        self.urgency.clear();
+        self.cut.node_mut(0).met = Meeting::NEVER;
         if self.cut.node(0).first_child.is_some() {
             for slot in self.cut.collapse_all(0) {
                 self.slots.give(slot);
@@ -170,6 +155,7 @@ impl WorkingSet {
 
     /// Gives a brick that has come its slot.
     pub fn arrived(&mut self, key: NodeKey, low: f64, span: f64) -> Arrival {
+        self.retry.came(key);
         let place = self.cut.find(key);
         if self.cut.node(place).key != key || !self.cut.lacks(place) {
             return Arrival::Unwanted;
@@ -179,10 +165,33 @@ impl WorkingSet {
         Arrival::Slot(slot)
     }
 
-    /// Gives up the family of a brick that cannot be read, until `retry_s` on the clock.
-    pub fn failed(&mut self, key: NodeKey, retry_s: f64) {
-        let Some(parent) = key.parent() else { return };
-        self.lost.insert(parent, retry_s);
+    /// Notes that a brick could not be read: its family is not asked for until it is worth another try. Tells whether it is
+    /// the brick's first failure.
+    pub fn failed(&mut self, key: NodeKey, kind: BrickErrorKind) -> bool {
+        self.retry.failed(key, kind, self.now_s)
+    }
+
+    /// Bricks that the motion since an earlier frame, of which this is the rule and the time, will ask for, if it goes on,
+    /// of the leaves that rays meet.
+    pub fn ahead(
+        &self,
+        moment: &Moment,
+        leaves: impl IntoIterator<Item = NodeKey>,
+        before: Option<(LodRule, f64)>,
+    ) -> Vec<NodeKey> {
+        let Some((before, then_s)) = before.filter(|&(_, then_s)| then_s < moment.now_s) else {
+            return Vec::new();
+        };
+        let between = Duration::try_from_secs_f64(moment.now_s - then_s).unwrap_or(Duration::MAX);
+        let rules = &moment.rules;
+        let motion = Motion { now: rules.lod, before: &before, between };
+        let lacks = |key: NodeKey| {
+            let node = self.cut.node(self.cut.find(key));
+            let is_resident = node.key == key && node.brick.is_some();
+            let may_ask = key.parent().is_none_or(|parent| !self.is_lost(parent));
+            !is_resident && may_ask && is_shown(rules.optics, (moment.summary)(key))
+        };
+        prefetch(leaves, &motion, HORIZON, rules.shape, lacks, MOST_AHEAD)
     }
 
     /// Moves what rays meet on to the present, `fade_s` being the time of a whole fade.
@@ -195,13 +204,13 @@ impl WorkingSet {
         };
         self.last_s = Some(moment.now_s);
         let tick = Tick { now_s: self.now_s, step, seen: self.seen() };
-        let is_lost = |key| is_lost(&self.lost, key, tick.now_s);
+        let is_lost = |key| !self.retry.may_ask_below(key, tick.now_s);
         self.moving = advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
     }
 
     /// Whether the detail below a node is known not to be had now.
     pub fn is_lost(&self, key: NodeKey) -> bool {
-        is_lost(&self.lost, key, self.now_s)
+        !self.retry.may_ask_below(key, self.now_s)
     }
 
     /// Bricks that slots are kept for.
@@ -246,8 +255,11 @@ impl WorkingSet {
 
     /// Whether a slot is kept for a node's brick.
     pub(super) fn awaits(&self, place: u32) -> bool {
-        let parent = self.cut.node(place).parent;
-        self.cut.lacks(place) && parent.is_none_or(|parent| !self.is_lost(self.cut.node(parent).key))
+        let may_ask = match self.cut.node(place).parent {
+            None => self.retry.may_ask(NodeKey::ROOT, self.now_s),
+            Some(parent) => !self.is_lost(self.cut.node(parent).key),
+        };
+        self.cut.lacks(place) && may_ask
     }
 
     /// Gives up families that are on their way and that nobody wants any more, fine ones first.
@@ -258,9 +270,17 @@ impl WorkingSet {
             let Some(first) = node.first_child else { continue };
             let lacks = (first..first + 8).any(|child| self.cut.lacks(child));
             let is_wanted = node.deficit > 0.0 && seen.has_met(node) && !self.is_lost(node.key);
-            let is_leaving = node.is_leaving && node.family == Family::Hidden;
-            if ((lacks && !is_wanted) || is_leaving) && self.cut.may_collapse(moment.rules.shape, place) {
+            let has_gone = node.is_leaving && node.family == Family::Hidden;
+            let (is_leaving, may_go) = (node.is_leaving, (lacks && !is_wanted) || has_gone);
+            if !(is_leaving || may_go) {
+                continue;
+            }
+            let may_collapse = self.cut.may_collapse(moment.rules.shape, place);
+            if may_collapse && may_go {
                 self.collapse(place);
+            } else if !may_collapse {
+                // Finer neighbours have come since it was to leave, and need it.
+                self.cut.node_mut(place).is_leaving = false;
             }
         }
     }
@@ -356,10 +376,4 @@ impl WorkingSet {
     fn wish(&self, place: u32, urgency: f64, rays: u32) -> Wish {
         Wish { urgency, rays, key: self.cut.node(place).key, place }
     }
-}
-
-/// Whether the detail below a node is not to be had now, by what is lost until when.
-fn is_lost(lost: &HashMap<NodeKey, f64>, key: NodeKey, now_s: f64) -> bool {
-    // Mostly nothing is.
-    !lost.is_empty() && lost.get(&key).is_some_and(|&until| now_s < until)
 }

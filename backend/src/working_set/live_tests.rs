@@ -3,7 +3,7 @@
 use super::live::{Arrival, Met, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule};
 use super::{Cut, Family, IndexRules, visit_vertices};
-use crate::store::{NodeKey, NodeSummary, OctreeShape};
+use crate::store::{BrickErrorKind, NodeKey, NodeSummary, OctreeShape};
 use glam::UVec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -100,6 +100,12 @@ fn assert_sound(set: &WorkingSet, slots: u32) {
     assert!(used.len() as u32 <= slots && used.iter().all(|&slot| slot < slots));
 }
 
+/// Nodes that keep children which are to leave and cannot.
+fn stuck(set: &WorkingSet, shape: &OctreeShape) -> HashSet<NodeKey> {
+    let is_stuck = |&place: &u32| set.cut.node(place).is_leaving && !set.cut.may_collapse(shape, place);
+    set.cut.walk().filter(is_stuck).map(|place| set.cut.node(place).key).collect()
+}
+
 /// A random life of a working set.
 struct Life {
     world: World,
@@ -109,6 +115,8 @@ struct Life {
     now_s: f64,
     z: f64,
     threshold: f64,
+    /// Nodes that kept children which were to leave and could not.
+    stuck: HashSet<NodeKey>,
 }
 
 impl Life {
@@ -118,7 +126,7 @@ impl Life {
         let world = World::new(sizes[random.below(3) as usize], &mut random);
         let slots = 1 + random.below(if seed.is_multiple_of(2) { 60 } else { 2000 }) as u32;
         let set = WorkingSet::new(world.summary(NodeKey::ROOT), slots);
-        Self { world, set, slots, random, now_s: 0.0, z: 0.1, threshold: 0.5 }
+        Self { world, set, slots, random, now_s: 0.0, z: 0.1, threshold: 0.5, stuck: HashSet::new() }
     }
 
     fn step(&mut self) {
@@ -153,15 +161,19 @@ impl Life {
         let met: Vec<Met> = leaves.into_iter().filter_map(&mut meet).collect();
         let before = weights_by_corner(&self.set.cut, &self.world.shape);
         self.set.update(&moment, &met);
+        let stuck = stuck(&self.set, &self.world.shape);
+        assert!(stuck.is_disjoint(&self.stuck), "families that neither leave nor come back");
+        self.stuck = stuck;
         let wanted = self.set.wanted().to_vec();
         // More may be due than there is room for where a transfer function changed or a lost brick is tried again; then
         // nothing is split.
         let due = self.set.slots.used() as usize + self.set.reserved();
         assert!(self.set.splits == 0 || due <= self.slots as usize);
         for key in wanted {
-            match random.below(8) {
-                0 => self.set.failed(key, self.now_s + random.unit()),
-                1..=4 => {
+            match random.below(40) {
+                0 => _ = self.set.failed(key, BrickErrorKind::Unavailable),
+                1 if random.below(10) == 0 => _ = self.set.failed(key, BrickErrorKind::Damaged),
+                2..=20 => {
                     if let Arrival::Slot(slot) = self.set.arrived(key, 0.0, 1.0) {
                         assert!(slot < self.slots);
                     }

@@ -134,7 +134,7 @@ impl<'a> Replay<'a> {
         let mut update = started.elapsed();
         let wanted = self.waiting.ordered(self.policy.order, &self.set);
         let before = self.last.map(|last| (last.lod_rule(self.header), last.time_s));
-        let ahead = moment.ahead(self.met.iter().map(|met| met.key), before);
+        let ahead = self.set.ahead(&moment, self.met.iter().map(|met| met.key), before);
         self.disk.run_until(frame.time_s);
         self.disk.want(&wanted, &ahead);
         self.disk.run_until(frame.time_s);
