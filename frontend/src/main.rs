@@ -5,20 +5,12 @@ use frontend::FrontendError;
 use frontend::accuracy::AccuracyError;
 use frontend::cli::Cli;
 use frontend::interrupt::EXIT_CODE as INTERRUPTED;
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::process::ExitCode;
-use tracing_subscriber::EnvFilter;
 
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| usage(&error));
-    let filter = EnvFilter::try_from_env("LIGHTLOOM_LOG").unwrap_or_else(|_| EnvFilter::new("warn"));
-    // A log in a file is for other programs to read: colours are for a terminal.
-    let has_colours = std::io::stderr().is_terminal();
-    tracing_subscriber::fmt()
-        .with_env_filter(filter)
-        .with_ansi(has_colours)
-        .with_writer(std::io::stderr)
-        .init();
+    backend::transport::start_log();
     match frontend::command::run(&cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         // Nothing but this process works then, so nothing else has to be ended.

@@ -9,11 +9,13 @@
 //! | `mpi` | bytes between ranks, the only file that calls MPI |
 //! | `roster`, `watchdog`, `process` | who takes part, and who is still there |
 //! | `launch` | how this process was started, and how it ends when a run cannot go on |
+//! | `log` | what a process tells beside its messages |
 
 #[cfg(feature = "mpi")]
 pub mod cluster;
 pub mod launch;
 mod link;
+mod log;
 #[cfg(feature = "mpi")]
 mod mpi;
 #[cfg(feature = "mpi")]
@@ -30,6 +32,7 @@ pub mod worker;
 
 pub use launch::{Launch, fail, launch, under_mpi};
 pub use link::{Link, LinkError, WorkerLink};
+pub use log::start_log;
 pub use renderer::{open_renderer, open_volume};
 pub use session::{EventKind, Limits, Session, SessionError, SessionEvent};
 pub use worker::{Draw, DrawEvent, Opened, WorkerError, serve};
