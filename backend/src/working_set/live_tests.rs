@@ -102,7 +102,10 @@ fn assert_sound(set: &WorkingSet, slots: u32) {
 
 /// Nodes that keep children which are to leave and cannot.
 fn stuck(set: &WorkingSet, shape: &OctreeShape) -> HashSet<NodeKey> {
-    let is_stuck = |&place: &u32| set.cut.node(place).is_leaving && !set.cut.may_collapse(shape, place);
+    let is_stuck = |&place: &u32| {
+        let node = set.cut.node(place);
+        node.is_leaving && node.first_child.is_some() && !set.cut.may_collapse(shape, place)
+    };
     set.cut.walk().filter(is_stuck).map(|place| set.cut.node(place).key).collect()
 }
 

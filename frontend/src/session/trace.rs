@@ -4,9 +4,9 @@ use crate::FrontendError;
 use backend::output::{OutputError, can_write_into};
 use std::path::{Path, PathBuf};
 
-/// Where a back-end's trace will be.
+/// Where a back-end's trace will be, wherever the back-end runs.
 pub(super) fn path(folder: &Path, backend: u32) -> PathBuf {
-    folder.join(format!("backend-{backend}.trace"))
+    std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(format!("backend-{backend}.trace"))
 }
 
 /// Makes the folder and tries to write in it. Traces of an earlier run go: it may have had more back-ends.

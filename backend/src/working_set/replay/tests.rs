@@ -53,7 +53,7 @@ fn frames(world: &World, count: u32, speed: f64) -> Vec<TracedFrame> {
             time_s,
             display_from_volume: rule.display_from_volume,
             lod_scale: rule.lod_scale,
-            optics: optics(0.5),
+            optics: optics(0.5).into(),
             demand: Demand::new(met.iter().copied()),
         }
     };

@@ -10,6 +10,7 @@ use shaders::optics::Optics;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Lines};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A trace being read, frame by frame.
 #[derive(Debug)]
@@ -20,7 +21,7 @@ pub struct TraceReader {
     line: usize,
     header: TraceHeader,
     shape: OctreeShape,
-    optics: Option<Optics>,
+    optics: Option<Arc<Optics>>,
     last_time_s: f64,
 }
 
@@ -63,8 +64,9 @@ impl TraceReader {
     fn frame(&mut self, text: &str) -> Result<TracedFrame, String> {
         let line: FrameLine = parsed(text)?;
         self.check(&line)?;
-        let optics = line.optics.or(self.optics.take()).ok_or("the first frame has no `optics`")?;
-        self.optics = Some(optics.clone());
+        let optics =
+            line.optics.map(Arc::new).or(self.optics.take()).ok_or("the first frame has no `optics`")?;
+        self.optics = Some(Arc::clone(&optics));
         self.last_time_s = line.time_s;
         let nodes = line.demand.into_iter().map(|numbers| node(&self.shape, numbers));
         Ok(TracedFrame {

@@ -8,6 +8,7 @@ use display_config::Display;
 use glam::{DAffine3, UVec3};
 use serde::{Deserialize, Serialize};
 use shaders::optics::Optics;
+use std::sync::Arc;
 
 /// What the first line calls itself.
 pub(super) const FORMAT: &str = "lightloom trace";
@@ -41,7 +42,7 @@ pub struct TracedFrame {
     /// See [`shaders::optics::Quality::lod_scale`].
     pub lod_scale: f64,
     /// What scalars look like: it tells which nodes are empty.
-    pub optics: Optics,
+    pub optics: Arc<Optics>,
     /// What rays sampled.
     pub demand: Demand,
 }

@@ -175,7 +175,7 @@ fn a_trace_comes_back_as_it_was_written() {
     for (index, found) in (0..).zip(&frames) {
         assert_eq!((found.index, found.time_s, found.lod_scale), (index, f64::from(index) * 0.25, 0.5));
         assert_eq!(found.display_from_volume, rule().display_from_volume);
-        assert_eq!(found.optics, optics(if index == 0 { 1.0 } else { 2.0 }));
+        assert_eq!(*found.optics, optics(if index == 0 { 1.0 } else { 2.0 }));
         let node = Demanded { key: NodeKey::ROOT.child(5), rays: 4 + index };
         assert_eq!(found.demand.nodes(), [node], "rays add up, and nodes without rays go");
     }
