@@ -66,8 +66,7 @@ pub(super) fn draw(
     let mut rules = FrameRules::new(renderer, frame, &tables);
     let is_still = live.last.as_ref().is_some_and(|last| is_same_view(last, frame));
     let mut upkeep = live.keep_up(renderer, frame, is_still, &rules, limits, &mut stages)?;
-    // What fades blends, wherever the display resolves the same.
-    rules.blends |= frame.quality.blended && upkeep.fading > 0;
+    rules.blends |= frame.quality.blended && renderer.residency.set.blends();
     let weighing = Instant::now();
     let weights = if rules.blends { live_weights(renderer, &rules) } else { Vec::new() };
     stages.refine_ms += milliseconds(weighing);
