@@ -23,6 +23,8 @@ mod recording_tests;
 mod residency;
 mod rules;
 #[cfg(test)]
+mod short_tests;
+#[cfg(test)]
 mod test_scene;
 mod views;
 

@@ -2,15 +2,17 @@
 //!
 //! ```text
 //! cargo run --release -p lightloom-tests --example continuity -- [-o DIR] [--fade S] [--blended true|false]
-//!     [--frames N] [--raster WxH] [--edge N] [--upload-mib N] [--gpu]
+//!     [--frames N] [--raster WxH] [--edge N] [--upload-mib N] [--gpu] [--fades S,S,...]
 //! ```
 //!
 //! One projector of holo72 with a reduced raster, and nested shells that double in size in one second. Complete frames tell
 //! what motion alone changes, and what pops when the rule of detail changes its mind; live ones what loading adds: with
 //! blending (`--fade`, half a second without it) and without it. `--blended` picks one of the two. A motion begins when the
 //! detail of its first frame is at rest; with the object still, the sequence begins with the coarsest brick alone, and all
-//! that changes is detail that comes. The canary is a sequence with seams and a jump of detail: both
-//! measures have to find them. Compare RMS with RMS: at steep rims the largest numbers are the surface's own bends.
+//! that changes is detail that comes; borders are not looked for there, see [`lightloom_tests::borders`]. The canary is a
+//! sequence with seams and a jump of detail: both measures have to find them. Compare RMS with RMS: at steep rims the
+//! largest numbers are the surface's own bends. `--fades` draws cold starts alone, one for each fade, until they are at
+//! rest.
 
 use backend::output::write_png;
 use backend::protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
@@ -20,6 +22,7 @@ use backend::volume::procedural::{ProceduralVolume, field_named};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::borders::{BorderSteps, Shown, border_steps, is_one_surface, shown};
+use lightloom_tests::cold_start::cold_start;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::motion::{
     Approach, Continuity, FRAMES_PER_SECOND, Spread, borrowed, continuity, difference, draw_sequence,
@@ -33,7 +36,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const USAGE: &str = "give [-o DIR] [--fade S] [--blended true|false] [--frames N] [--raster WxH] [--edge N] \
-                     [--upload-mib N] [--gpu]";
+                     [--upload-mib N] [--gpu] [--fades S,S,...]";
 /// Near the middle.
 const PROJECTOR: u32 = 36;
 /// Every so many frames, borders are looked for.
@@ -42,12 +45,15 @@ const BORDERS_EVERY: usize = 10;
 const LEAST_FRAMES: u32 = 4;
 /// Frames until a sequence must have started.
 const MOST_WARMING: u32 = 3000;
+/// Frames of a cold start at most.
+const MOST_COLD: u32 = 6000;
 /// Difference pictures are so much brighter.
 const GAIN: f32 = 8.0;
 
 struct Arguments {
     out: Option<PathBuf>,
     fade_s: f64,
+    fades_s: Vec<f64>,
     blended: Option<bool>,
     frames: u32,
     raster: (u32, u32),
@@ -60,6 +66,7 @@ fn arguments() -> Result<Arguments, String> {
     let mut found = Arguments {
         out: None,
         fade_s: 0.5,
+        fades_s: Vec::new(),
         blended: None,
         frames: 61,
         raster: (320, 240),
@@ -78,6 +85,10 @@ fn arguments() -> Result<Arguments, String> {
         match flag.as_str() {
             "-o" => found.out = Some(PathBuf::from(&value)),
             "--fade" => found.fade_s = value.parse().map_err(|_| wrong())?,
+            "--fades" => {
+                let fades: Result<Vec<f64>, _> = value.split(',').map(str::parse).collect();
+                found.fades_s = fades.map_err(|_| wrong())?;
+            }
             "--blended" => found.blended = Some(value.parse().map_err(|_| wrong())?),
             "--frames" => found.frames = value.parse().map_err(|_| wrong())?,
             "--edge" => found.edge = value.parse().map_err(|_| wrong())?,
@@ -163,11 +174,16 @@ fn warm_up(renderer: &mut Renderer, frames: &[FrameState], start: Start) -> Vec<
     panic!("not ready after {MOST_WARMING} frames");
 }
 
+/// With an empty cache.
+fn renderer(stage: &Stage) -> Renderer {
+    let with = With { cache_bytes: 2 << 30, ..With::device(stage.device) };
+    draw::renderer(&stage.display, &stage.source, &[PROJECTOR], with).0
+}
+
 /// Draws a sequence from an empty cache.
 fn play(stage: &Stage, frames: &[FrameState], start: Start) -> Outcome {
     let started = Instant::now();
-    let with = With { cache_bytes: 2 << 30, ..With::device(stage.device) };
-    let (mut renderer, _) = draw::renderer(&stage.display, &stage.source, &[PROJECTOR], with);
+    let mut renderer = renderer(stage);
     let is_live = matches!(frames[0].pace, Pace::Live { .. });
     let warm = if is_live { warm_up(&mut renderer, frames, start) } else { frames.to_vec() };
     let frames = warm.as_slice();
@@ -289,7 +305,8 @@ fn measure(
         let truth = truth.get_or_insert_with(|| outcome.images.clone());
         let whole = continuity(&outcome.images, |_, _| true);
         let found = continuity(&outcome.images, |first, pixel| stays(&surfaces, first, pixel, pixel_m));
-        let borders = worst_borders(&surfaces, &outcome.images, pixel_m);
+        let is_fine = start == Start::AtRest || outcome.live == 0;
+        let borders = is_fine.then(|| worst_borders(&surfaces, &outcome.images, pixel_m)).flatten();
         let name = format!("{motion}, {name}");
         let ends = outcome.images.last().zip(truth.last());
         let last = ends.map_or_else(Vec::new, |(image, truth)| steps(image, truth));
@@ -312,6 +329,20 @@ fn measure(
     Ok(())
 }
 
+/// Cold starts of a view, one for each fade.
+fn cold_starts(stage: &Stage, frame: &FrameState, fades_s: &[f64], upload_bytes: u64) {
+    println!("| fade, s | step of any pixel | step on surfaces | at rest after, s | frames |");
+    println!("| ---: | ---: | ---: | ---: | ---: |");
+    let surface = &surfaces(stage, std::slice::from_ref(frame))[0];
+    for &fade_s in fades_s {
+        let mut live = FrameState { pace: Pace::Live { upload_bytes, fade_s }, ..frame.clone() };
+        live.quality.blended = true;
+        let found = cold_start(&mut renderer(stage), &live, MOST_COLD, |pixel| surface[pixel].is_some());
+        let rest = found.rest_s.map_or_else(|| "-".to_owned(), |rest_s| format!("{rest_s:.2}"));
+        println!("| {fade_s} | {} | {} | {rest} | {} |", found.step, found.step_on_surfaces, found.frames);
+    }
+}
+
 /// Shells of one colour: what changes in a picture is where they are and how they end, not what they wear.
 fn optics(edge: u32) -> Optics {
     let most = 0.5 * 4096.0 / f64::from(edge);
@@ -323,7 +354,7 @@ fn optics(edge: u32) -> Optics {
 }
 
 fn main() -> Result<(), String> {
-    let Arguments { out, fade_s, blended, frames, raster, edge, upload_mib, device } = arguments()?;
+    let Arguments { out, fade_s, fades_s, blended, frames, raster, edge, upload_mib, device } = arguments()?;
     let display = Display::load("holo72").map_err(|error| error.to_string())?;
     let display = with_raster(&display, raster.0, raster.1);
     let volume = ProceduralVolume::new("shells", UVec3::splat(edge), 1e-3).map_err(|e| e.to_string())?;
@@ -344,6 +375,10 @@ fn main() -> Result<(), String> {
     let jumps = Manner { name: "live, not blended", pace: live(0.0), blended: false };
     let is_asked_for = |manner: &Manner| blended.is_none_or(|b| b == manner.blended);
     let manners: Vec<Manner> = [blends, jumps].into_iter().filter(is_asked_for).collect();
+    if !fades_s.is_empty() {
+        cold_starts(&stage, &moving[0], &fades_s, upload_mib << 20);
+        return Ok(());
+    }
     println!(
         "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
         raster.0, raster.1

@@ -8,8 +8,11 @@
 //! counts. A jump leaves its whole height there, a slope nothing, and texture about as much across borders as inside
 //! bricks: the measure is how much larger the excess is on borders.
 //!
-//! A live cut may be coarser than the ideal one, and its borders are then some of the ideal cut's: they are among those
-//! counted, and others beside them. So this is a measure of sequences, too, though it knows no cut.
+//! It is a measure of pictures of which nearly all detail is there. Leaves and surfaces are those of the ideal cut and of
+//! the field itself: a live cut that is a little behind has its borders where the ideal one has some of its own. Where
+//! only coarse levels have come, it shows other surfaces, and rims where the field is smooth; those would count as
+//! borders wherever they happen to cross one of the ideal cut. For such pictures the law is tested where it is made: that
+//! leaves which touch show the same blend of levels there, in every frame (`continuity_tests` of the working set).
 
 use crate::motion::Spread;
 use backend::protocol::{FrameState, ProjectorImage};

@@ -3,6 +3,7 @@
 pub mod blending_scenes;
 pub mod borders;
 pub mod closure_volume;
+pub mod cold_start;
 pub mod compare;
 pub mod data;
 pub mod draw;

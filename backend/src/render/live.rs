@@ -69,8 +69,7 @@ pub(super) fn draw(
     let last_s = live.last.as_ref().map_or(-live.ahead_s, |last| last.time_s);
     live.ahead_s += (last_s - frame.time_s).max(0.0);
     let mut upkeep = live.keep_up(renderer, frame, is_still, &rules, limits, &mut stages)?;
-    // What fades blends, wherever the display resolves the same.
-    rules.blends |= frame.quality.blended && upkeep.fading > 0;
+    rules.blends |= frame.quality.blended && renderer.residency.set.blends();
     let weighing = Instant::now();
     let weights = if rules.blends { live_weights(renderer, &rules) } else { Vec::new() };
     stages.refine_ms += milliseconds(weighing);

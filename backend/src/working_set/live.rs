@@ -213,6 +213,16 @@ impl WorkingSet {
         !self.retry.may_ask_below(key, self.now_s)
     }
 
+    /// Whether leaves have to blend even where the display resolves the same everywhere: some fade, or rays meet what is
+    /// too coarse beside what has come or found room.
+    pub fn blends(&self) -> bool {
+        let is_short = |place: u32| {
+            let node = self.cut.node(place);
+            node.shown_child().is_none() && node.is_visible && node.deficit > 0.0 && node.permits < 1.0
+        };
+        self.moving > 0 || self.cut.walk_shown().any(is_short)
+    }
+
     /// Bricks that slots are kept for.
     pub fn reserved(&self) -> usize {
         self.cut.walk().filter(|&place| self.awaits(place)).count()
@@ -292,17 +302,12 @@ impl WorkingSet {
         let (key, was_shown) = (node.key, node.family != Family::Hidden);
         let first = node.first_child.expect("only an inner node is collapsed");
         let shown = self.cut.node(first).shown;
-        let latest = (first..first + 8).map(|child| self.cut.node(child).met);
-        let latest = latest.max_by(|a, b| a.time_s.total_cmp(&b.time_s)).expect("there are eight");
+        self.cut.inherit_meeting(place);
         for slot in self.cut.collapse(place) {
             self.slots.give(slot);
         }
-        let node = self.cut.node_mut(place);
-        if latest.time_s > node.met.time_s {
-            node.met = latest;
-        }
         if was_shown {
-            node.permits = shown;
+            self.cut.node_mut(place).permits = shown;
         }
         self.urgency.remove(&key);
         self.collapses += 1;

@@ -1,5 +1,7 @@
 //! Which bricks are resident: the cut through the octree, the index rays traverse, the loader.
 
+#[cfg(test)]
+mod continuity_tests;
 mod cut;
 mod in_flight;
 mod index;

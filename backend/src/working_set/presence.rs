@@ -100,6 +100,8 @@ pub fn advance(
         cut.move_family(place, tick.step);
         let lost = is_lost(cut.node(place).key);
         let node = cut.node_mut(place);
+        // Whose family has just ended is seen as that was.
+        let is_seen = tick.seen.may_see(node);
         if node.shown_child().is_none() {
             let target = permitted(node.is_visible, node.deficit, is_seen && !lost);
             node.permits += (target - node.permits).clamp(-tick.step, tick.step);
@@ -164,8 +166,20 @@ impl Cut {
         };
         (first..first + 8).for_each(|child| self.node_mut(child).shown = moved);
         if moved == 0.0 && self.node(place).family == Family::Going {
+            self.inherit_meeting(place);
             let node = self.node_mut(place);
             (node.family, node.permits) = (Family::Hidden, 0.0);
+        }
+    }
+
+    /// Tells a node what its children know of rays: it takes their place.
+    pub(super) fn inherit_meeting(&mut self, place: u32) {
+        let first = self.node(place).first_child.expect("only what has children can take their place");
+        let met = (first..first + 8).map(|child| self.node(child).met);
+        let latest = met.max_by(|a, b| a.time_s.total_cmp(&b.time_s)).expect("there are eight");
+        let node = self.node_mut(place);
+        if latest.time_s > node.met.time_s {
+            node.met = latest;
         }
     }
 }
