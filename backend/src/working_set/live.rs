@@ -280,17 +280,9 @@ impl WorkingSet {
             let Some(first) = node.first_child else { continue };
             let lacks = (first..first + 8).any(|child| self.cut.lacks(child));
             let is_wanted = node.deficit > 0.0 && seen.has_met(node) && !self.is_lost(node.key);
-            let has_gone = node.is_leaving && node.family == Family::Hidden;
-            let (is_leaving, may_go) = (node.is_leaving, (lacks && !is_wanted) || has_gone);
-            if !(is_leaving || may_go) {
-                continue;
-            }
-            let may_collapse = self.cut.may_collapse(moment.rules.shape, place);
-            if may_collapse && may_go {
+            let is_leaving = node.is_leaving && node.family == Family::Hidden;
+            if ((lacks && !is_wanted) || is_leaving) && self.cut.may_collapse(moment.rules.shape, place) {
                 self.collapse(place);
-            } else if !may_collapse {
-                // Finer neighbours have come since it was to leave, and need it.
-                self.cut.node_mut(place).is_leaving = false;
             }
         }
     }

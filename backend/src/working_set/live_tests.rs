@@ -100,15 +100,6 @@ fn assert_sound(set: &WorkingSet, slots: u32) {
     assert!(used.len() as u32 <= slots && used.iter().all(|&slot| slot < slots));
 }
 
-/// Nodes that keep children which are to leave and cannot.
-fn stuck(set: &WorkingSet, shape: &OctreeShape) -> HashSet<NodeKey> {
-    let is_stuck = |&place: &u32| {
-        let node = set.cut.node(place);
-        node.is_leaving && node.first_child.is_some() && !set.cut.may_collapse(shape, place)
-    };
-    set.cut.walk().filter(is_stuck).map(|place| set.cut.node(place).key).collect()
-}
-
 /// A random life of a working set.
 struct Life {
     world: World,
@@ -118,8 +109,6 @@ struct Life {
     now_s: f64,
     z: f64,
     threshold: f64,
-    /// Nodes that kept children which were to leave and could not.
-    stuck: HashSet<NodeKey>,
 }
 
 impl Life {
@@ -129,7 +118,7 @@ impl Life {
         let world = World::new(sizes[random.below(3) as usize], &mut random);
         let slots = 1 + random.below(if seed.is_multiple_of(2) { 60 } else { 2000 }) as u32;
         let set = WorkingSet::new(world.summary(NodeKey::ROOT), slots);
-        Self { world, set, slots, random, now_s: 0.0, z: 0.1, threshold: 0.5, stuck: HashSet::new() }
+        Self { world, set, slots, random, now_s: 0.0, z: 0.1, threshold: 0.5 }
     }
 
     fn step(&mut self) {
@@ -164,9 +153,6 @@ impl Life {
         let met: Vec<Met> = leaves.into_iter().filter_map(&mut meet).collect();
         let before = weights_by_corner(&self.set.cut, &self.world.shape);
         self.set.update(&moment, &met);
-        let stuck = stuck(&self.set, &self.world.shape);
-        assert!(stuck.is_disjoint(&self.stuck), "families that neither leave nor come back");
-        self.stuck = stuck;
         let wanted = self.set.wanted().to_vec();
         // More may be due than there is room for where a transfer function changed or a lost brick is tried again; then
         // nothing is split.

@@ -177,23 +177,3 @@ fn a_view_comes_to_rest_at_what_the_rule_asks_for_wherever_it_looked_before() {
         assert_eq!(still.shown(), rest, "seed {seed}, {slots} slots");
     }
 }
-
-#[test]
-fn what_was_to_leave_stays_where_finer_neighbours_have_come_to_need_it() {
-    let mut still = Still::new(6000, 4);
-    (0..400).for_each(|_| still.step());
-    let rest = still.shown();
-    let places: Vec<u32> = still.set.cut.walk().collect();
-    let mut marked = 0;
-    for place in places {
-        let has_children = still.set.cut.node(place).first_child.is_some();
-        if has_children && !still.set.cut.may_collapse(&still.world.shape, place) {
-            still.set.cut.node_mut(place).is_leaving = true;
-            marked += 1;
-        }
-    }
-    assert!(marked > 0);
-    (0..100).for_each(|_| still.step());
-    assert_eq!(still.shown(), rest);
-    assert!(still.set.cut.walk().all(|place| !still.set.cut.node(place).is_leaving));
-}
