@@ -16,8 +16,11 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::time::Duration;
 
-/// Rays that met a node within this many seconds still count, for views that move.
-const MEMORY_S: f64 = 0.5;
+/// Rays that met a node within this many seconds still count, for views that move. What nobody sees any more should not
+/// take room for longer, and a node that few rays meet should not come and go with each of them.
+const MEMORY_S: f64 = 0.1;
+/// Rays of this many frames count, however long they take: a device tells what rays met some frames later.
+const MEMORY_FRAMES: usize = 5;
 
 /// What is asked of an update besides the rules of the frame.
 #[derive(Clone, Copy)]
@@ -79,6 +82,8 @@ pub struct WorkingSet {
     /// When the view came to rest; the present while it moves.
     still_since_s: f64,
     now_s: f64,
+    /// The times of the latest updates, the present last.
+    updates_s: [f64; MEMORY_FRAMES],
     last_s: Option<f64>,
     /// What scalars looked like in the last update.
     optics: Option<Optics>,
@@ -102,6 +107,7 @@ impl WorkingSet {
             slots: SlotPool::new(slots),
             still_since_s: 0.0,
             now_s: 0.0,
+            updates_s: [0.0; MEMORY_FRAMES],
             last_s: None,
             optics: None,
             retry: Retry::new(),
@@ -138,6 +144,7 @@ impl WorkingSet {
     /// Gives up all detail and all that is known, the time included: the root alone stays.
     pub fn restart(&mut self) {
         (self.still_since_s, self.now_s, self.last_s) = (0.0, 0.0, None);
+        self.updates_s = [0.0; MEMORY_FRAMES];
         (self.optics, self.retry) = (None, Retry::new());
         self.urgency.clear();
         self.cut.node_mut(0).met = Meeting::NEVER;
@@ -230,6 +237,8 @@ impl WorkingSet {
 
     fn tell_time(&mut self, moment: &Moment) {
         self.now_s = self.now_s.max(moment.now_s);
+        self.updates_s.rotate_left(1);
+        self.updates_s[MEMORY_FRAMES - 1] = self.now_s;
         if !moment.is_still {
             self.still_since_s = self.now_s;
         }
@@ -237,7 +246,7 @@ impl WorkingSet {
 
     /// Since when rays count: while nothing changes, all of them do, so that what is chosen by them comes to rest.
     pub(super) fn seen(&self) -> Seen {
-        let new_since_s = self.now_s - MEMORY_S;
+        let new_since_s = self.updates_s[0].min(self.now_s - MEMORY_S);
         Seen { met_since_s: self.still_since_s.min(new_since_s), new_since_s }
     }
 

@@ -177,6 +177,11 @@ impl Life {
 
     fn check(&self, before: &BTreeMap<(u8, [u32; 3]), f32>, step: f32) {
         assert_sound(&self.set, self.slots);
+        for place in self.set.cut.walk().filter(|&place| self.set.cut.node(place).is_leaving) {
+            let node = self.set.cut.node(place);
+            let may_go = node.first_child.is_none() || self.set.cut.may_collapse(&self.world.shape, place);
+            assert!(may_go, "{} is to go and cannot", node.key);
+        }
         assert_restricted(&self.set.cut, &self.world.shape, false);
         assert_restricted(&self.set.cut, &self.world.shape, true);
         for (corner, weight) in weights_by_corner(&self.set.cut, &self.world.shape) {

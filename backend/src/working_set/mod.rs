@@ -18,6 +18,8 @@ mod replay;
 mod rest_tests;
 mod retry;
 mod room;
+#[cfg(test)]
+mod room_tests;
 mod slots;
 #[cfg(test)]
 mod test_world;

@@ -94,8 +94,8 @@ impl<'a> Room<'a> {
             return Vec::new();
         }
         self.owed += needed;
+        let kept = self.kept(set, &splits);
         if self.owed > self.free {
-            let kept = self.kept(set, &splits);
             self.give_up(set, urgency, &kept);
         }
         // Who waits is served before those that need it less.
@@ -106,6 +106,7 @@ impl<'a> Room<'a> {
         self.owed -= needed;
         self.free -= needed;
         self.in_flight -= needed;
+        self.keep(set, &kept);
         splits
     }
 
@@ -131,6 +132,16 @@ impl<'a> Room<'a> {
             kept.extend(around.chain([split]).filter_map(|place| set.cut.node(place).parent));
         }
         kept
+    }
+
+    /// Families that splits rest on stay, were they about to go: they could not while what is split lasts, and the room that
+    /// they were to make would be waited for in vain.
+    fn keep(&mut self, set: &mut WorkingSet, kept: &HashSet<u32>) {
+        for &place in kept {
+            if std::mem::take(&mut set.cut.node_mut(place).is_leaving) {
+                self.coming -= self.bricks_of(set, place);
+            }
+        }
     }
 
     /// Gives up families that are less needed, until all that is owed is free: at once where nobody sees them; others

@@ -10,6 +10,8 @@
 
 mod account;
 mod disk;
+#[cfg(test)]
+mod greedy_tests;
 mod policy;
 #[cfg(test)]
 mod tests;

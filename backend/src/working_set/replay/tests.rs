@@ -6,7 +6,7 @@ use crate::working_set::Demand;
 use crate::working_set::test_world::{Random, World, optics, rule};
 use glam::UVec3;
 
-const FRAME_S: f64 = 1.0 / 30.0;
+pub(super) const FRAME_S: f64 = 1.0 / 30.0;
 const FADE_S: f64 = 0.2;
 /// All bricks of the test's volume fit.
 const AMPLE: u64 = 1 << 30;
@@ -16,7 +16,7 @@ const INSTANT: DiskModel = DiskModel { bytes_per_s: f64::INFINITY, latency_s: 0.
 /// 300 bricks a second.
 const SLOW: DiskModel = DiskModel { bytes_per_s: 300.0 * 65536.0, latency_s: 0.01, threads: 2 };
 
-const POLICY: Policy = Policy {
+pub(super) const POLICY: Policy = Policy {
     cache_bytes: AMPLE,
     upload_bytes: AMPLE,
     disk: INSTANT,
@@ -25,11 +25,11 @@ const POLICY: Policy = Policy {
 };
 
 /// 16³ bricks of the finest level, in front of the screen and behind it.
-fn world() -> World {
+pub(super) fn world() -> World {
     World::new(UVec3::splat(28 * 16), &mut Random(5))
 }
 
-fn header(shape: &OctreeShape) -> TraceHeader {
+pub(super) fn header(shape: &OctreeShape) -> TraceHeader {
     let rule = rule(shape, 0.0);
     TraceHeader {
         volume: VolumeRef::Store("made up".into()),
@@ -41,7 +41,7 @@ fn header(shape: &OctreeShape) -> TraceHeader {
 }
 
 /// Rays that meet every finest node, each another number of them; the volume moves along z with `speed`.
-fn frames(world: &World, count: u32, speed: f64) -> Vec<TracedFrame> {
+pub(super) fn frames(world: &World, count: u32, speed: f64) -> Vec<TracedFrame> {
     let finest = world.shape.finest_depth();
     let nodes = world.shape.nodes(finest);
     let met: Vec<_> = nodes.map(|key| (key, 1 + key.cell.dot(UVec3::new(7, 11, 13)) % 29)).collect();
