@@ -12,7 +12,7 @@ use std::sync::Arc;
 fn levels_that_differ_for_want_of_room_blend_at_rest() {
     let source: Arc<dyn BrickSource> =
         Arc::new(ProceduralVolume::new("shells", UVec3::splat(100), 1e-3).unwrap());
-    let few = crate::protocol::Setup { cache_bytes: 2 << 20, ..setup() };
+    let few = crate::protocol::Setup { cache_bytes: 2 << 20, projectors: vec![0], ..setup() };
     let mut renderer = Renderer::new(&few, source).unwrap().0;
     // All is asked for at one level.
     let mut view = frame(0.0);
