@@ -95,7 +95,12 @@ pub fn open(setup: Setup) -> Result<Opened, String> {
         return Err("/no/such/head.lloom is not there; build it first".to_owned());
     }
     let text = |text: &str| text.to_owned();
-    let info = DeviceInfo { adapter: text("fake"), reason: text("it is a test"), filter: text("exact") };
+    let info = DeviceInfo {
+        adapter: text("fake"),
+        reason: text("it is a test"),
+        filter: text("exact"),
+        cache_bytes: 1 << 20,
+    };
     Ok((Box::new(Fake { backend: setup.backend, width: setup.cache_bytes as u32 }), info))
 }
 
