@@ -22,6 +22,22 @@ pub(super) struct Limits {
     pub(super) fade_s: f64,
 }
 
+/// A live frame among others.
+#[derive(Clone, Copy)]
+struct Present<'a> {
+    frame: &'a FrameState,
+    limits: Limits,
+    /// Whether it shows what the one before showed.
+    is_still: bool,
+}
+
+/// What casting a frame came to.
+#[derive(Clone, Copy, Default)]
+struct Casts {
+    rays: u64,
+    samples: u64,
+}
+
 /// What live frames remember of each other.
 #[derive(Debug, Default)]
 pub(super) struct Live {
@@ -54,58 +70,26 @@ pub(super) fn draw(
 ) -> Result<FrameReport, RenderError> {
     let started = Instant::now();
     let setting = Setting::new(renderer, frame)?;
-    let total = setting.rays();
-    let Setting { views, needs, tables } = setting;
     let mut live = match renderer.live.take() {
         Some(live) => live,
         None => Live::start(renderer)?,
     };
     let mut stages = Stages::default();
     let upload = Instant::now();
-    renderer.device.write_tables(tables.clone());
+    renderer.device.write_tables(setting.tables.clone());
     stages.upload_ms += milliseconds(upload);
-    let mut rules = FrameRules::new(renderer, frame, &tables);
-    let is_still = live.last.as_ref().is_some_and(|last| is_same_view(last, frame));
-    let last_s = live.last.as_ref().map_or(-live.ahead_s, |last| last.time_s);
-    live.ahead_s += (last_s - frame.time_s).max(0.0);
-    let mut upkeep = live.keep_up(renderer, frame, is_still, &rules, limits, &mut stages)?;
+    let mut rules = FrameRules::new(renderer, frame, &setting.tables);
+    let present = live.enter(frame, limits);
+    let mut upkeep = live.keep_up(renderer, present, &rules, &mut stages)?;
     rules.blends |= frame.quality.blended && renderer.residency.set.blends();
     let weighing = Instant::now();
     let weights = if rules.blends { live_weights(renderer, &rules) } else { Vec::new() };
     stages.refine_ms += milliseconds(weighing);
     upkeep.update_ms = stages.refine_ms;
     renderer.residency.write_shown(&weights, &rules, &mut renderer.device, &mut stages);
-    let needs = Needs { blends: renderer.residency.blends, ..needs };
-
-    let cut = &renderer.residency.set.cut;
-    live.tables.push_back(cut.nodes().iter().map(|node| node.key).collect());
     renderer.recording.began(frame, live.now_s(frame))?;
-    renderer.device.begin_feedback();
-    let (mut rays, mut samples) = (0, 0);
-    for view in &views {
-        let [width, height] = view.view.raster;
-        let grid = TileGrid::new(width, height, 1);
-        let tiles: Vec<u32> = (0..grid.count()).collect();
-        let job =
-            CastJob { view: &view.view, needs, grid, tiles: &tiles, gather: Gather::Frame, counts: true };
-        let cast = Instant::now();
-        let outcome = renderer.device.cast(&job)?;
-        stages.cast_ms += milliseconds(cast);
-        rays += outcome.rays;
-        samples += outcome.samples;
-        let readback = Instant::now();
-        let rgba = renderer.device.picture()?;
-        stages.readback_ms += milliseconds(readback);
-        sink(RenderEvent::Image(ProjectorImage { projector: view.projector, width, height, rgba }));
-        sink(RenderEvent::Progress { done: rays, total });
-    }
-    renderer.device.end_feedback();
-    // Of more tables the device gives up the oldest.
-    while live.tables.len() > MOST_UNDER_WAY {
-        live.tables.pop_front();
-    }
-    let report =
-        live.report(renderer, frame, is_still, upkeep, stages, (rays, samples), milliseconds(started));
+    let casts = live.cast(renderer, &setting, &mut stages, sink)?;
+    let report = live.report(renderer, present, upkeep, stages, casts, milliseconds(started));
     live.last = Some(frame.clone());
     renderer.live = Some(live);
     Ok(report)
@@ -127,6 +111,14 @@ impl Live {
         Ok(Self::default())
     }
 
+    /// A new frame, whose clock may have run back.
+    fn enter<'a>(&mut self, frame: &'a FrameState, limits: Limits) -> Present<'a> {
+        let last_s = self.last.as_ref().map_or(-self.ahead_s, |last| last.time_s);
+        self.ahead_s += (last_s - frame.time_s).max(0.0);
+        let is_still = self.last.as_ref().is_some_and(|last| is_same_view(last, frame));
+        Present { frame, limits, is_still }
+    }
+
     fn now_s(&self, frame: &FrameState) -> f64 {
         frame.time_s + self.ahead_s
     }
@@ -135,10 +127,8 @@ impl Live {
     fn keep_up(
         &mut self,
         renderer: &mut Renderer,
-        frame: &FrameState,
-        is_still: bool,
+        Present { frame, limits, is_still }: Present,
         rules: &FrameRules,
-        limits: Limits,
         stages: &mut Stages,
     ) -> Result<Upkeep, RenderError> {
         self.take_feedback(renderer)?;
@@ -202,6 +192,44 @@ impl Live {
         Ok(())
     }
 
+    /// Casts all views on what is shown; rays tell of all of them in one table.
+    fn cast(
+        &mut self,
+        renderer: &mut Renderer,
+        setting: &Setting,
+        stages: &mut Stages,
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<Casts, RenderError> {
+        let Renderer { residency, device, .. } = renderer;
+        self.tables.push_back(residency.set.cut.nodes().iter().map(|node| node.key).collect());
+        let needs = Needs { blends: residency.blends, ..setting.needs };
+        let mut casts = Casts::default();
+        device.begin_feedback();
+        for view in &setting.views {
+            let [width, height] = view.view.raster;
+            let grid = TileGrid::new(width, height, 1);
+            let tiles: Vec<u32> = (0..grid.count()).collect();
+            let job =
+                CastJob { view: &view.view, needs, grid, tiles: &tiles, gather: Gather::Frame, counts: true };
+            let cast = Instant::now();
+            let outcome = device.cast(&job)?;
+            stages.cast_ms += milliseconds(cast);
+            casts.rays += outcome.rays;
+            casts.samples += outcome.samples;
+            let readback = Instant::now();
+            let rgba = device.picture()?;
+            stages.readback_ms += milliseconds(readback);
+            sink(RenderEvent::Image(ProjectorImage { projector: view.projector, width, height, rgba }));
+            sink(RenderEvent::Progress { done: casts.rays, total: setting.rays() });
+        }
+        device.end_feedback();
+        // Of more tables the device gives up the oldest.
+        while self.tables.len() > MOST_UNDER_WAY {
+            self.tables.pop_front();
+        }
+        Ok(casts)
+    }
+
     fn upkeep(&self, renderer: &Renderer) -> Upkeep {
         let set = &renderer.residency.set;
         let leaves = || set.cut.walk_shown().filter(|&place| set.cut.node(place).shown_child().is_none());
@@ -225,11 +253,10 @@ impl Live {
     fn report(
         &self,
         renderer: &mut Renderer,
-        frame: &FrameState,
-        is_still: bool,
+        Present { frame, is_still, .. }: Present,
         upkeep: Upkeep,
         stages: Stages,
-        (rays, samples): (u64, u64),
+        Casts { rays, samples }: Casts,
         total_ms: f64,
     ) -> FrameReport {
         let residency = &mut renderer.residency;
