@@ -12,7 +12,7 @@ pub struct ChosenDevice {
     pub info: DeviceInfo,
 }
 
-/// Opens the device of choice, with a brick cache of at most `cache_bytes` and at most `slots_needed` bricks.
+/// Opens the device of choice, by default a GPU where there is one that is no driver in software, with a brick cache of at most `cache_bytes` and at most `slots_needed` bricks.
 ///
 /// # Errors
 /// A GPU was asked for and there is none, or its memory does not hold the cache.
@@ -38,11 +38,13 @@ pub fn open_device(
         (DeviceChoice::Gpu, None) => Err(DeviceError(
             "this program was built without its gpu feature; build it with that feature, or take --device cpu".into(),
         )),
-        (DeviceChoice::Auto | DeviceChoice::Gpu, Some(open)) => match open() {
-            Ok(chosen) => Ok(chosen),
-            Err(error) if choice == DeviceChoice::Auto => cpu(&error.0),
-            Err(error) => Err(DeviceError(format!("{error}; take --device cpu, or install a Vulkan driver"))),
+        (DeviceChoice::Auto, Some(open)) => match software_gpu() {
+            Some(name) => cpu(&format!("the only adapter, {name}, draws on this processor, too, and slower")),
+            None => open().or_else(|error| cpu(&error.0)),
         },
+        (DeviceChoice::Gpu, Some(open)) => open().map_err(|error| {
+            DeviceError(format!("{error}; take --device cpu, or install a Vulkan driver"))
+        }),
     }
 }
 
@@ -72,6 +74,16 @@ fn open_gpu(filter: FilterChoice, cache_bytes: u64, slots_needed: u64) -> Option
         let info = device.info();
         Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })
     }))
+}
+
+#[cfg(feature = "gpu")]
+fn software_gpu() -> Option<String> {
+    super::gpu::software_adapter()
+}
+
+#[cfg(not(feature = "gpu"))]
+fn software_gpu() -> Option<String> {
+    None
 }
 
 #[cfg(not(feature = "gpu"))]

@@ -23,7 +23,7 @@ pub struct BackendArgs {
 /// See [`DeviceChoice`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DeviceArg {
-    /// The GPU, or the CPU where there is no Vulkan driver.
+    /// The GPU, or the CPU where there is no Vulkan driver but one in software.
     Auto,
     /// The GPU or nothing.
     Gpu,

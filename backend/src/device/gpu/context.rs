@@ -11,6 +11,8 @@ pub(super) struct Context {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     pub(super) name: String,
+    /// Whether the adapter is the processor.
+    is_software: bool,
     pub(super) atlas_format: wgpu::TextureFormat,
     /// Whether the texture unit can interpolate `atlas_format` at all.
     pub(super) has_filter: bool,
@@ -35,6 +37,11 @@ pub(super) fn context() -> Result<Arc<Context>, DeviceError> {
 /// There is none, or it cannot be opened.
 pub fn adapter_name() -> Result<String, DeviceError> {
     Ok(context()?.name.clone())
+}
+
+/// The name of the adapter that `--device gpu` would take, where that is a driver in software.
+pub(in crate::device) fn software_adapter() -> Option<String> {
+    context().ok().filter(|context| context.is_software).map(|context| context.name.clone())
 }
 
 /// Bytes of a sample in the brick cache of `--device gpu`.
@@ -83,7 +90,17 @@ impl Context {
         let atlas_format =
             if has_unorm16 { wgpu::TextureFormat::R16Unorm } else { wgpu::TextureFormat::R32Float };
         let pipelines = PipelineCache::open(&device, &info);
-        Ok(Self { device, queue, name, atlas_format, has_filter, pipelines, turn: Mutex::new(()) })
+        let is_software = info.device_type == wgpu::DeviceType::Cpu;
+        Ok(Self {
+            device,
+            queue,
+            name,
+            is_software,
+            atlas_format,
+            has_filter,
+            pipelines,
+            turn: Mutex::new(()),
+        })
     }
 
     /// Bytes of a sample in the atlas.
