@@ -2,15 +2,6 @@
 
 mod ancestors;
 mod damage;
-fn check_clock(frame: &FrameState) -> Result<(), RenderError> {
-    let wrong = |what, seconds| Err(RenderError::Clock { what, seconds });
-    match frame.pace {
-        _ if !frame.time_s.is_finite() => wrong("time", frame.time_s),
-        Pace::Live { fade_s, .. } if !(fade_s >= 0.0 && fade_s.is_finite()) => wrong("fade", fade_s),
-        _ => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod damage_tests;
 mod frame;
@@ -192,4 +183,13 @@ impl Renderer {
 /// Enough to keep a disk busy while others unpack.
 fn loader_threads() -> usize {
     std::thread::available_parallelism().map_or(2, |n| n.get().clamp(2, 8))
+}
+
+fn check_clock(frame: &FrameState) -> Result<(), RenderError> {
+    let wrong = |what, seconds| Err(RenderError::Clock { what, seconds });
+    match frame.pace {
+        _ if !frame.time_s.is_finite() => wrong("time", frame.time_s),
+        Pace::Live { fade_s, .. } if !(fade_s >= 0.0 && fade_s.is_finite()) => wrong("fade", fade_s),
+        _ => Ok(()),
+    }
 }

@@ -19,8 +19,8 @@ pub struct ColdStart {
 }
 
 /// Draws a live frame again and again, 1/60 s apart, until it is complete, `most` times at most. Of the only projector
-/// `is_surface` tells which pixels show a surface when all detail is there, row by row. What a disk takes is real time: frames that take longer than
-/// 1/60 s to draw give it more.
+/// `is_surface` tells which pixels show a surface when all detail is there, row by row. What a disk takes is real time:
+/// frames that take longer than 1/60 s to draw give it more.
 pub fn cold_start(
     renderer: &mut Renderer,
     frame: &FrameState,

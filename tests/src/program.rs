@@ -37,6 +37,21 @@ covers = \"screen\"
 backends = 2
 ";
 
+/// A scene of skins over a volume; a test says how it stands, and what else it needs.
+pub fn scene_of_skins(volume: &str, more: &str) -> String {
+    format!(
+        "\
+[volume]
+source = '{volume}'
+[optics]
+domain = [0.0, 1.0]
+extinction_unit = 'per_metre'
+extinction = [[0.3, 0], [0.5, 20], [1.0, 40]]
+colour = [[0.3, 0.1, 0.5, 0.9], [1.0, 0.9, 0.6, 0.2]]
+{more}"
+    )
+}
+
 /// Writes the small display into a folder.
 pub fn small_display(folder: &Path) -> String {
     let path = folder.join("small4.toml");
@@ -265,8 +280,11 @@ pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
+/// Pictures by their names, as bytes.
+pub type Pictures = BTreeMap<String, Vec<u8>>;
+
 /// The pictures below a folder with their bytes: all but the reports, which tell of times.
-pub fn pictures(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn pictures(folder: &Path) -> Pictures {
     let mut found = files(folder);
     found.retain(|name, _| name.ends_with(".png") || name.ends_with(".exr"));
     found
@@ -274,7 +292,7 @@ pub fn pictures(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// Fails the test, by name, where two runs did not write the same pictures byte for byte.
 #[track_caller]
-pub fn assert_same(what: &str, one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec<u8>>) {
+pub fn assert_same(what: &str, one: &Pictures, other: &Pictures) {
     assert!(one.keys().eq(other.keys()), "{what}: {:?} and {:?}", one.keys(), other.keys());
     assert!(!one.is_empty(), "{what}: there are no pictures");
     let differ: Vec<_> = one.keys().filter(|name| one[*name] != other[*name]).collect();

@@ -6,14 +6,12 @@
 )]
 
 use lightloom_tests::program::{
-    Ran, assert_same, cluster, files, has_gpu, lightloom, pictures, report, run, small_display,
+    Pictures, Ran, assert_same, cluster, files, has_gpu, lightloom, pictures, report, run, scene_of_skins,
+    small_display,
 };
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-
-type Pictures = BTreeMap<String, Vec<u8>>;
 
 /// Frames of a scene: a view has come to rest long before the last.
 const FRAMES: usize = 30;
@@ -24,17 +22,10 @@ const BRICKS_OF_A_MIB: u64 = 16;
 
 /// A view that rests.
 const SCENE: &str = "\
-[volume]
-source = 'SOURCE'
 [placement]
 centre_m = CENTRE
 rotation_deg = [20.0, 40.0, 0.0]
 longest_m = LONGEST
-[optics]
-domain = [0.0, 1.0]
-extinction_unit = 'per_metre'
-extinction = [[0.3, 0], [0.5, 20], [1.0, 40]]
-colour = [[0.3, 0.1, 0.5, 0.9], [1.0, 0.9, 0.6, 0.2]]
 [quality]
 lod_scale = LOD_SCALE
 [frames]
@@ -71,7 +62,7 @@ impl Bench {
         let folder = tempfile::tempdir().unwrap();
         let scene = folder.path().join("scene.toml").to_string_lossy().into_owned();
         let fill = |text: String, value: &(&str, &str)| text.replace(value.0, value.1);
-        fs::write(&scene, values.iter().fold(SCENE.replace("SOURCE", source), fill)).unwrap();
+        fs::write(&scene, scene_of_skins(source, &values.iter().fold(SCENE.to_owned(), fill))).unwrap();
         Self { folder, scene, device: "cpu" }
     }
 

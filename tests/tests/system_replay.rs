@@ -5,7 +5,7 @@
     reason = "rules out what the test would fail on anyway; clippy knows the test functions only"
 )]
 
-use lightloom_tests::program::{files, lightloom, run, small_display};
+use lightloom_tests::program::{files, lightloom, run, scene_of_skins, small_display};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -15,15 +15,8 @@ const BACKENDS: u64 = 2;
 
 /// A turning volume.
 const SCENE: &str = "\
-[volume]
-source = 'SOURCE'
 [placement]
 longest_m = 0.4
-[optics]
-domain = [0.0, 1.0]
-extinction_unit = 'per_metre'
-extinction = [[0.3, 0], [0.5, 20], [1.0, 40]]
-colour = [[0.3, 0.1, 0.5, 0.9], [1.0, 0.9, 0.6, 0.2]]
 [quality]
 lod_scale = 0.2
 [frames]
@@ -53,7 +46,7 @@ impl Bench {
     /// Draws the scene over a volume, with more arguments.
     fn simulate(&self, source: &str, more: &[&str]) -> lightloom_tests::program::Ran {
         let (scene, display) = (self.path("scene.toml"), small_display(self.folder.path()));
-        fs::write(&scene, SCENE.replace("SOURCE", source)).unwrap();
+        fs::write(&scene, scene_of_skins(source, SCENE)).unwrap();
         let out = self.path("out");
         let fixed =
             ["simulate", &scene, "--display", &display, "--device", "cpu", "--backends", "2", "--out", &out];

@@ -6,13 +6,10 @@
 )]
 
 use lightloom_tests::program::{
-    LIMIT, assert_same, cluster, has_gpu, lightloom, pictures, report, run, small_display, start,
+    LIMIT, Pictures, assert_same, cluster, has_gpu, lightloom, pictures, report, run, small_display, start,
 };
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-
-type Pictures = BTreeMap<String, Vec<u8>>;
 
 /// Runs of one scene on one display that ought to look the same.
 struct Runs<'a> {

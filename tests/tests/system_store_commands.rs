@@ -6,7 +6,7 @@
 )]
 
 use lightloom_tests::program::{
-    Ran, assert_same, files, lightloom, pictures, report, run, small_display, start,
+    Ran, assert_same, files, lightloom, pictures, report, run, scene_of_skins, small_display, start,
 };
 use serde_json::{Value, json};
 use std::fs;
@@ -17,15 +17,8 @@ use std::time::Duration;
 
 /// A scene over data values that asks for the finest level everywhere.
 const SCENE: &str = "\
-[volume]
-source = 'STORE'
 [placement]
 longest_m = 0.3
-[optics]
-domain = [0.0, 1.0]
-extinction_unit = 'per_metre'
-extinction = [[0.3, 0], [0.5, 20], [1.0, 40]]
-colour = [[0.3, 0.1, 0.5, 0.9], [1.0, 0.9, 0.6, 0.2]]
 [quality]
 lod_scale = 0
 ";
@@ -57,7 +50,7 @@ impl Bench {
     /// The scene over a store of the folder.
     fn scene(&self, store: &str) -> String {
         let path = self.path(&format!("{store}.toml"));
-        fs::write(&path, SCENE.replace("STORE", store)).unwrap();
+        fs::write(&path, scene_of_skins(store, SCENE)).unwrap();
         path
     }
 

@@ -12,7 +12,8 @@ pub struct ChosenDevice {
     pub info: DeviceInfo,
 }
 
-/// Opens the device of choice, by default a GPU where there is one that is no driver in software, with a brick cache of at most `cache_bytes` and at most `slots_needed` bricks.
+/// Opens the device of choice, by default a GPU where there is one that is no driver in software, with a brick cache of at
+/// most `cache_bytes` and at most `slots_needed` bricks.
 ///
 /// # Errors
 /// A GPU was asked for and there is none, or its memory does not hold the cache.
@@ -23,12 +24,12 @@ pub fn open_device(
     slots_needed: u64,
 ) -> Result<ChosenDevice, DeviceError> {
     let cpu = |reason: &str| {
-        let slots = slots_within(cache_bytes, CPU_SAMPLE_BYTES, slots_needed);
+        let slots = slots_within(cache_bytes, CPU_BRICK_BYTES, slots_needed);
         let info = DeviceInfo {
             adapter: format!("cpu: {} threads", rayon::current_num_threads()),
             reason: reason.into(),
             filter: "exact".into(),
-            cache_bytes: u64::from(slots) * brick_bytes(CPU_SAMPLE_BYTES),
+            cache_bytes: u64::from(slots) * CPU_BRICK_BYTES,
         };
         Ok(ChosenDevice { device: Device::Cpu(Box::new(CpuDevice::new(slots))), info })
     };
@@ -49,17 +50,12 @@ pub fn open_device(
 }
 
 /// Slots for the bricks that fit, at least the nine that show a root and its children, and a blank one.
-pub(crate) fn slots_within(cache_bytes: u64, sample_bytes: u64, slots_needed: u64) -> u32 {
-    slots_needed.min(cache_bytes / brick_bytes(sample_bytes)).clamp(9, 1 << 20) as u32 + 1
+pub(crate) fn slots_within(cache_bytes: u64, brick_bytes: u64, slots_needed: u64) -> u32 {
+    slots_needed.min(cache_bytes / brick_bytes).clamp(9, 1 << 20) as u32 + 1
 }
 
-/// Bytes of a brick in the cache.
-pub(super) fn brick_bytes(sample_bytes: u64) -> u64 {
-    sample_bytes * crate::store::BRICK_VOXELS as u64
-}
-
-/// Bytes of a sample in the CPU device's cache.
-pub(crate) const CPU_SAMPLE_BYTES: u64 = 2;
+/// Bytes of a brick in the CPU device's cache.
+const CPU_BRICK_BYTES: u64 = 2 * crate::store::BRICK_VOXELS as u64;
 
 type OpenGpu = Box<dyn FnOnce() -> Result<ChosenDevice, DeviceError>>;
 
@@ -67,9 +63,9 @@ type OpenGpu = Box<dyn FnOnce() -> Result<ChosenDevice, DeviceError>>;
 fn open_gpu(filter: FilterChoice, cache_bytes: u64, slots_needed: u64) -> Option<OpenGpu> {
     Some(Box::new(move || {
         // A power of two, the larger one where the cache allows it.
-        let sample_bytes = super::gpu::sample_bytes()?;
-        let slots = slots_within(cache_bytes, sample_bytes, slots_needed).next_power_of_two();
-        let most = slots_within(cache_bytes, sample_bytes, u64::MAX).max(16);
+        let brick_bytes = super::gpu::brick_bytes()?;
+        let slots = slots_within(cache_bytes, brick_bytes, slots_needed).next_power_of_two();
+        let most = slots_within(cache_bytes, brick_bytes, u64::MAX).max(16);
         let device = super::gpu::GpuDevice::open(filter, if slots > most { slots / 2 } else { slots })?;
         let info = device.info();
         Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })

@@ -7,7 +7,7 @@ pub mod gpu;
 mod job;
 mod under_way;
 
-pub(crate) use choose::{CPU_SAMPLE_BYTES, slots_within};
+pub(crate) use choose::slots_within;
 pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use job::{CastJob, CastOutcome, Gather, TileGrid};

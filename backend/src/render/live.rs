@@ -7,7 +7,9 @@ use super::{RenderError, RenderEvent, Renderer};
 use crate::device::{CastJob, Gather, MOST_UNDER_WAY, TileGrid};
 use crate::protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use crate::store::{BrickError, BrickErrorKind, NodeKey};
-use crate::working_set::{Arrival, LoadedBrick, LodRule, Met, Moment, corner_weights, most_in_flight};
+use crate::working_set::{
+    Arrival, LoadedBrick, LodRule, Met, Moment, Shortfall, corner_weights, most_in_flight,
+};
 use shaders::compose::Needs;
 use shaders::layout::{FeedbackEntry, deficit_from_code};
 use std::collections::VecDeque;
@@ -113,7 +115,7 @@ impl Live {
 
     /// A new frame, whose clock may have run back.
     fn enter<'a>(&mut self, frame: &'a FrameState, limits: Limits) -> Present<'a> {
-        let last_s = self.last.as_ref().map_or(-self.ahead_s, |last| last.time_s);
+        let last_s = self.last.as_ref().map_or(0.0, |last| last.time_s);
         self.ahead_s += (last_s - frame.time_s).max(0.0);
         let is_still = self.last.as_ref().is_some_and(|last| is_same_view(last, frame));
         Present { frame, limits, is_still }
@@ -232,20 +234,17 @@ impl Live {
 
     fn upkeep(&self, renderer: &Renderer) -> Upkeep {
         let set = &renderer.residency.set;
-        let leaves = || set.cut.walk_shown().filter(|&place| set.cut.node(place).shown_child().is_none());
-        let coarse = |told: &Told| told.deficit.max(0.0);
-        let rays: f64 = self.met.iter().map(|told| f64::from(told.rays)).sum();
-        let weighted: f64 = self.met.iter().map(|told| f64::from(told.rays) * coarse(told)).sum();
+        let short = Shortfall::of(self.met.iter().map(|told| (told.rays, told.deficit)));
         Upkeep {
             nodes: set.cut.walk().count() as u64,
-            leaves: leaves().count() as u64,
+            leaves: set.cut.shown_leaves().count() as u64,
             splits: set.splits,
             collapses: set.collapses,
             in_flight: set.reserved() as u64,
             cancelled: 0,
             fading: set.moving,
-            largest_deficit: self.met.iter().map(coarse).fold(0.0, f64::max),
-            mean_deficit: if rays > 0.0 { weighted / rays } else { 0.0 },
+            largest_deficit: short.map_or(0.0, |short| short.largest),
+            mean_deficit: short.map_or(0.0, |short| short.mean),
             update_ms: 0.0,
         }
     }

@@ -32,8 +32,8 @@ fn levels_that_differ_for_want_of_room_blend_at_rest() {
     }
     assert_eq!(calm, 30, "it comes to rest");
     let cut = &renderer.residency.set.cut;
-    let leaves = || cut.walk_shown().map(|place| cut.node(place)).filter(|node| node.shown_child().is_none());
-    let depth_of = |least: u8| leaves().any(|node| node.is_visible && node.key.depth == least);
-    assert!(depth_of(1) && depth_of(2), "the cache has room for some of the finest level");
+    let leaves = || cut.shown_leaves().map(|place| cut.node(place));
+    let shows = |depth: u8| leaves().any(|node| node.is_visible && node.key.depth == depth);
+    assert!(shows(1) && shows(2), "the cache has room for some of the finest level");
     assert!(renderer.residency.blends);
 }

@@ -5,8 +5,8 @@
 //! edge or a corner of the smaller one in common, on which shares are bilinear at most: the corners of leaves tell all.
 
 use super::live::{Met, Moment, WorkingSet};
-use super::test_world::{Random, World, live_weights, optics, rule};
-use super::{Cut, CutNode, Family, IndexRules, LodRule};
+use super::test_world::{Random, World, live_weights, optics, rule, rules};
+use super::{Cut, CutNode, Family, LodRule};
 use crate::store::{NodeKey, OctreeShape};
 use glam::{IVec3, UVec3};
 use shaders::optics::Optics;
@@ -154,8 +154,7 @@ impl Run {
         let z = (self.z)(now_s);
         let rule = self.rule();
         let (world, optics) = (&self.world, &self.optics);
-        let rules =
-            IndexRules { shape: &world.shape, lod: &rule, optics, is_quadrilinear: false, blank_slot: None };
+        let rules = rules(&world.shape, &rule, optics);
         let summary = |key| world.summary(key);
         let is_still = self.frame > 0 && z == (self.z)(now_s - FRAME_S);
         let moment =
@@ -199,12 +198,12 @@ impl Run {
         if let Sight::Depth(most) = self.sight {
             return self.along_x(most);
         }
-        let leaves = cut.walk_shown().map(|place| cut.node(place));
+        let leaves = cut.shown_leaves().map(|place| cut.node(place));
         let is_seen = |key| {
             let (low, _) = self.world.shape.region(key);
             low.x + low.y < 300.0
         };
-        let found = leaves.filter(|node| node.shown_child().is_none() && node.is_visible);
+        let found = leaves.filter(|node| node.is_visible);
         found.map(|node| node.key).filter(|&key| is_seen(key)).collect()
     }
 
@@ -227,8 +226,7 @@ impl Run {
         let depth = shape.finest_depth();
         let bits = |octant: i32| IVec3::new(octant & 1, octant >> 1 & 1, octant >> 2);
         let mut found = HashMap::new();
-        for node in cut.walk_shown().map(|place| cut.node(place)).filter(|node| node.shown_child().is_none())
-        {
+        for node in cut.shown_leaves().map(|place| cut.node(place)) {
             for corner in 0..8 {
                 let point = (node.key.cell.as_ivec3() + bits(corner)) * (1 << (depth - node.key.depth));
                 found.entry(point).or_insert_with(|| {

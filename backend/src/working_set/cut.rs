@@ -231,6 +231,11 @@ impl Cut {
         self.walk_by(CutNode::shown_child)
     }
 
+    /// The places of the nodes that rays meet.
+    pub fn shown_leaves(&self) -> impl Iterator<Item = u32> + '_ {
+        self.walk_shown().filter(|&place| self.node(place).shown_child().is_none())
+    }
+
     fn walk_by(&self, first_child: impl Fn(&CutNode) -> Option<u32>) -> impl Iterator<Item = u32> {
         let mut queue = std::collections::VecDeque::from([0u32]);
         std::iter::from_fn(move || {

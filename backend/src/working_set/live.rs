@@ -195,8 +195,7 @@ impl WorkingSet {
         let lacks = |key: NodeKey| {
             let node = self.cut.node(self.cut.find(key));
             let is_resident = node.key == key && node.brick.is_some();
-            let may_ask = key.parent().is_none_or(|parent| !self.is_lost(parent));
-            !is_resident && may_ask && is_shown(rules.optics, (moment.summary)(key))
+            !is_resident && self.may_ask(key) && is_shown(rules.optics, (moment.summary)(key))
         };
         prefetch(leaves, &motion, HORIZON, rules.shape, lacks, MOST_AHEAD)
     }
@@ -225,9 +224,9 @@ impl WorkingSet {
     pub fn blends(&self) -> bool {
         let is_short = |place: u32| {
             let node = self.cut.node(place);
-            node.shown_child().is_none() && node.is_visible && node.deficit > 0.0 && node.permits < 1.0
+            node.is_visible && node.deficit > 0.0 && node.permits < 1.0
         };
-        self.moving > 0 || self.cut.walk_shown().any(is_short)
+        self.moving > 0 || self.cut.shown_leaves().any(is_short)
     }
 
     /// Bricks that slots are kept for.
@@ -274,11 +273,13 @@ impl WorkingSet {
 
     /// Whether a slot is kept for a node's brick.
     pub(super) fn awaits(&self, place: u32) -> bool {
-        let may_ask = match self.cut.node(place).parent {
-            None => self.retry.may_ask(NodeKey::ROOT, self.now_s),
-            Some(parent) => !self.is_lost(self.cut.node(parent).key),
-        };
-        self.cut.lacks(place) && may_ask
+        self.cut.lacks(place) && self.may_ask(self.cut.node(place).key)
+    }
+
+    /// Whether a brick may be asked for, with its family.
+    fn may_ask(&self, key: NodeKey) -> bool {
+        let alone = || self.retry.may_ask(key, self.now_s);
+        key.parent().map_or_else(alone, |parent| !self.is_lost(parent))
     }
 
     /// Gives up families that are on their way and that nobody wants any more, fine ones first.

@@ -1,21 +1,17 @@
 //! Laws of the live working set.
 
 use super::live::{Arrival, Met, Moment, WorkingSet};
-use super::test_world::{Random, World, live_weights, optics, rule};
-use super::{Cut, Family, IndexRules, visit_vertices};
+use super::test_world::{Random, World, live_weights, optics, rule, rules};
+use super::{Cut, Family, visit_vertices};
 use crate::store::{BrickErrorKind, NodeKey, NodeSummary, OctreeShape};
 use glam::UVec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-fn is_leaf(cut: &Cut, place: u32, of_shown: bool) -> bool {
-    let node = cut.node(place);
-    if of_shown { node.shown_child().is_none() } else { node.first_child.is_none() }
-}
-
 /// Leaves of the cut, or of what is shown, that hold something of the volume.
 fn leaves(cut: &Cut, shape: &OctreeShape, of_shown: bool) -> Vec<u32> {
-    let all: Vec<u32> = if of_shown { cut.walk_shown().collect() } else { cut.walk().collect() };
-    all.into_iter().filter(|&p| is_leaf(cut, p, of_shown) && shape.contains(cut.node(p).key)).collect()
+    let resident = || cut.walk().filter(|&place| cut.node(place).first_child.is_none());
+    let all: Vec<u32> = if of_shown { cut.shown_leaves().collect() } else { resident().collect() };
+    all.into_iter().filter(|&place| shape.contains(cut.node(place).key)).collect()
 }
 
 /// The leaf over each of the finest cells.
@@ -134,13 +130,7 @@ impl Life {
         let fade_s = [0.0, 0.1, 0.4][random.below(3) as usize];
         self.now_s += dt_s;
         let (rule, optics) = (rule(&self.world.shape, self.z), optics(self.threshold));
-        let rules = IndexRules {
-            shape: &self.world.shape,
-            lod: &rule,
-            optics: &optics,
-            is_quadrilinear: false,
-            blank_slot: None,
-        };
+        let rules = rules(&self.world.shape, &rule, &optics);
         let summary = |key| self.world.summary(key);
         let most_in_flight = 1 + random.below(200) as usize;
         let moment = Moment { rules, summary: &summary, now_s: self.now_s, is_still, fade_s, most_in_flight };

@@ -20,6 +20,7 @@ mod retry;
 mod room;
 #[cfg(test)]
 mod room_tests;
+mod shortfall;
 mod slots;
 #[cfg(test)]
 mod test_world;
@@ -38,10 +39,9 @@ pub use lod::{LodRule, MeasuredRule};
 pub use prefetch::{HORIZON, MOST_AHEAD, Motion, prefetch};
 pub use presence::{Tick, advance, refresh, settle};
 pub use priority::priorities;
-pub use replay::{
-    Account, DiskModel, FetchOrder, Policy, ReplayRun, ReplayVolume, ReplayedFrame, Shortfall, replay,
-};
+pub use replay::{Account, DiskModel, FetchOrder, Policy, ReplayRun, ReplayVolume, ReplayedFrame, replay};
 pub use retry::Retry;
+pub use shortfall::Shortfall;
 pub use slots::SlotPool;
 pub use touched::{Touched, Wanted};
 pub use touching::neighbours;

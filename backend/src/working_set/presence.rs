@@ -111,9 +111,9 @@ pub fn advance(
         let node = cut.node(*place);
         let is_met = tick.seen.has_met(node) && !is_lost(node.key);
         let target = permitted(node.is_visible, node.deficit, is_met);
-        node.shown_child().is_none() && (node.permits != target || node.shown < 1.0)
+        node.permits != target || node.shown < 1.0
     };
-    cut.walk_shown().filter(is_moving).count() as u64
+    cut.shown_leaves().filter(is_moving).count() as u64
 }
 
 /// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they

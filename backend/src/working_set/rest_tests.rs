@@ -1,8 +1,8 @@
 //! A still view comes to rest: at the picture that an unlimited cache gives, or as evenly short of it as the cache is small.
 
 use super::live::{Arrival, Met, Moment, WorkingSet};
-use super::test_world::{Random, World, live_weights, optics, rule};
-use super::{Family, IndexRules, LodRule, settle, settled_weights};
+use super::test_world::{Random, World, live_weights, optics, rule, rules};
+use super::{Family, LodRule, settle, settled_weights};
 use crate::store::NodeKey;
 use glam::UVec3;
 use shaders::optics::Optics;
@@ -56,8 +56,7 @@ impl Still {
     fn step(&mut self) {
         let seen: Vec<NodeKey> = self.seen_leaves();
         let Self { world, set, rule, optics, random, .. } = self;
-        let rules =
-            IndexRules { shape: &world.shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None };
+        let rules = rules(&world.shape, rule, optics);
         let summary = |key| world.summary(key);
         let now_s = f64::from(self.frame) * FRAME_S;
         let moment = Moment {
@@ -82,19 +81,18 @@ impl Still {
     }
 
     fn seen_leaves(&self) -> Vec<NodeKey> {
-        let nodes = self.set.cut.walk_shown().map(|place| self.set.cut.node(place));
-        let leaves = nodes.filter(|node| node.shown_child().is_none() && node.is_visible);
-        leaves.map(|node| node.key).filter(|&key| self.sees(key)).collect()
+        self.seen_places().map(|place| self.set.cut.node(place).key).collect()
+    }
+
+    fn seen_places(&self) -> impl Iterator<Item = u32> {
+        let cut = &self.set.cut;
+        cut.shown_leaves().filter(|&place| cut.node(place).is_visible && self.sees(cut.node(place).key))
     }
 
     /// What rays meet, with weights.
     fn shown(&self) -> BTreeMap<NodeKey, [f32; 8]> {
         let weights = live_weights(&self.set.cut);
-        let places = self.set.cut.walk_shown().filter(|&place| {
-            let node = self.set.cut.node(place);
-            node.shown_child().is_none() && node.is_visible && self.sees(node.key)
-        });
-        places.map(|place| (self.set.cut.node(place).key, weights[place as usize])).collect()
+        self.seen_places().map(|place| (self.set.cut.node(place).key, weights[place as usize])).collect()
     }
 }
 
@@ -111,12 +109,11 @@ fn a_large_cache_comes_to_rest_at_what_the_rule_asks_for_whatever_came_first() {
         let before = still.set.cut.clone();
         settle(&mut still.set.cut);
         let Still { world, rule, optics, set, .. } = &still;
-        let rules =
-            IndexRules { shape: &world.shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None };
+        let rules = rules(&world.shape, rule, optics);
         let weights = settled_weights(&set.cut, &rules, &|key| world.summary(key));
-        for place in set.cut.walk_shown() {
+        for place in set.cut.shown_leaves() {
             let node = set.cut.node(place);
-            if let Some(live) = shown.get(&node.key).filter(|_| node.shown_child().is_none()) {
+            if let Some(live) = shown.get(&node.key) {
                 assert_eq!(*live, weights[place as usize], "{}", node.key);
                 assert_eq!(before.node(place).shown, node.shown);
             }

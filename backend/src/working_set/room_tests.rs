@@ -1,8 +1,8 @@
 //! Laws of the room in the cache.
 
+use super::LodRule;
 use super::live::{Met, Moment, WorkingSet};
-use super::test_world::{Random, World, optics, rule};
-use super::{IndexRules, LodRule};
+use super::test_world::{Random, World, optics, rule, rules};
 use crate::store::NodeKey;
 use glam::UVec3;
 
@@ -11,13 +11,7 @@ fn a_family_that_a_split_rests_on_stays() {
     let world = World::new(UVec3::splat(448), &mut Random(5));
     let (lod, optics) = (LodRule { lod_scale: 0.0, ..rule(&world.shape, 0.0) }, optics(0.1));
     let summary = |key| world.summary(key);
-    let rules = IndexRules {
-        shape: &world.shape,
-        lod: &lod,
-        optics: &optics,
-        is_quadrilinear: false,
-        blank_slot: None,
-    };
+    let rules = rules(&world.shape, &lod, &optics);
     let mut set = WorkingSet::new(world.summary(NodeKey::ROOT), 2000);
     let frame = |set: &mut WorkingSet, n: u32, met: &[Met]| {
         let now_s = f64::from(n) * 0.001;

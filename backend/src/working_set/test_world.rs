@@ -88,11 +88,14 @@ pub(super) fn rule(shape: &OctreeShape, z: f64) -> LodRule {
     }
 }
 
+/// The rules of a frame in which nothing is filtered over levels.
+pub(super) fn rules<'a>(shape: &'a OctreeShape, lod: &'a LodRule, optics: &'a Optics) -> IndexRules<'a> {
+    IndexRules { shape, lod, optics, is_quadrilinear: false, blank_slot: None }
+}
+
 /// The weights of a cut of which nothing is lost.
 pub(super) fn live_weights(cut: &Cut) -> Vec<[f32; 8]> {
     let shape = OctreeShape::new(UVec3::ONE);
     let (lod, optics) = (rule(&shape, 0.0), optics(0.5));
-    let rules =
-        IndexRules { shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false, blank_slot: None };
-    corner_weights(cut, &rules, &|_| NodeSummary { min: 0.0, max: 0.0 }, |_| false)
+    corner_weights(cut, &rules(&shape, &lod, &optics), &|_| NodeSummary { min: 0.0, max: 0.0 }, |_| false)
 }

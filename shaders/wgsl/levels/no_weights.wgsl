@@ -1,7 +1,5 @@
 // Nodes do not blend into their parents.
 
-const BLENDS: bool = false;
-
 struct Weights {
     none: f32,
 }

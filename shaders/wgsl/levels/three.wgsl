@@ -58,7 +58,7 @@ fn fraction_at(brick: Brick, ray: Ray, t: f32) -> f32 {
         let wanted = log2(max(params.resolution.x + params.resolution.y * abs(z), 1e-30)) - brick.above_finest;
         f = clamp(wanted, 0.0, brick.coarsest);
     }
-    if BLENDS && is_blended(brick.weights) {
+    if is_blended(brick.weights) {
         f = max(f, parents_share(brick.weights, brick.own, t));
     }
     return f;

@@ -1,7 +1,5 @@
 // A node's share of its own samples, by the weights of its corners (LOD section 4.3); the parent has the rest.
 
-const BLENDS: bool = true;
-
 struct Weights {
     // Of the corners with low z and with high z; x + 2 y within each.
     low: vec4<f32>,

@@ -44,9 +44,9 @@ pub(in crate::device) fn software_adapter() -> Option<String> {
     context().ok().filter(|context| context.is_software).map(|context| context.name.clone())
 }
 
-/// Bytes of a sample in the brick cache of `--device gpu`.
-pub(in crate::device) fn sample_bytes() -> Result<u64, DeviceError> {
-    Ok(context()?.sample_bytes())
+/// Bytes of a brick in the cache of `--device gpu`.
+pub(in crate::device) fn brick_bytes() -> Result<u64, DeviceError> {
+    Ok(context()?.brick_bytes())
 }
 
 impl Context {
@@ -103,9 +103,10 @@ impl Context {
         })
     }
 
-    /// Bytes of a sample in the atlas.
-    pub(super) fn sample_bytes(&self) -> u64 {
-        if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 }
+    /// Bytes of a brick in the atlas.
+    pub(super) fn brick_bytes(&self) -> u64 {
+        let sample = if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 };
+        sample * crate::store::BRICK_VOXELS as u64
     }
 
     /// Waits for this thread's turn on the queue.

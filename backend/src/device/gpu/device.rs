@@ -7,7 +7,6 @@ use super::kernels::Kernels;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
-use crate::device::choose::brick_bytes;
 use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
 use crate::protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
@@ -120,7 +119,7 @@ impl GpuDevice {
             adapter: self.context.name.clone(),
             reason: format!("a driver offers it; {measured}"),
             filter: filter.into(),
-            cache_bytes: u64::from(self.atlas.count()) * brick_bytes(self.context.sample_bytes()),
+            cache_bytes: u64::from(self.atlas.count()) * self.context.brick_bytes(),
         }
     }
 

@@ -12,5 +12,5 @@ mod readback;
 mod storage;
 
 pub use context::adapter_name;
-pub(super) use context::{sample_bytes, software_adapter};
+pub(super) use context::{brick_bytes, software_adapter};
 pub use device::GpuDevice;

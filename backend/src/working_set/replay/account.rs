@@ -87,8 +87,8 @@ fn no_worse(rising: &[f64], part: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Shortfall;
     use super::*;
+    use crate::working_set::Shortfall;
 
     fn run(deficits: &[Option<f64>]) -> ReplayRun {
         let frame = |(index, deficit): (usize, &Option<f64>)| ReplayedFrame {

@@ -5,8 +5,8 @@ use super::*;
 use crate::protocol::VolumeRef;
 use crate::store::BrickSource;
 use crate::volume::procedural::ProceduralVolume;
-use crate::working_set::test_world::optics;
-use crate::working_set::{Cut, Demand, LodRule, TraceReader, refresh};
+use crate::working_set::test_world::{optics, rules};
+use crate::working_set::{Cut, Demand, TraceReader, refresh};
 use glam::{DAffine3, DVec3, UVec3};
 use shaders::optics::{Curve, Optics};
 use std::cell::RefCell;
@@ -81,14 +81,12 @@ fn greedy(demand: &Demand, rules: &IndexRules, summary: &dyn Fn(NodeKey) -> Node
 }
 
 /// How coarse rays would find all of a cut, whether it is shown or not.
-fn shortfall(cut: &Cut, demand: &Demand, rules: &IndexRules) -> (f64, f64) {
+fn shortfall(cut: &Cut, demand: &Demand, rules: &IndexRules) -> Shortfall {
     let leaves = cut.walk().filter(|&p| cut.node(p).first_child.is_none() && cut.node(p).is_visible);
     let leaves = leaves.map(|place| (cut.node(place).key, place));
     let seen = feedback_on(demand, rules.lod, rules.shape, leaves);
-    let deficits = || seen.iter().map(|seen| (f64::from(seen.rays), f64::from(seen.deficit.max(0.0))));
-    let rays: f64 = deficits().map(|(rays, _)| rays).sum();
-    let weighted: f64 = deficits().map(|(rays, deficit)| rays * deficit).sum();
-    (weighted / rays.max(1.0), deficits().map(|(_, deficit)| deficit).fold(0.0, f64::max))
+    let deficits = seen.iter().map(|seen| (seen.rays, f64::from(seen.deficit)));
+    Shortfall::of(deficits).expect("rays meet something")
 }
 
 fn used(cut: &Cut) -> u64 {
@@ -112,10 +110,19 @@ impl Sums {
         self.changes.iter_mut().zip(now).for_each(|(sum, now)| *sum += now as f64);
     }
 
-    fn compare(&mut self, shown: Shortfall, resident: (f64, f64), best: (f64, f64), slots: [u64; 2]) {
+    fn compare(&mut self, shown: Shortfall, resident: Shortfall, best: Shortfall, slots: [u64; 2]) {
         self.compared += 1.0;
         let [slots, of_best] = slots.map(|slots| slots as f64);
-        let now = [shown.mean, resident.0, best.0, shown.largest, resident.1, best.1, slots, of_best];
+        let now = [
+            shown.mean,
+            resident.mean,
+            best.mean,
+            shown.largest,
+            resident.largest,
+            best.largest,
+            slots,
+            of_best,
+        ];
         self.figures.iter_mut().zip(now).for_each(|(sum, now)| *sum += now);
     }
 
@@ -128,10 +135,6 @@ impl Sums {
              {splits:.2} | {collapses:.2} | {loads:.2} | {again:.2}"
         )
     }
-}
-
-fn rules<'a>(shape: &'a OctreeShape, lod: &'a LodRule, optics: &'a Optics) -> IndexRules<'a> {
-    IndexRules { shape, lod, optics, is_quadrilinear: false, blank_slot: None }
 }
 
 /// Compares over the frames that move, but for the way from nothing, and at the end of a still view; prints a row of each.
@@ -312,7 +315,7 @@ fn what_nobody_sees_any_more_soon_makes_room() {
     let lod = frames[59].lod_rule(&header);
     let rules = rules(&world.shape, &lod, &frames[59].optics);
     let best = greedy(&frames[59].demand, &rules, &summary, u64::from(policy.slots(&world.shape)));
-    let best = shortfall(&best, &frames[59].demand, &rules).0;
+    let best = shortfall(&best, &frames[59].demand, &rules).mean;
     // What counts is forgotten after five frames; two more, and the detail is there.
     assert!(shown[47..].iter().all(|mean| *mean < best + 0.03), "{shown:.2?}, at best {best:.2}");
     // The canaries: the turn is seen, and the cache is too small.

@@ -20,7 +20,8 @@ pub use account::{Account, ReplayRun};
 pub use policy::{DiskModel, FetchOrder, Policy};
 
 use super::{
-    Arrival, IndexRules, Met, Moment, TraceHeader, TracedFrame, WorkingSet, feedback_on, most_in_flight,
+    Arrival, IndexRules, Met, Moment, Shortfall, TraceHeader, TracedFrame, WorkingSet, feedback_on,
+    most_in_flight,
 };
 use crate::store::{NodeKey, NodeSummary, OctreeShape};
 use disk::Disk;
@@ -36,15 +37,6 @@ pub struct ReplayVolume<'a> {
     pub summary: &'a dyn Fn(NodeKey) -> NodeSummary,
     /// Bytes of a brick as the disk holds it, on average.
     pub brick_bytes: u64,
-}
-
-/// How coarse a frame was.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shortfall {
-    /// What rays found too coarse on average, levels; what is fine enough counts 0.
-    pub mean: f64,
-    /// The largest deficit that a ray met, levels.
-    pub largest: f64,
 }
 
 /// What became of a frame.
@@ -173,18 +165,11 @@ impl<'a> Replay<'a> {
     /// Casts the trace's rays at what is shown.
     fn look(&mut self, frame: &TracedFrame, rules: &IndexRules) -> Option<Shortfall> {
         let cut = &self.set.cut;
-        let is_leaf = |&place: &u32| {
-            let node = cut.node(place);
-            node.shown_child().is_none() && node.is_visible
-        };
-        let leaves = cut.walk_shown().filter(is_leaf).map(|place| (cut.node(place).key, place));
+        let leaves = cut.shown_leaves().map(|place| (cut.node(place), place));
+        let leaves = leaves.filter(|(node, _)| node.is_visible).map(|(node, place)| (node.key, place));
         let seen = feedback_on(&frame.demand, rules.lod, rules.shape, leaves);
         self.met = seen.iter().map(|seen| Met { key: cut.node(seen.place).key, rays: seen.rays }).collect();
-        let deficits = || seen.iter().map(|seen| (f64::from(seen.rays), as_told(seen.deficit)));
-        let rays: f64 = deficits().map(|(rays, _)| rays).sum();
-        let weighted: f64 = deficits().map(|(rays, deficit)| rays * deficit).sum();
-        let largest = deficits().map(|(_, deficit)| deficit).fold(0.0, f64::max);
-        (rays > 0.0).then(|| Shortfall { mean: weighted / rays, largest })
+        Shortfall::of(seen.iter().map(|seen| (seen.rays, as_told(seen.deficit))))
     }
 }
 

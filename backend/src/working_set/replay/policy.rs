@@ -1,8 +1,8 @@
 //! What a replay tries: a cache, a disk, and what is fetched first.
 
-use crate::device::{CPU_SAMPLE_BYTES, slots_within};
+use crate::device::slots_within;
 use crate::store::{NodeKey, OctreeShape};
-use crate::working_set::WorkingSet;
+use crate::working_set::{SAMPLE_BYTES, WorkingSet};
 use std::cmp::Reverse;
 use std::collections::HashMap;
 
@@ -49,7 +49,7 @@ impl Policy {
     pub(super) fn slots(&self, shape: &OctreeShape) -> u32 {
         let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
         // The renderer keeps one of them blank.
-        slots_within(self.cache_bytes, CPU_SAMPLE_BYTES, (0..=shape.finest_depth()).map(level).sum()) - 1
+        slots_within(self.cache_bytes, SAMPLE_BYTES, (0..=shape.finest_depth()).map(level).sum()) - 1
     }
 }
 
