@@ -4,10 +4,11 @@
 //! volume is a box of solid values that moves to and fro before the screen; every leaf is met by rays, a tenth of them
 //! changes its depth in a second, and every brick comes at once.
 
-use backend::store::{NodeKey, NodeSummary, OctreeShape};
-use backend::working_set::{IndexRules, LodRule, Met, Moment, WorkingSet, corner_weights};
+use bricks::LodRule;
+use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
-use shaders::optics::{Curve, ExtinctionUnit, Optics};
+use optics::{Curve, ExtinctionUnit, Optics};
+use renderer::working_set::{IndexRules, Met, Moment, WorkingSet, corner_weights};
 use std::time::Instant;
 
 /// Finest voxels along an edge: eight levels.

@@ -1,7 +1,7 @@
 //! The arguments that say with what pictures are drawn.
 
-use backend::protocol::{DeviceChoice, FilterChoice};
 use clap::{Args, ValueEnum};
+use protocol::{DeviceChoice, FilterChoice};
 
 /// Back-ends, their devices and their caches.
 #[derive(Clone, Debug, Args)]
