@@ -14,7 +14,10 @@ use transport::worker::Opened;
 /// One sentence: the volume cannot be opened, or the device cannot be had.
 pub fn open_renderer(setup: Setup) -> Result<Opened, String> {
     let source = open_volume(&setup.volume)?;
-    let (renderer, info) = Renderer::new(&setup, source).map_err(|error| error.to_string())?;
+    let (mut renderer, info) = Renderer::new(&setup.options, source).map_err(|error| error.to_string())?;
+    if let Some(path) = setup.trace {
+        renderer.record(path, &setup.volume);
+    }
     Ok((Box::new(renderer), info))
 }
 

@@ -8,7 +8,7 @@ use bricks::LodRule;
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
 use optics::{Curve, ExtinctionUnit, Optics};
-use renderer::working_set::{IndexRules, Met, Moment, WorkingSet, corner_weights};
+use renderer::working_set::{Feedback, IndexRules, Moment, WorkingSet, corner_weights};
 use std::time::Instant;
 
 /// Finest voxels along an edge: eight levels.
@@ -48,14 +48,13 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
     let moment =
         Moment { rules, summary: &summary, now_s, is_still: false, fade_s: 0.3, most_in_flight: 1 << 20 };
     let leaf = |place: &u32| {
-        let node = set.cut.node(*place);
+        let node = set.cut().node(*place);
         node.shown_child().is_none() && shape.contains(node.key)
     };
-    let met: Vec<Met> = set
-        .cut
+    let met: Vec<Feedback> = set.cut()
         .walk_shown()
         .filter(leaf)
-        .map(|place| Met { key: set.cut.node(place).key, rays: place % 97 })
+        .map(|place| Feedback::met(set.cut().node(place).key, place % 97))
         .collect();
     let started = Instant::now();
     set.update(&moment, &met);
@@ -67,7 +66,7 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
     set.show(&moment);
     let shown = started.elapsed();
     let started = Instant::now();
-    std::hint::black_box(corner_weights(&set.cut, &rules, &summary, |_| false));
+    std::hint::black_box(corner_weights(&set.cut(), &rules, &summary, |_| false));
     [chosen, shown, started.elapsed()].map(|spent| spent.as_secs_f64() * 1e3)
 }
 
@@ -80,13 +79,13 @@ fn settled(shape: &OctreeShape, optics: &Optics, nodes: usize) -> (f64, WorkingS
         let mut before = 0;
         for n in 0..200 {
             frame(&mut set, shape, &rule(scale, 0.7), optics, f64::from(n) * 0.1);
-            let now = set.cut.walk().count();
+            let now = set.cut().walk().count();
             if (now == before && n > 12) || now > 2 * nodes {
                 break;
             }
             before = now;
         }
-        let found = set.cut.walk().count();
+        let found = set.cut().walk().count();
         if found.abs_diff(nodes) * 8 < nodes || high / low < 1.0001 {
             return (scale, set);
         }
@@ -110,7 +109,7 @@ fn main() {
             let z = 0.7 + 0.05 * (f64::from(n) * 0.1).sin();
             let now_s = 100.0 + f64::from(n) / 60.0;
             times.push(frame(&mut set, &shape, &rule(scale, z), &optics, now_s));
-            nodes += set.cut.walk().count();
+            nodes += set.cut().walk().count();
             changes += set.splits + set.collapses;
         }
         let nodes = nodes as f64 / f64::from(rounds);

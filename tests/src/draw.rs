@@ -2,10 +2,7 @@
 
 use bricks::BrickSource;
 use display_config::Display;
-use protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup,
-    VolumeRef,
-};
+use protocol::{DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, RendererOptions};
 use renderer::Renderer;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -45,17 +42,15 @@ pub fn renderer(
     projectors: &[u32],
     with: With,
 ) -> (Renderer, DeviceInfo) {
-    let setup = Setup {
+    let options = RendererOptions {
         display: display.clone(),
         projectors: projectors.to_vec(),
         backend: 0,
-        volume: VolumeRef::Store("given by the test".into()),
         device: with.device,
         filter: with.filter,
         cache_bytes: with.cache_bytes,
-        trace: None,
     };
-    Renderer::new(&setup, Arc::clone(source)).expect("the device was found before")
+    Renderer::new(&options, Arc::clone(source)).expect("the device was found before")
 }
 
 /// Draws one frame.

@@ -1,4 +1,4 @@
-//! What draws frames, and what happens while it does.
+//! What draws frames, whole or in pieces, and what happens while it does.
 
 use crate::{FrameReport, FrameState, ProjectorImage};
 
@@ -16,14 +16,94 @@ pub enum RenderEvent {
     Image(ProjectorImage),
 }
 
-/// Something that draws frames.
-pub trait Draw {
-    /// Draws one frame and gives each finished picture to `sink`. Tell `sink` of the progress often: at least once
-    /// per second tells the front-end that this back-end is alive. An error is one sentence, and ends the run.
-    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(RenderEvent)) -> Result<FrameReport, String>;
+/// Why a frame cannot be drawn: one sentence. Nothing can be drawn after it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct DrawError(pub String);
 
-    /// No frame follows: completes what it writes beside the pictures. An error is one sentence, and fails the run.
-    fn finish(&mut self) -> Result<(), String> {
+/// Something that draws whole frames: a renderer, or a session with back-ends that have one each.
+pub trait Draw {
+    /// Draws one frame and hands each finished picture to `sink`, with news of the progress in between. One report per
+    /// back-end, in their order.
+    ///
+    /// # Errors
+    /// One sentence; it ends the run.
+    fn draw(
+        &mut self,
+        frame: &FrameState,
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<Vec<FrameReport>, DrawError>;
+
+    /// No frame follows: completes what is written beside the pictures.
+    ///
+    /// # Errors
+    /// One sentence; it fails the run.
+    fn finish(&mut self) -> Result<(), DrawError> {
         Ok(())
+    }
+}
+
+/// Asked before each tile whether to leave off for now.
+pub type StopAsked<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// How far a frame has come.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Advance {
+    /// Rays that are final.
+    pub done: u64,
+    /// Rays of the frame.
+    pub total: u64,
+    /// Bricks that the frame has asked for and that have not come.
+    pub lacking_bricks: u64,
+    /// The account of the frame, once nothing is left to do.
+    pub report: Option<Box<FrameReport>>,
+}
+
+/// Something that draws a frame in pieces, and can be interrupted between any two tiles.
+pub trait Render {
+    /// Begins a frame, and drops what is unfinished of the one before.
+    ///
+    /// # Errors
+    /// The frame cannot be drawn.
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError>;
+
+    /// Goes on with the frame until `stop` asks to leave off, a picture has become final, or the frame is done.
+    ///
+    /// # Errors
+    /// Nothing can be drawn any more.
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError>;
+
+    /// Hands over the pictures that have become final since it was last called.
+    ///
+    /// # Errors
+    /// A picture cannot be read back.
+    fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError>;
+
+    /// No frame follows: completes what is written beside the pictures.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    fn finish(&mut self) -> Result<(), DrawError> {
+        Ok(())
+    }
+}
+
+/// Draws a whole frame without leaving off.
+///
+/// # Errors
+/// Those of the renderer.
+pub fn draw_whole(
+    renderer: &mut dyn Render,
+    frame: &FrameState,
+    sink: &mut dyn FnMut(RenderEvent),
+) -> Result<FrameReport, DrawError> {
+    renderer.restart(frame)?;
+    loop {
+        let Advance { done, total, report, .. } = renderer.advance(&|| false)?;
+        renderer.present(&mut |image| sink(RenderEvent::Image(image)))?;
+        sink(RenderEvent::Progress { done, total });
+        if let Some(report) = report {
+            return Ok(*report);
+        }
     }
 }

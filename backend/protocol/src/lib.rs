@@ -8,9 +8,9 @@ mod report;
 mod setup;
 pub mod wire;
 
-pub use draw::{Draw, RenderEvent};
+pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked, draw_whole};
 pub use frame::{FrameState, Pace, Tool, ToolKind};
 pub use image::ProjectorImage;
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{FrameReport, Stages, Upkeep};
-pub use setup::{DeviceChoice, DeviceInfo, FilterChoice, Hello, Setup, VolumeRef};
+pub use setup::{DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Setup, VolumeRef};

@@ -4,14 +4,14 @@ use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, Setup};
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 5;
+pub const PROTOCOL_VERSION: u32 = 6;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FromFrontend {
     /// Open the volume and the device.
     Setup(Box<Setup>),
-    /// Draw this frame.
+    /// Draw this frame; one that is being drawn is dropped for it.
     Frame(Box<FrameState>),
     /// The front-end is alive; nothing to do.
     Alive,

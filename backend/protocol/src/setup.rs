@@ -47,24 +47,31 @@ pub enum VolumeRef {
     },
 }
 
-/// The first message to a back-end.
+/// What a renderer is made with, besides its volume.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Setup {
+pub struct RendererOptions {
     /// The whole display.
     pub display: Display,
-    /// The projectors this back-end draws, as indices into the display.
+    /// The projectors to draw, as indices into the display.
     pub projectors: Vec<u32>,
-    /// Which back-end this is, from 0.
+    /// Number of the back-end that it draws for, from 0: its reports carry it.
     pub backend: u32,
-    /// The volume.
-    pub volume: VolumeRef,
     /// The device.
     pub device: DeviceChoice,
     /// The interpolation.
     pub filter: FilterChoice,
     /// Size of the brick cache, bytes.
     pub cache_bytes: u64,
-    /// Where the working set's trace of live frames is to be written; None where none is wanted.
+}
+
+/// The first message to a back-end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Setup {
+    /// What its renderer is made with.
+    pub options: RendererOptions,
+    /// The volume.
+    pub volume: VolumeRef,
+    /// Where to write the trace of the working set in live frames; None where none is wanted.
     pub trace: Option<PathBuf>,
 }
 

@@ -80,9 +80,11 @@ prop_compose! {
             name, width_m: 1.6, height_m: 0.9, pixel_size_m: 1.5e-3, angular_accuracy: 0.014,
             observer_in_display: DVec3::Z, eta: 1.0, projectors,
         };
+        let options = RendererOptions {
+            display, projectors: indices, backend: 1, device: DeviceChoice::Cpu, filter: FilterChoice::Exact, cache_bytes: n,
+        };
         FromFrontend::Setup(Box::new(Setup {
-            display, projectors: indices, backend: 1, volume, device: DeviceChoice::Cpu, filter: FilterChoice::Exact,
-            cache_bytes: n, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
+            options, volume, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
         }))
     }
 }

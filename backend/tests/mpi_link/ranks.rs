@@ -5,10 +5,11 @@ use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, ExtinctionUnit, Optics, Quality};
 use protocol::{
-    DeviceChoice, DeviceInfo, Draw, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace,
-    ProjectorImage, RenderEvent, Setup, Stages, VolumeRef, wire,
+    Advance, DeviceChoice, DeviceInfo, Draw, DrawError, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace, ProjectorImage, Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked, VolumeRef, wire,
 };
+
 use signal_hook::{consts::SIGKILL, low_level::raise};
+use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -39,31 +40,57 @@ const LONG: [&str; 4] = ["killed", "front-end killed", "front-end told to end", 
 struct Fake {
     backend: u32,
     width: u32,
+    frame: u32,
+    step: u64,
 }
 
-impl Draw for Fake {
-    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(RenderEvent)) -> Result<FrameReport, String> {
-        if self.backend == CULPRIT && frame.index == 1 {
+impl Fake {
+    fn misbehave(&self) -> Result<(), DrawError> {
+        if self.backend == CULPRIT && self.frame == 1 {
             match case().as_str() {
                 "killed" => die_by_kill(),
                 "panics" => panic!("a fake fault"),
-                "errors" => return Err("the fake device is lost; use another".to_owned()),
+                "errors" => return Err(DrawError("the fake device is lost; use another".to_owned())),
                 "silent" => thread::sleep(2 * CASE_LIMIT),
                 _ => {}
             }
         }
-        let is_long = frame.index == 1 && LONG.contains(&case().as_str());
-        for step in 0..if is_long { 600 } else { 3 } {
-            sink(RenderEvent::Progress { done: step, total: 600 });
-            thread::sleep(Duration::from_millis(if is_long { 100 } else { 0 }));
+        Ok(())
+    }
+
+    fn steps(&self) -> u64 {
+        if self.frame == 1 && LONG.contains(&case().as_str()) { 600 } else { 3 }
+    }
+}
+
+impl Render for Fake {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        (self.frame, self.step) = (frame.index, 0);
+        Ok(())
+    }
+
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
+        self.misbehave()?;
+        let steps = self.steps();
+        while self.step < steps && !stop() {
+            self.step += 1;
+            thread::sleep(Duration::from_millis(if steps > 3 { 100 } else { 0 }));
+        }
+        let report = (self.step == steps).then(|| Box::new(report(self.frame, self.backend)));
+        Ok(Advance { done: self.step, total: 600, lacking_bricks: 0, report })
+    }
+
+    fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        if self.step < self.steps() {
+            return Ok(());
         }
         for projector in [2 * self.backend, 2 * self.backend + 1] {
-            let number = |i: u32| (i as f32 + 0.5) * (projector as f32 - 1.3) / (frame.index as f32 + 1.0);
+            let number = |i: u32| (i as f32 + 0.5) * (projector as f32 - 1.3) / (self.frame as f32 + 1.0);
             let (width, height) = (self.width, self.width * 3 / 4);
             let rgba = (0..4 * width * height).map(number).collect();
-            sink(RenderEvent::Image(ProjectorImage { projector, width, height, rgba }));
+            sink(ProjectorImage { projector, width, height, rgba });
         }
-        Ok(report(frame.index, self.backend))
+        Ok(())
     }
 }
 
@@ -91,7 +118,7 @@ fn report(frame: u32, backend: u32) -> FrameReport {
 }
 
 pub fn open(setup: Setup) -> Result<Opened, String> {
-    if case() == "opening fails" && setup.backend == CULPRIT {
+    if case() == "opening fails" && setup.options.backend == CULPRIT {
         return Err("/no/such/head.lloom is not there; build it first".to_owned());
     }
     let text = |text: &str| text.to_owned();
@@ -101,7 +128,8 @@ pub fn open(setup: Setup) -> Result<Opened, String> {
         filter: text("exact"),
         cache_bytes: 1 << 20,
     };
-    Ok((Box::new(Fake { backend: setup.backend, width: setup.cache_bytes as u32 }), info))
+    let Setup { options, .. } = setup;
+    Ok((Box::new(Fake { backend: options.backend, width: options.cache_bytes as u32, frame: 0, step: 0 }), info))
 }
 
 fn setups(count: usize, width: u32) -> Vec<Setup> {
@@ -115,16 +143,16 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         eta: 1.0,
         projectors: Vec::new(),
     };
-    let setup = |backend| Setup {
+    let options = |backend| RendererOptions {
         display: display.clone(),
         projectors: vec![2 * backend, 2 * backend + 1],
         backend,
-        volume: VolumeRef::Store("fake.lloom".into()),
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Exact,
         cache_bytes: width.into(),
-        trace: None,
     };
+    let volume = || VolumeRef::Store("fake.lloom".into());
+    let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };
     (0..count as u32).map(setup).collect()
 }
 
@@ -155,7 +183,7 @@ fn frame(index: u32, knots: usize) -> FrameState {
 }
 
 /// All that the front-end gets of two frames, as bytes: pictures by frame and projector, and reports.
-pub fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, SessionError> {
+pub fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, Box<dyn Error>> {
     let count = link.backends();
     let limits = Limits { opening: Duration::from_secs(10), drawing: Duration::from_secs(3) };
     let width = if case() == "large pictures" { 1600 } else { 40 };
@@ -163,10 +191,10 @@ pub fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, SessionError> {
     let mut bytes = Vec::new();
     for index in 0..2 {
         let mut pictures = Vec::new();
-        let reports = session.render(&frame(index, 9), &mut |event| match event.kind {
-            EventKind::Image(image) => pictures.push(image),
-            EventKind::Progress { .. } if index == 1 && case() == "front-end killed" => die_by_kill(),
-            EventKind::Progress { .. } => {}
+        let reports = session.draw(&frame(index, 9), &mut |event| match event {
+            RenderEvent::Image(image) => pictures.push(image),
+            RenderEvent::Progress { .. } if index == 1 && case() == "front-end killed" => die_by_kill(),
+            RenderEvent::Progress { .. } => {}
         })?;
         pictures.sort_by_key(|image| image.projector);
         assert_eq!(pictures.len(), 2 * count, "each projector has one picture");
@@ -204,7 +232,7 @@ fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
         .map(|index| {
             let since = Instant::now();
             let state = frame(index, 40);
-            session.render(&state, &mut |_| {}).expect("a frame");
+            session.draw(&state, &mut |_| {}).expect("a frame");
             since.elapsed()
         })
         .collect();

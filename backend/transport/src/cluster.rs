@@ -201,7 +201,7 @@ impl Link for ClusterLink {
         self.roster().activity = activity.to_owned();
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), LinkError> {
+    fn finish(&mut self) -> Result<(), LinkError> {
         let has_parted = watchdog::guard_parting("lightloom").map_err(LinkError::Launch)?;
         while self.messenger.is_sending().map_err(LinkError::Launch)? {
             std::thread::sleep(Duration::from_micros(100));
@@ -283,7 +283,7 @@ impl WorkerLink for RankLink {
 /// the renderer could not do; this prints only what the front-end cannot know.
 pub fn work<M>(make: M, frontend_silence: Duration) -> ExitCode
 where
-    M: FnOnce(Setup) -> Result<Opened, String>,
+    M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
 {
     let ended = RankLink::connect(frontend_silence).map_err(WorkerError::from).and_then(|mut link| {
         serve(&mut link, make)?;

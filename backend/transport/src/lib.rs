@@ -3,7 +3,8 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `session` | the front-end's side: set up, draw frames, name whoever is lost |
-//! | `worker` | a back-end's side: one loop over messages |
+//! | `worker` | a back-end's side: the thread that passes messages on |
+//! | `render_loop` | a back-end's thread that draws |
 //! | `threads` | back-ends as threads of this process |
 //! | `cluster` | back-ends as ranks of an MPI job |
 //! | `mpi` | bytes between ranks, the only file that calls MPI |
@@ -19,9 +20,14 @@ mod mpi;
 #[cfg(feature = "mpi")]
 mod pause;
 mod process;
+mod render_loop;
+#[cfg(test)]
+mod restart_tests;
 #[cfg(feature = "mpi")]
 mod roster;
 pub mod session;
+#[cfg(test)]
+mod session_fixtures;
 pub mod threads;
 #[cfg(feature = "mpi")]
 mod watchdog;
@@ -29,5 +35,5 @@ pub mod worker;
 
 pub use launch::{Launch, fail, launch, under_mpi};
 pub use link::{Link, LinkError, WorkerLink};
-pub use session::{EventKind, Limits, Session, SessionError, SessionEvent};
+pub use session::{Limits, Session, SessionError};
 pub use worker::{Opened, WorkerError, serve};

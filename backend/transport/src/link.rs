@@ -57,8 +57,8 @@ pub trait Link {
     /// Notes what the run is doing ("drawing frame 3"), for the sentence said when the launcher ends it.
     fn set_activity(&mut self, activity: &str);
 
-    /// Takes leave of back-ends that were told to quit.
-    fn finish(self: Box<Self>) -> Result<(), LinkError>;
+    /// Takes leave of back-ends that were asked to quit; nothing travels after it.
+    fn finish(&mut self) -> Result<(), LinkError>;
 }
 
 /// A back-end's end.

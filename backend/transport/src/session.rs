@@ -2,7 +2,8 @@
 
 use super::link::{Link, LinkError};
 use protocol::{
-    DeviceInfo, FrameReport, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION, ProjectorImage, Setup,
+    DeviceInfo, Draw, DrawError, FrameReport, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION,
+    RenderEvent, Setup,
 };
 use std::time::{Duration, Instant};
 
@@ -21,29 +22,6 @@ impl Default for Limits {
     fn default() -> Self {
         Self { opening: Duration::from_secs(60), drawing: Duration::from_secs(60) }
     }
-}
-
-/// What a back-end tells while a frame is drawn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SessionEvent {
-    /// Which, from 0.
-    pub backend: usize,
-    /// What.
-    pub kind: EventKind,
-}
-
-/// The two things a back-end tells.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EventKind {
-    /// `done` of `total` rays of its part of the frame are final.
-    Progress {
-        /// Rays that are final.
-        done: u64,
-        /// Rays of its part.
-        total: u64,
-    },
-    /// A picture is final.
-    Image(ProjectorImage),
 }
 
 /// Why a run cannot go on: a sentence that names the back-end and what to do. The session is over after it.
@@ -170,26 +148,30 @@ impl Session {
         &self.devices
     }
 
-    /// Has all back-ends draw one frame; pictures and progress go to `on_event` as they come. The reports are in
-    /// the order of the back-ends.
-    pub fn render(
+    /// Has all back-ends draw one frame; pictures and progress, summed over all of them, go to `sink` as they come.
+    fn render(
         &mut self,
         frame: &FrameState,
-        on_event: &mut dyn FnMut(SessionEvent),
+        sink: &mut dyn FnMut(RenderEvent),
     ) -> Result<Vec<FrameReport>, SessionError> {
         self.set_activity(format!("drawing frame {}", frame.index));
         self.link
             .broadcast(&FromFrontend::Frame(Box::new(frame.clone())))
             .map_err(|error| self.lost(error))?;
+        let mut parts = vec![(0, 0); self.link.backends()];
         let reports = self.gather(self.limits.drawing, |backend, message| {
-            let kind = match message {
-                FromBackend::Progress { done, total } => EventKind::Progress { done, total },
-                FromBackend::Image(image) => EventKind::Image(image),
+            match message {
+                FromBackend::Progress { done, total } => {
+                    parts[backend] = (done, total);
+                    let (done, total) =
+                        parts.iter().fold((0, 0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+                    sink(RenderEvent::Progress { done, total });
+                }
+                FromBackend::Image(image) => sink(RenderEvent::Image(image)),
                 FromBackend::Done(report) if report.frame == frame.index => return Answer::Given(*report),
-                FromBackend::Done(_) => return Answer::Misfit("it drew another frame than it was told to"),
+                FromBackend::Done(_) => return Answer::Misfit("it drew another frame than it was asked for"),
                 _ => return Answer::Misfit("it answered a frame with something else than pictures"),
-            };
-            on_event(SessionEvent { backend, kind });
+            }
             Answer::Pending
         })?;
         self.set_activity("waiting for the next frame".to_owned());
@@ -206,7 +188,7 @@ impl Session {
     }
 
     /// Lets the back-ends go, once all that they write is complete.
-    pub fn finish(mut self) -> Result<(), SessionError> {
+    fn part(&mut self) -> Result<(), SessionError> {
         self.set_activity("finishing".to_owned());
         if self.has_traces {
             self.link.broadcast(&FromFrontend::Finish).map_err(|error| self.lost(error))?;
@@ -216,9 +198,7 @@ impl Session {
             })?;
         }
         self.link.broadcast(&FromFrontend::Quit).map_err(|error| self.lost(error))?;
-        let Self { link, activity, .. } = self;
-        let names: Vec<String> = (0..link.backends()).map(|backend| link.name(backend)).collect();
-        link.finish().map_err(|error| explain(error, activity, |backend| names[backend].clone()))
+        self.link.finish().map_err(|error| self.lost(error))
     }
 
     /// Waits until each back-end has answered, in whatever order.
@@ -284,6 +264,20 @@ impl Session {
 
     fn lost(&self, error: LinkError) -> SessionError {
         explain(error, self.activity.clone(), |backend| self.link.name(backend))
+    }
+}
+
+impl Draw for Session {
+    fn draw(
+        &mut self,
+        frame: &FrameState,
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<Vec<FrameReport>, DrawError> {
+        self.render(frame, sink).map_err(|error| DrawError(error.to_string()))
+    }
+
+    fn finish(&mut self) -> Result<(), DrawError> {
+        self.part().map_err(|error| DrawError(error.to_string()))
     }
 }
 

@@ -1,117 +1,52 @@
 //! A session with back-ends in threads, and with back-ends that follow a script.
 
 use super::*;
+use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads::{self, ThreadLink};
 use crate::worker::Opened;
-use display_config::Display;
-use glam::{DAffine3, DVec3};
-use optics::{Curve, ExtinctionUnit, Optics, Quality};
-use protocol::{DeviceChoice, FilterChoice, Hello, Pace, Stages, VolumeRef};
-use protocol::{Draw, RenderEvent};
+use protocol::{Advance, Hello, ProjectorImage, Render, StopAsked};
 use std::collections::VecDeque;
 
 const SHORT: Limits = Limits { opening: Duration::from_secs(1), drawing: Duration::from_secs(1) };
-
-fn setups(count: u32) -> Vec<Setup> {
-    let display = Display {
-        name: "fake".to_owned(),
-        width_m: 1.0,
-        height_m: 1.0,
-        pixel_size_m: 1e-3,
-        angular_accuracy: 0.01,
-        observer_in_display: DVec3::Z,
-        eta: 1.0,
-        projectors: Vec::new(),
-    };
-    let setup = |backend| Setup {
-        display: display.clone(),
-        projectors: vec![backend],
-        backend,
-        volume: VolumeRef::Store("fake.lloom".into()),
-        device: DeviceChoice::Cpu,
-        filter: FilterChoice::Exact,
-        cache_bytes: 0,
-        trace: None,
-    };
-    (0..count).map(setup).collect()
-}
-
-fn frame(index: u32) -> FrameState {
-    FrameState {
-        index,
-        time_s: 0.0,
-        observer_in_display: DVec3::Z,
-        eta: 1.0,
-        display_from_volume: DAffine3::IDENTITY,
-        optics: Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::constant(1.0),
-            extinction_unit: ExtinctionUnit::PerMetre,
-            colour: Curve::constant(DVec3::ONE),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        },
-        light: None,
-        quality: Quality::default(),
-        tool: None,
-        pace: Pace::Complete,
-        debug: None,
-    }
-}
-
-fn report(frame: u32, backend: u32) -> FrameReport {
-    FrameReport {
-        frame,
-        backend,
-        projectors: vec![backend],
-        rays: 1,
-        samples: 1,
-        bricks_wanted: 0,
-        bricks_resident: 0,
-        bricks_loaded: 0,
-        bytes_loaded: 0,
-        working_set_union: 0,
-        working_set_sum: 0,
-        complete: true,
-        shortfall: String::new(),
-        upkeep: None,
-        damaged_bricks: 0,
-        damaged: Vec::new(),
-        stages: Stages::default(),
-        total_ms: 0.0,
-    }
-}
 
 /// Draws a grey pixel; back-end 1 does `mischief` in frame 1.
 struct Fake {
     backend: u32,
     mischief: fn() -> Result<(), String>,
+    frame: u32,
+    tiles: u64,
 }
 
-impl Draw for Fake {
-    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(RenderEvent)) -> Result<FrameReport, String> {
-        if self.backend == 1 && frame.index == 1 {
-            (self.mischief)()?;
+impl Render for Fake {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        (self.frame, self.tiles) = (frame.index, 0);
+        Ok(())
+    }
+
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
+        if self.backend == 1 && self.frame == 1 {
+            (self.mischief)().map_err(DrawError)?;
         }
-        for done in 0..1000 {
-            sink(RenderEvent::Progress { done, total: 1000 });
+        while self.tiles < TILES && !stop() {
+            self.tiles += 1;
         }
-        let image = ProjectorImage { projector: self.backend, width: 1, height: 1, rgba: vec![0.5; 4] };
-        sink(RenderEvent::Image(image));
-        Ok(report(frame.index, self.backend))
+        let report = (self.tiles == TILES).then(|| Box::new(report(self.frame, self.backend)));
+        Ok(Advance { done: self.tiles, total: TILES, lacking_bricks: 0, report })
+    }
+
+    fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        if self.tiles == TILES {
+            sink(ProjectorImage { projector: self.backend, width: 1, height: 1, rgba: vec![0.5; 4] });
+        }
+        Ok(())
     }
 }
 
-fn device() -> DeviceInfo {
-    let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
-    DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 }
-}
+const TILES: u64 = 1000;
 
 fn threads_with(mischief: fn() -> Result<(), String>) -> Box<ThreadLink> {
     let open = move |setup: Setup| -> Result<Opened, String> {
-        Ok((Box::new(Fake { backend: setup.backend, mischief }), device()))
+        Ok((Box::new(Fake { backend: setup.options.backend, mischief, frame: 0, tiles: 0 }), device()))
     };
     Box::new(threads::spawn(3, open).unwrap())
 }
@@ -129,15 +64,15 @@ fn every_back_end_draws_every_frame_and_leaves() {
     for index in 0..4 {
         let mut drawn = Vec::new();
         let reports = session.render(&frame(index), &mut |event| {
-            if let EventKind::Image(image) = event.kind {
-                drawn.push((event.backend, image.projector));
+            if let RenderEvent::Image(image) = event {
+                drawn.push(image.projector);
             }
         });
         drawn.sort_unstable();
-        assert_eq!(drawn, [(0, 0), (1, 1), (2, 2)]);
+        assert_eq!(drawn, [0, 1, 2]);
         assert_eq!(reports.unwrap(), [report(index, 0), report(index, 1), report(index, 2)]);
     }
-    session.finish().unwrap();
+    session.part().unwrap();
 }
 
 #[test]
@@ -191,7 +126,7 @@ impl Link for Script {
         }))
     }
     fn set_activity(&mut self, _: &str) {}
-    fn finish(self: Box<Self>) -> Result<(), LinkError> {
+    fn finish(&mut self) -> Result<(), LinkError> {
         Ok(())
     }
 }
@@ -240,14 +175,14 @@ fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
         let script = Script(start.into_iter().chain(ready()).chain(end).collect());
         let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
         let setups = setups(2).into_iter().map(traced).collect();
-        Session::start(Box::new(script), setups, SHORT).unwrap().finish().map_err(|error| error.to_string())
+        Session::start(Box::new(script), setups, SHORT).unwrap().part().map_err(|error| error.to_string())
     };
     assert_eq!(end(FromBackend::Finished), Ok(()));
     let full = end(FromBackend::Failed("the disk is full".to_owned()));
     assert_eq!(full, Err("back-end 1 failed while finishing: the disk is full".to_owned()));
     assert!(end(FromBackend::Ready(device())).is_err_and(|error| error.contains("does not fit")));
     // Without traces nobody waits for answers, which this script would not give.
-    started(ready()).unwrap().finish().unwrap();
+    started(ready()).unwrap().part().unwrap();
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Back-ends as threads of this process.
 
 use super::link::{Link, LinkError, WorkerLink};
-use super::worker::{Opened, panic_sentence, serve};
-use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
+use super::render_loop::panic_sentence;
+use super::worker::{Opened, serve};
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, never, unbounded};
 use protocol::{FromBackend, FromFrontend, Setup};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -45,7 +46,7 @@ where
         let (to_worker, from_frontend) = unbounded();
         let worker = ThreadWorkerLink { backend, inbox: from_frontend, outbox: outbox.clone() };
         let make = Arc::clone(&make);
-        let thread = Builder::new().name(format!("back-end {backend}")).spawn(move || run(worker, &*make));
+        let thread = Builder::new().name(format!("back-end {backend}")).spawn(move || run(worker, make));
         let unstarted =
             |error| LinkError::Ended { backend, how: format!("no thread could be started: {error}") };
         link.threads.push(thread.map_err(unstarted)?);
@@ -54,8 +55,11 @@ where
     Ok(link)
 }
 
-fn run(mut link: ThreadWorkerLink, make: &(dyn Fn(Setup) -> Result<Opened, String> + Send + Sync)) {
-    let how = match catch_unwind(AssertUnwindSafe(|| serve(&mut link, make))) {
+fn run<M>(mut link: ThreadWorkerLink, make: Arc<M>)
+where
+    M: Fn(Setup) -> Result<Opened, String> + Send + Sync + 'static,
+{
+    let how = match catch_unwind(AssertUnwindSafe(|| serve(&mut link, move |setup| make(setup)))) {
         Ok(Ok(())) => "its thread ended".to_owned(),
         Ok(Err(error)) => error.to_string(),
         Err(panic) => panic_sentence(panic.as_ref()),
@@ -96,9 +100,11 @@ impl Link for ThreadLink {
 
     fn set_activity(&mut self, _: &str) {}
 
-    fn finish(self: Box<Self>) -> Result<(), LinkError> {
-        let Self { outboxes, inbox, threads } = *self;
-        drop((outboxes, inbox));
+    fn finish(&mut self) -> Result<(), LinkError> {
+        self.outboxes.clear();
+        // Who waits for room in the inbox goes on.
+        self.inbox = never();
+        let threads = std::mem::take(&mut self.threads);
         let since = Instant::now();
         for (backend, thread) in threads.into_iter().enumerate() {
             while !thread.is_finished() {

@@ -1,18 +1,15 @@
-//! The loop of a back-end.
+//! The life of a back-end: one thread passes messages on, another draws. So messages reach a back-end that is busy.
 
 use super::link::{LinkError, WorkerLink};
 use super::process;
-use protocol::{
-    DeviceInfo, Draw, FrameState, FromBackend, FromFrontend, Hello, PROTOCOL_VERSION, RenderEvent, Setup,
-};
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use super::render_loop::{Command, RenderThread, Reply};
+use protocol::{DeviceInfo, FromBackend, FromFrontend, Hello, PROTOCOL_VERSION, Render, Setup};
 use std::time::{Duration, Instant};
 
 /// An opened renderer and what it draws with.
-pub type Opened = (Box<dyn Draw>, DeviceInfo);
+pub type Opened = (Box<dyn Render>, DeviceInfo);
 
-/// Why a back-end stopped before it was told to.
+/// Why a back-end stopped before it was asked to.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WorkerError {
     /// The front-end cannot be reached.
@@ -21,116 +18,102 @@ pub enum WorkerError {
     /// The front-end has said nothing for too long.
     #[error("the front-end has said nothing for {0} s, so this back-end ends; look there for the cause")]
     FrontendSilent(u64),
-    /// It could not go on, and has told the front-end so, which shows the sentence.
+    /// It could not go on; the front-end knows the sentence and shows it.
     #[error("{0}")]
     Failed(String),
 }
-
-/// Progress is sent at most this often; the renderer may report each tile.
-const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// How long a back-end that failed stays for the front-end to read why. Were it gone at once, the launcher could end
 /// the job before the sentence is shown.
 const LAST_WORDS: Duration = Duration::from_secs(5);
 
-/// Serves one front-end until it says Quit. `make` opens the renderer once the setup is known. Errors and panics of
-/// the renderer reach the front-end as one sentence.
+/// How long the messages' thread waits for the renderer before it looks at the link, while there is something to draw.
+const LOOK_INTERVAL: Duration = Duration::from_millis(1);
+
+/// Serves one front-end until it says Quit. `make` opens the renderer, in the thread that draws, once the setup is known.
+/// Errors and panics of the renderer reach the front-end as one sentence.
 pub fn serve<M>(link: &mut dyn WorkerLink, make: M) -> Result<(), WorkerError>
 where
-    M: FnOnce(Setup) -> Result<Opened, String>,
+    M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
 {
     link.send(FromBackend::Hello(Hello {
         protocol: PROTOCOL_VERSION,
         host: process::host(),
         process: std::process::id(),
     }))?;
-    let mut make = Some(make);
-    let mut renderer = None;
+    let mut desk =
+        Desk { link, renderer: RenderThread::start(make), is_set_up: false, asked: 0, answered: 0 };
     loop {
-        match (next(link)?, &mut renderer) {
-            (FromFrontend::Alive, _) => {}
-            (FromFrontend::Quit, _) => return Ok(()),
-            (FromFrontend::Setup(setup), None) => {
-                let Some(make) = make.take() else { return fail(link, "it was set up twice".to_owned()) };
-                match guarded(|| make(*setup)) {
-                    Ok((opened, info)) => {
-                        renderer = Some(opened);
-                        link.send(FromBackend::Ready(info))?;
-                    }
-                    Err(sentence) => return fail(link, sentence),
-                }
+        let Some(message) = desk.next()? else { continue };
+        let command = match message {
+            FromFrontend::Alive => continue,
+            FromFrontend::Quit => return Ok(()),
+            FromFrontend::Setup(_) if desk.is_set_up => return desk.fail("it was set up twice".to_owned()),
+            FromFrontend::Setup(setup) => {
+                desk.is_set_up = true;
+                Command::Open(setup)
             }
-            (FromFrontend::Frame(frame), Some(renderer)) => draw_frame(link, renderer.as_mut(), &frame)?,
-            (FromFrontend::Finish, Some(renderer)) => match guarded(|| renderer.finish()) {
-                Ok(()) => link.send(FromBackend::Finished)?,
-                Err(sentence) => return fail(link, sentence),
-            },
-            (FromFrontend::Finish, None) => return fail(link, "its end came before the setup".to_owned()),
-            (FromFrontend::Setup(_), Some(_)) => return fail(link, "it was set up twice".to_owned()),
-            (FromFrontend::Frame(_), None) => return fail(link, "a frame came before the setup".to_owned()),
-        }
-    }
-}
-
-fn next(link: &mut dyn WorkerLink) -> Result<FromFrontend, WorkerError> {
-    let silence = link.frontend_silence();
-    link.receive(silence).map_err(|error| match error {
-        LinkError::Silent => WorkerError::FrontendSilent(silence.as_secs()),
-        error => error.into(),
-    })
-}
-
-fn draw_frame(
-    link: &mut dyn WorkerLink,
-    renderer: &mut dyn Draw,
-    frame: &FrameState,
-) -> Result<(), WorkerError> {
-    let mut sending = Ok(());
-    let mut last_progress: Option<Instant> = None;
-    let mut sink = |event| {
-        if sending.is_err() {
-            return;
-        }
-        sending = match event {
-            RenderEvent::Image(image) => link.send(FromBackend::Image(image)),
-            RenderEvent::Progress { done, total } => {
-                if done < total && last_progress.is_some_and(|at| at.elapsed() < PROGRESS_INTERVAL) {
-                    return;
-                }
-                last_progress = Some(Instant::now());
-                link.send(FromBackend::Progress { done, total })
+            FromFrontend::Frame(_) if !desk.is_set_up => {
+                return desk.fail("a frame came before the setup".to_owned());
             }
+            FromFrontend::Frame(frame) => Command::Draw(frame),
+            FromFrontend::Finish if !desk.is_set_up => {
+                return desk.fail("its end came before the setup".to_owned());
+            }
+            FromFrontend::Finish => Command::Finish,
         };
-    };
-    let drawn = guarded(|| renderer.draw(frame, &mut sink));
-    sending?;
-    match drawn {
-        Ok(report) => Ok(link.send(FromBackend::Done(Box::new(report)))?),
-        Err(sentence) => fail(link, sentence),
+        desk.asked += 1;
+        desk.renderer.command(command);
     }
 }
 
-/// Tells the front-end why this back-end ends, and gives it time to say so.
-fn fail(link: &mut dyn WorkerLink, sentence: String) -> Result<(), WorkerError> {
-    link.send(FromBackend::Failed(sentence.clone()))?;
-    let since = Instant::now();
-    while let Some(left) = LAST_WORDS.checked_sub(since.elapsed()) {
-        match link.receive(left) {
-            Ok(FromFrontend::Quit) | Err(_) => break,
-            Ok(_) => {}
+/// The messages' side of a back-end.
+struct Desk<'a> {
+    link: &'a mut dyn WorkerLink,
+    renderer: RenderThread,
+    is_set_up: bool,
+    /// Commands to the renderer.
+    asked: u64,
+    /// Those of them that it owes nothing for any more.
+    answered: u64,
+}
+
+impl Desk<'_> {
+    /// The next message of the front-end; None where the renderer had something to say first.
+    fn next(&mut self) -> Result<Option<FromFrontend>, WorkerError> {
+        if self.answered == self.asked {
+            let silence = self.link.frontend_silence();
+            return self.link.receive(silence).map(Some).map_err(|error| match error {
+                LinkError::Silent => WorkerError::FrontendSilent(silence.as_secs()),
+                error => error.into(),
+            });
+        }
+        match self.renderer.reply(LOOK_INTERVAL) {
+            Some(Reply::Failed(sentence)) => return self.fail(sentence).map(|()| None),
+            Some(Reply::Message { message, answered }) => {
+                self.answered = answered;
+                self.link.send(message)?;
+                return Ok(None);
+            }
+            None => {}
+        }
+        match self.link.receive(Duration::ZERO) {
+            Ok(message) => Ok(Some(message)),
+            Err(LinkError::Silent) => Ok(None),
+            Err(error) => Err(error.into()),
         }
     }
-    Err(WorkerError::Failed(sentence))
-}
 
-/// The result of `work`, with a panic made into a sentence.
-fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panic_sentence(panic.as_ref())))
-}
-
-/// What a panic says, as a sentence.
-pub(super) fn panic_sentence(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
-    format!("it panicked: {text}; this is a fault in lightloom, please report it with this line")
+    /// Says why this back-end ends, and gives the front-end time to say so.
+    fn fail(&mut self, sentence: String) -> Result<(), WorkerError> {
+        self.link.send(FromBackend::Failed(sentence.clone()))?;
+        let since = Instant::now();
+        while let Some(left) = LAST_WORDS.checked_sub(since.elapsed()) {
+            match self.link.receive(left) {
+                Ok(FromFrontend::Quit) | Err(_) => break,
+                Ok(_) => {}
+            }
+        }
+        Err(WorkerError::Failed(sentence))
+    }
 }

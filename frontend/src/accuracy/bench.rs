@@ -120,22 +120,19 @@ pub(super) fn offer(study: &Study) -> Result<(Offer, DeviceInfo), AccuracyError>
 const AS_STORED: u8 = 16;
 
 fn open(study: &Study, filter: FilterChoice, bits: u8) -> Result<(Renderer, DeviceInfo), AccuracyError> {
-    let setup = Setup {
+    let options = RendererOptions {
         display: study.display.clone(),
         projectors: study.projectors.clone(),
         backend: 0,
-        // The source is open already.
-        volume: VolumeRef::Store("in this process".into()),
         device: study.device,
         filter,
         cache_bytes: study.cache_bytes,
-        trace: None,
     };
     let source: Arc<dyn BrickSource> = match bits {
         8 => Arc::new(EightBits::new(Arc::clone(&study.source))),
         _ => Arc::clone(&study.source),
     };
-    Renderer::new(&setup, source).map_err(|error| AccuracyError::Backend(error.to_string()))
+    Renderer::new(&options, source).map_err(|error| AccuracyError::Backend(error.to_string()))
 }
 
 fn draw(

@@ -15,7 +15,7 @@ pub use technique::{TECHNIQUES, Technique};
 use crate::FrontendError;
 use crate::progress::Progress;
 use crate::report::write_text;
-use crate::simulate::{Eye, FrameSource, Job};
+use crate::simulate::{Eye, Job};
 use display_config::{Display, Homography};
 use glam::{DMat3, DVec3, UVec2};
 use protocol::DeviceInfo;
@@ -64,7 +64,7 @@ impl Gallery {
     /// Draws every technique off and on. Equal frames are drawn once.
     pub fn draw(
         &self,
-        source: &mut dyn FrameSource,
+        source: &mut dyn Draw,
         progress: &mut Progress,
     ) -> Result<Vec<Exhibit>, FrontendError> {
         let mut darkroom = shot::Darkroom::new(self);

@@ -3,7 +3,7 @@
 use super::{EYES, Gallery, Technique};
 use crate::FrontendError;
 use crate::report::Totals;
-use crate::simulate::{Event, EyeViews, FrameSource};
+use crate::simulate::EyeViews;
 use protocol::FrameState;
 use renderer::output::{OutputError, write_png};
 use std::time::{Duration, Instant};
@@ -50,7 +50,7 @@ impl<'a> Darkroom<'a> {
     /// The pictures of a frame; new ones are written to files whose names begin so.
     pub fn shot(
         &mut self,
-        source: &mut dyn FrameSource,
+        source: &mut dyn Draw,
         frame: FrameState,
         name: &str,
     ) -> Result<Shot, FrontendError> {
@@ -64,15 +64,15 @@ impl<'a> Darkroom<'a> {
 
     fn draw(
         &self,
-        source: &mut dyn FrameSource,
+        source: &mut dyn Draw,
         frame: &FrameState,
         name: &str,
     ) -> Result<Shot, FrontendError> {
         let started = Instant::now();
         let views = EyeViews::new(&self.gallery.display, &self.gallery.eyes);
         let mut failure: Option<OutputError> = None;
-        let reports = source.render(frame, &mut |event| {
-            if let Event::Image(image) = event
+        let reports = source.draw(frame, &mut |event| {
+            if let RenderEvent::Image(image) = event
                 && let Err(error) = views.add(&image)
             {
                 failure.get_or_insert(error);

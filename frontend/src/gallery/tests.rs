@@ -44,25 +44,21 @@ struct Greys {
     fails_after: Option<usize>,
 }
 
-impl FrameSource for Greys {
-    fn render(
+impl Draw for Greys {
+    fn draw(
         &mut self,
         frame: &FrameState,
-        on_event: &mut dyn FnMut(Event),
-    ) -> Result<Vec<FrameReport>, FrontendError> {
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<Vec<FrameReport>, DrawError> {
         if self.fails_after == Some(self.frames.len()) {
-            return Err(FrontendError::Backend("back-end 0 died".into()));
+            return Err(DrawError("back-end 0 died".into()));
         }
         self.frames.push(frame.clone());
         for projector in 0..8 {
             let rgba = [0.1 * projector as f32, 0.5, 0.5, 1.0].repeat((SIZE.x * SIZE.y) as usize);
-            on_event(Event::Image(ProjectorImage { projector, width: SIZE.x, height: SIZE.y, rgba }));
+            sink(RenderEvent::Image(ProjectorImage { projector, width: SIZE.x, height: SIZE.y, rgba }));
         }
         Ok(vec![account(frame.index)])
-    }
-
-    fn finish(self: Box<Self>) -> Result<(), FrontendError> {
-        Ok(())
     }
 }
 

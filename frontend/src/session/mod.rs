@@ -21,7 +21,6 @@ pub use trace::prepare_traces;
 use crate::FrontendError;
 use crate::cli::BackendArgs;
 use crate::scene::VolumeFacts;
-use crate::simulate::{Event, FrameSource};
 use backend::open_renderer;
 use bricks::BrickSource;
 use display_config::{Display, EyeModel};
@@ -29,7 +28,7 @@ use glam::{DVec2, DVec3};
 use protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
 use std::path::Path;
 use std::sync::Arc;
-use transport::{EventKind, Launch, Limits, Link, Session, launch, threads};
+use transport::{Launch, Limits, Link, Session, launch, threads};
 
 /// The displays that come with the program: name, and a line about each.
 pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
@@ -104,7 +103,7 @@ impl Backends {
     }
 
     /// Sets them up, one with each setup, and gives what draws frames with them.
-    pub fn start(self, setups: Vec<Setup>) -> Result<(Box<dyn FrameSource>, Vec<DeviceInfo>), FrontendError> {
+    pub fn start(self, setups: Vec<Setup>) -> Result<(Box<dyn Draw>, Vec<DeviceInfo>), FrontendError> {
         let session = Session::start(self.link, setups, Limits::default());
         let session = session.map_err(|e| FrontendError::Backend(e.to_string()))?;
         let devices = session.devices().to_vec();
@@ -125,28 +124,6 @@ fn cluster_link() -> Result<Box<dyn Link>, FrontendError> {
     ))
 }
 
-impl FrameSource for Session {
-    fn render(
-        &mut self,
-        frame: &FrameState,
-        on_event: &mut dyn FnMut(Event),
-    ) -> Result<Vec<FrameReport>, FrontendError> {
-        let reports = Session::render(self, frame, &mut |event| {
-            on_event(match event.kind {
-                EventKind::Progress { done, total } => {
-                    Event::Progress { backend: event.backend, done, total }
-                }
-                EventKind::Image(image) => Event::Image(image),
-            });
-        });
-        reports.map_err(|e| FrontendError::Backend(e.to_string()))
-    }
-
-    fn finish(self: Box<Self>) -> Result<(), FrontendError> {
-        Session::finish(*self).map_err(|e| FrontendError::Backend(e.to_string()))
-    }
-}
-
 /// Which projectors each of `backends` back-ends drives: shares as even as can be, neighbours together.
 pub fn assignment(display: &Display, backends: u32) -> Result<Vec<Vec<u32>>, FrontendError> {
     display.assign(backends as usize).map_err(|e| FrontendError::Display(e.to_string()))
@@ -161,13 +138,15 @@ pub fn setups(
     traces: Option<&Path>,
 ) -> Result<Vec<Setup>, FrontendError> {
     let setup = |(projectors, backend)| Setup {
-        display: display.clone(),
-        projectors,
-        backend,
+        options: RendererOptions {
+            display: display.clone(),
+            projectors,
+            backend,
+            device: args.device.into(),
+            filter: args.filter.into(),
+            cache_bytes: args.cache_mib << 20,
+        },
         volume: volume.clone(),
-        device: args.device.into(),
-        filter: args.filter.into(),
-        cache_bytes: args.cache_mib << 20,
         trace: traces.map(|folder| trace::path(folder, backend)),
     };
     Ok(assignment(display, backends)?.into_iter().zip(0..).map(setup).collect())

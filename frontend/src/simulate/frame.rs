@@ -1,10 +1,10 @@
 //! One frame of a run.
 
 use super::pictures::FramePictures;
-use super::{CONTACT_SHEET, Event, FrameSource, Job};
+use super::{CONTACT_SHEET, Job};
 use crate::FrontendError;
 use crate::report::FrameSummary;
-use protocol::{FrameReport, FrameState, ProjectorImage};
+use protocol::{Draw, FrameReport, FrameState, ProjectorImage, RenderEvent};
 use renderer::output::OutputError;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -20,7 +20,7 @@ impl Job {
     /// Draws a frame into its folder and gives its account. `show` is told the part that is done, 0 to 1.
     pub(super) fn draw(
         &self,
-        source: &mut dyn FrameSource,
+        source: &mut dyn Draw,
         frame: &FrameState,
         is_first: bool,
         show: &mut dyn FnMut(f64),
@@ -61,7 +61,7 @@ impl Job {
 
 /// Renders on this thread while others write. A failed write lets the frame end first: back-ends know no half frames.
 fn render_and_write(
-    source: &mut dyn FrameSource,
+    source: &mut dyn Draw,
     frame: &FrameState,
     pictures: &FramePictures<'_>,
     show: &mut dyn FnMut(f64),
@@ -73,11 +73,10 @@ fn render_and_write(
         for _ in 0..writers {
             scope.spawn(|| write_all(&receive, pictures));
         }
-        let mut parts = Vec::new();
-        let reports = source.render(frame, &mut |event| match event {
-            Event::Progress { backend, done, total } => show(part_done(&mut parts, backend, done, total)),
+        let reports = source.draw(frame, &mut |event| match event {
+            RenderEvent::Progress { done, total } => show(done as f64 / total.max(1) as f64),
             // Sending fails only where all writers are gone: then the picture is missed, and said to be, at the end.
-            Event::Image(image) => drop(send.send(image)),
+            RenderEvent::Image(image) => drop(send.send(image)),
         });
         drop(send);
         reports
@@ -91,14 +90,4 @@ fn write_all(receive: &Mutex<Receiver<ProjectorImage>>, pictures: &FramePictures
     while let Ok(image) = next() {
         pictures.take(&image);
     }
-}
-
-/// The part of all back-ends' rays that is final, as far as they have told.
-fn part_done(parts: &mut Vec<(u64, u64)>, backend: usize, done: u64, total: u64) -> f64 {
-    if parts.len() <= backend {
-        parts.resize(backend + 1, (0, 0));
-    }
-    parts[backend] = (done, total);
-    let (done, total) = parts.iter().fold((0, 0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
-    done as f64 / total.max(1) as f64
 }

@@ -4,19 +4,17 @@ mod eyes;
 mod frame;
 mod legend;
 mod pictures;
-mod source;
 
 pub use eyes::Eye;
 pub(crate) use eyes::EyeViews;
 pub use legend::{LEGEND, marks, number, shows};
-pub use source::{Event, FrameSource};
 
 use crate::FrontendError;
 use crate::progress::Progress;
 use crate::report::{EyeSummary, FrameSummary};
 use display_config::Display;
 use optics::DebugView;
-use protocol::FrameState;
+use protocol::{Draw, FrameState};
 use renderer::output::{OutputError, can_write_into};
 use std::path::{Path, PathBuf};
 
@@ -47,7 +45,7 @@ impl Job {
     /// What an earlier run said of itself goes first: it would describe other pictures.
     pub fn run(
         &self,
-        source: &mut dyn FrameSource,
+        source: &mut dyn Draw,
         progress: &mut Progress,
     ) -> Result<Vec<FrameSummary>, FrontendError> {
         self.forget_earlier_run()?;

@@ -96,29 +96,25 @@ fn upkeep_of(frame: &FrameState, report: &FrameReport) -> Option<Upkeep> {
     (frame.pace != Pace::Complete).then_some(live)
 }
 
-impl FrameSource for Gradients {
-    fn render(
+impl Draw for Gradients {
+    fn draw(
         &mut self,
         frame: &FrameState,
-        on_event: &mut dyn FnMut(Event),
-    ) -> Result<Vec<FrameReport>, FrontendError> {
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<Vec<FrameReport>, DrawError> {
         for projector in (0..self.projectors).rev() {
             if self.fails_before == Some(projector) {
-                return Err(FrontendError::Backend("back-end 0 died".into()));
+                return Err(DrawError("back-end 0 died".into()));
             }
-            on_event(Event::Progress { backend: 0, done: 1, total: 2 });
+            sink(RenderEvent::Progress { done: 1, total: 2 });
             if self.skips != Some(projector) {
-                on_event(Event::Image(gradient(projector)));
+                sink(RenderEvent::Image(gradient(projector)));
             }
         }
         let half = self.projectors / 2;
         let shares = [(0..half).collect(), (half..self.projectors).collect()];
         let reports = shares.into_iter().zip(0..).map(|(share, b)| account(frame.index, b, share));
         Ok(reports.map(|report| FrameReport { upkeep: upkeep_of(frame, &report), ..report }).collect())
-    }
-
-    fn finish(self: Box<Self>) -> Result<(), FrontendError> {
-        Ok(())
     }
 }
 

@@ -4,7 +4,7 @@
 //! the field is where the two leaves at a point have the same share of every level. Leaves of an octree have a face, an
 //! edge or a corner of the smaller one in common, on which shares are bilinear at most: the corners of leaves tell all.
 
-use super::live::{Met, Moment, WorkingSet};
+use super::{Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
 use super::{Cut, CutNode, Family};
 use bricks::LodRule;
@@ -160,7 +160,7 @@ impl Run {
         let is_still = self.frame > 0 && z == (self.z)(now_s - FRAME_S);
         let moment =
             Moment { rules, summary: &summary, now_s, is_still, fade_s: self.fade_s, most_in_flight: 64 };
-        let met: Vec<Met> = self.met.iter().map(|&key| Met { key, rays: 1 + key.cell.x % 5 }).collect();
+        let met: Vec<Feedback> = self.met.iter().map(|&key| Feedback::met(key, 1 + key.cell.x % 5)).collect();
         self.set.update(&moment, &met);
         let wanted: Vec<NodeKey> = self.set.wanted().to_vec();
         for &key in &wanted {
@@ -185,7 +185,7 @@ impl Run {
                 let above = key.parent().is_some_and(|parent| of.contains(&parent));
                 of.contains(&key) || above || (0..8).any(|octant| of.contains(&key.child(octant)))
             };
-            let node = self.set.cut.node(self.set.cut.find_shown(key));
+            let node = self.set.cut().node(self.set.cut().find_shown(key));
             let is_short = node.deficit > 0.0 || node.shown < 1.0;
             is_short && (is_in(&self.new) || (!self.met.is_empty() && !is_in(&self.met)))
         };
@@ -195,7 +195,7 @@ impl Run {
 
     /// The leaves that rays meet.
     fn sees(&self) -> HashSet<NodeKey> {
-        let cut = &self.set.cut;
+        let cut = self.set.cut();
         if let Sight::Depth(most) = self.sight {
             return self.along_x(most);
         }
@@ -209,7 +209,7 @@ impl Run {
     }
 
     fn along_x(&self, most: u32) -> HashSet<NodeKey> {
-        let (cut, shape) = (&self.set.cut, &self.world.shape);
+        let (cut, shape) = (self.set.cut(), &self.world.shape);
         let depth = shape.finest_depth();
         let bricks = shape.level_bricks(depth);
         let mut found = HashSet::new();
@@ -223,7 +223,7 @@ impl Run {
 
     /// The leaves around every corner of a leaf, once each, by points in finest cells.
     fn points(&self) -> HashMap<IVec3, Vec<u32>> {
-        let (cut, shape) = (&self.set.cut, &self.world.shape);
+        let (cut, shape) = (self.set.cut(), &self.world.shape);
         let depth = shape.finest_depth();
         let bits = |octant: i32| IVec3::new(octant & 1, octant >> 1 & 1, octant >> 2);
         let mut found = HashMap::new();
@@ -244,7 +244,7 @@ impl Run {
 
     /// What jumps, by the weights given.
     fn measure(&self, weights: &[[f32; 8]], tally: &mut Tally) {
-        let (cut, shape) = (&self.set.cut, &self.world.shape);
+        let (cut, shape) = (self.set.cut(), &self.world.shape);
         let points = self.points();
         let is_new = |place: &u32| self.new.contains(&cut.node(*place).key);
         let touched: HashSet<u32> =
@@ -294,13 +294,13 @@ impl Run {
             // As the renderer does.
             let blends = !self.rule().is_uniform(&self.world.shape);
             self.step();
-            if self.set.cut.lacks(0) {
+            if self.set.cut().lacks(0) {
                 continue;
             }
-            changes += self.set.splits + self.set.collapses;
-            let whole = vec![[1.0; 8]; self.set.cut.nodes().len()];
+            changes += self.set.splits + self.set.collapses();
+            let whole = vec![[1.0; 8]; self.set.cut().nodes().len()];
             let weights =
-                if blends || self.set.blends() { live_weights(&self.set.cut) } else { whole.clone() };
+                if blends || self.set.blends() { live_weights(self.set.cut()) } else { whole.clone() };
             self.measure(&weights, &mut tally);
             if self.frame.is_multiple_of(4) {
                 self.measure(&whole, &mut canary);

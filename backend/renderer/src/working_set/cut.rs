@@ -18,8 +18,6 @@ pub struct CutNode {
     pub first_child: Option<u32>,
     /// Slot of its brick in the cache, and the brick's data value of code 0 and per unit of the [0, 1] sample.
     pub brick: Option<ResidentBrick>,
-    /// Number of the cast that last sampled it.
-    pub last_used: u64,
     /// Whether the frame's transfer functions show any of its values.
     pub is_visible: bool,
     /// Levels it is too coarse by, as of the last frame; at most 0 where no finer level exists.
@@ -91,7 +89,6 @@ impl CutNode {
             parent,
             first_child: None,
             brick: None,
-            last_used: 0,
             is_visible: false,
             deficit: 0.0,
             shown: 0.0,
@@ -140,26 +137,13 @@ impl Cut {
         self.nodes[place as usize].brick = Some(brick);
     }
 
-    /// Notes that cast number `cast` sampled a node: all its ancestors count as used, too.
-    pub fn touch(&mut self, place: u32, cast: u64) {
-        let mut at = Some(place);
-        while let Some(place) = at {
-            let node = &mut self.nodes[place as usize];
-            if node.last_used == cast {
-                break;
-            }
-            node.last_used = cast;
-            at = node.parent;
-        }
-    }
-
     /// Makes a leaf an inner node with eight leaves, and tells the place of the first.
     pub fn split(&mut self, place: u32, summary: impl Fn(NodeKey) -> Option<NodeSummary>) -> u32 {
         let parent = *self.node(place);
         assert!(parent.first_child.is_none(), "only a leaf is split");
         let family: [CutNode; 8] = std::array::from_fn(|octant| {
             let key = parent.key.child(octant as u32);
-            CutNode { last_used: parent.last_used, ..CutNode::leaf(key, summary(key), Some(place)) }
+            CutNode::leaf(key, summary(key), Some(place))
         });
         let first = match self.free_families.pop() {
             Some(first) => {
@@ -183,42 +167,6 @@ impl Cut {
         self.free_families.push(first);
         let children = &mut self.nodes[first as usize..first as usize + 8];
         children.iter_mut().filter_map(|child| child.brick.take().map(|brick| brick.slot)).collect()
-    }
-
-    /// Drops all that is below a node, which must be an inner one; yields the slots of their bricks.
-    pub fn collapse_all(&mut self, place: u32) -> Vec<u32> {
-        let first = self.node(place).first_child.expect("only an inner node is collapsed");
-        let mut slots = Vec::new();
-        for child in first..first + 8 {
-            if self.node(child).first_child.is_some() {
-                slots.extend(self.collapse_all(child));
-            }
-        }
-        slots.extend(self.collapse(place));
-        slots
-    }
-
-    /// Whether a place holds a node of the cut, not the remains of a collapsed family.
-    pub fn is_live(&self, place: u32) -> bool {
-        place == 0 || !self.free_families.contains(&(place - (place - 1) % 8))
-    }
-
-    /// Inner nodes whose children are all leaves and were last sampled before cast `before`, least recently used
-    /// first: what may be collapsed when the cache is full.
-    pub fn collapsible(&self, before: u64) -> Vec<u32> {
-        let mut found: Vec<(u64, NodeKey, u32)> = self
-            .walk()
-            .filter_map(|place| {
-                let node = self.node(place);
-                let first = node.first_child? as usize;
-                let children = &self.nodes[first..first + 8];
-                let newest = children.iter().map(|child| child.last_used).max()?;
-                let all_leaves = children.iter().all(|child| child.first_child.is_none());
-                (all_leaves && newest < before).then_some((newest, node.key, place))
-            })
-            .collect();
-        found.sort_unstable();
-        found.into_iter().map(|(_, _, place)| place).collect()
     }
 
     /// The places of all live nodes, parents before children.
@@ -285,36 +233,9 @@ mod tests {
         cut.set_brick(first + 3, brick(7));
         assert_eq!(cut.walk().count(), 9);
         assert_eq!(cut.collapse(0), vec![7]);
-        assert!(!cut.is_live(first) && cut.is_live(0));
+        assert_eq!(cut.walk().count(), 1);
         assert_eq!(cut.split(0, |_| Some(ANY)), first);
         assert_eq!(cut.nodes().len(), 9);
         assert_eq!(cut.node(first + 3).brick, None);
-    }
-
-    #[test]
-    fn all_below_a_node_goes_at_once() {
-        let mut cut = Cut::new(ANY);
-        let first = cut.split(0, |_| Some(ANY));
-        cut.set_brick(first, brick(1));
-        let below = cut.split(first, |_| Some(ANY));
-        cut.set_brick(below + 7, brick(2));
-        let mut slots = cut.collapse_all(0);
-        slots.sort_unstable();
-        assert_eq!((slots, cut.walk().count()), (vec![1, 2], 1));
-        assert!(!cut.is_live(first) && !cut.is_live(below + 7));
-        assert_eq!(cut.node(first).first_child, None);
-    }
-
-    #[test]
-    fn only_families_unused_for_a_while_may_go_oldest_first() {
-        let mut cut = Cut::new(ANY);
-        let first = cut.split(0, |_| Some(ANY));
-        let a = cut.split(first, |_| Some(ANY));
-        let b = cut.split(first + 1, |_| Some(ANY));
-        cut.touch(a, 5);
-        cut.touch(b + 2, 3);
-        assert_eq!(cut.collapsible(5), vec![first + 1]);
-        assert_eq!(cut.collapsible(6), vec![first + 1, first]);
-        assert_eq!(cut.node(0).last_used, 5.min(cut.node(0).last_used));
     }
 }

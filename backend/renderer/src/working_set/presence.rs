@@ -9,14 +9,14 @@ use bricks::{NodeKey, OctreeShape};
 
 /// Since when nodes count as seen.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct Memory {
     /// Those that rays met since then, seconds.
     pub met_since_s: f64,
     /// Those that began to show since then: rays have not had the time to tell.
     pub new_since_s: f64,
 }
 
-impl Seen {
+impl Memory {
     /// Whether rays met a node.
     pub fn has_met(&self, node: &CutNode) -> bool {
         node.met.time_s >= self.met_since_s
@@ -36,7 +36,7 @@ pub struct Tick {
     /// By how much shares may change until now, 0 to 1.
     pub step: f32,
     /// Which nodes count as seen.
-    pub seen: Seen,
+    pub memory: Memory,
 }
 
 /// Tells nodes of the cut what the frame thinks of them.
@@ -58,10 +58,12 @@ pub(super) fn refresh_deficits(cut: &mut Cut, rules: &IndexRules, order: &[u32])
 }
 
 /// Shows at once what the rule of detail asks for, as far as it is resident. The outcome depends on nothing else: not on
-/// what rays met, nor on what was shown before.
-pub fn settle(cut: &mut Cut) {
+/// what rays met, nor on what was shown before. Families that are about to go, to make room, are no longer shown. Whether
+/// that is anything new.
+pub fn settle(cut: &mut Cut) -> bool {
+    let mut has_changed = false;
     for place in cut.walk().collect::<Vec<_>>() {
-        cut.node_mut(place).is_leaving = false;
+        let before = cut.appearance(place);
         let is_shown = cut.wants_children(place);
         let node = cut.node_mut(place);
         node.family = if is_shown { Family::Shown } else { Family::Hidden };
@@ -69,10 +71,21 @@ pub fn settle(cut: &mut Cut) {
         if let Some(first) = node.first_child {
             (first..first + 8).for_each(|child| cut.node_mut(child).shown = f32::from(u8::from(is_shown)));
         }
+        has_changed |= cut.appearance(place) != before;
     }
+    has_changed
 }
 
-/// Moves all shares toward what the rule of detail asks for; tells how many leaves are not there yet. Families begin and
+/// What became of what rays meet.
+#[derive(Clone, Copy, Debug)]
+pub struct Advanced {
+    /// Leaves whose shares have not come to rest.
+    pub moving: u64,
+    /// Whether anything is shown otherwise than before.
+    pub has_changed: bool,
+}
+
+/// Moves all shares toward what the rule of detail asks for. Families begin and
 /// end one by one, each in sight of what the ones before it did; `order` has parents before children. `is_lost` tells
 /// whether the detail below a node cannot be had.
 pub fn advance(
@@ -81,11 +94,13 @@ pub fn advance(
     order: &[u32],
     tick: &Tick,
     is_lost: impl Fn(NodeKey) -> bool,
-) -> u64 {
+) -> Advanced {
+    let mut has_changed = false;
     for &place in order {
+        let before = cut.appearance(place);
         let wants = cut.wants_children(place);
         let node = cut.node(place);
-        let is_seen = tick.seen.may_see(node);
+        let is_seen = tick.memory.may_see(node);
         let is_ready = node.permits == 0.0 || !is_seen;
         let family = match node.family {
             Family::Hidden if wants && is_ready && cut.may_show(shape, place) => {
@@ -101,19 +116,20 @@ pub fn advance(
         let lost = is_lost(cut.node(place).key);
         let node = cut.node_mut(place);
         // Whose family has just ended is seen as that was.
-        let is_seen = tick.seen.may_see(node);
+        let is_seen = tick.memory.may_see(node);
         if node.shown_child().is_none() {
             let target = permitted(node.is_visible, node.deficit, is_seen && !lost);
             node.permits += (target - node.permits).clamp(-tick.step, tick.step);
         }
+        has_changed |= cut.appearance(place) != before;
     }
     let is_moving = |place: &u32| {
         let node = cut.node(*place);
-        let is_met = tick.seen.has_met(node) && !is_lost(node.key);
+        let is_met = tick.memory.has_met(node) && !is_lost(node.key);
         let target = permitted(node.is_visible, node.deficit, is_met);
         node.permits != target || node.shown < 1.0
     };
-    cut.shown_leaves().filter(is_moving).count() as u64
+    Advanced { moving: cut.shown_leaves().filter(is_moving).count() as u64, has_changed }
 }
 
 /// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they
@@ -123,13 +139,10 @@ fn permitted(is_visible: bool, deficit: f64, is_seen: bool) -> f32 {
 }
 
 impl Cut {
-    /// Shows all there is, at once and whole.
-    pub fn show_all(&mut self) {
-        for place in self.walk().collect::<Vec<_>>() {
-            let node = self.node_mut(place);
-            node.shown = 1.0;
-            node.family = if node.first_child.is_some() { Family::Shown } else { Family::Hidden };
-        }
+    /// How a node and its children are shown.
+    fn appearance(&self, place: u32) -> (Family, f32, Option<f32>) {
+        let node = self.node(place);
+        (node.family, node.permits, node.first_child.map(|first| self.node(first).shown))
     }
 
     /// Whether a node's children are resident and wanted.

@@ -1,6 +1,6 @@
 //! A still view comes to rest: at the picture that an unlimited cache gives, or as evenly short of it as the cache is small.
 
-use super::live::{Arrival, Met, Moment, WorkingSet};
+use super::{Arrival, Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
 use super::{Family, settle, settled_weights};
 use bricks::LodRule;
@@ -69,7 +69,7 @@ impl Still {
             most_in_flight: 64,
         };
         let rays = |key: NodeKey| 1 + (key.cell.x * 7 + key.cell.z) % 5;
-        let met: Vec<Met> = seen.into_iter().map(|key| Met { key, rays: rays(key) }).collect();
+        let met: Vec<Feedback> = seen.into_iter().map(|key| Feedback::met(key, rays(key))).collect();
         set.update(&moment, &met);
         for key in set.wanted().to_vec() {
             if random.below(3) > 0 {
@@ -82,18 +82,18 @@ impl Still {
     }
 
     fn seen_leaves(&self) -> Vec<NodeKey> {
-        self.seen_places().map(|place| self.set.cut.node(place).key).collect()
+        self.seen_places().map(|place| self.set.cut().node(place).key).collect()
     }
 
     fn seen_places(&self) -> impl Iterator<Item = u32> {
-        let cut = &self.set.cut;
+        let cut = self.set.cut();
         cut.shown_leaves().filter(|&place| cut.node(place).is_visible && self.sees(cut.node(place).key))
     }
 
     /// What rays meet, with weights.
     fn shown(&self) -> BTreeMap<NodeKey, [f32; 8]> {
-        let weights = live_weights(&self.set.cut);
-        self.seen_places().map(|place| (self.set.cut.node(place).key, weights[place as usize])).collect()
+        let weights = live_weights(self.set.cut());
+        self.seen_places().map(|place| (self.set.cut().node(place).key, weights[place as usize])).collect()
     }
 }
 
@@ -107,13 +107,13 @@ fn a_large_cache_comes_to_rest_at_what_the_rule_asks_for_whatever_came_first() {
         let depth = |key: &NodeKey| still.rule.is_fine_enough(&still.world.shape, *key);
         assert!(shown.keys().all(depth), "every node that is seen is fine enough");
         // By the rule alone, at once: the same nodes, the same weights.
-        let before = still.set.cut.clone();
-        settle(&mut still.set.cut);
+        let before = still.set.cut().clone();
+        settle(still.set.cut_mut());
         let Still { world, rule, optics, set, .. } = &still;
         let rules = rules(&world.shape, rule, optics);
-        let weights = settled_weights(&set.cut, &rules, &|key| world.summary(key));
-        for place in set.cut.shown_leaves() {
-            let node = set.cut.node(place);
+        let weights = settled_weights(set.cut(), &rules, &|key| world.summary(key));
+        for place in set.cut().shown_leaves() {
+            let node = set.cut().node(place);
             if let Some(live) = shown.get(&node.key) {
                 assert_eq!(*live, weights[place as usize], "{}", node.key);
                 assert_eq!(before.node(place).shown, node.shown);
@@ -134,21 +134,21 @@ fn a_small_cache_comes_to_rest_evenly_short_of_it() {
         for _ in 0..1000 {
             still.step();
             assert_eq!(
-                (still.set.splits, still.set.collapses),
+                (still.set.splits, still.set.collapses()),
                 (0, 0),
                 "{slots} slots, frame {}",
                 still.frame
             );
         }
         assert_eq!(still.shown(), rest, "nothing flickers");
-        let cut = &still.set.cut;
+        let cut = still.set.cut();
         let deficits = rest.keys().map(|&key| cut.node(cut.find(key)).deficit);
         let largest = deficits.fold(f64::NEG_INFINITY, f64::max);
         assert!(largest > 0.0, "{slots} slots are enough");
         // No family whose parent would be clearly less short than that holds its room.
         for place in cut.walk() {
             let node = cut.node(place);
-            let shows = node.family == Family::Shown && still.set.cut.may_collapse(&still.world.shape, place);
+            let shows = node.family == Family::Shown && still.set.cut().may_collapse(&still.world.shape, place);
             let is_seen = still.sees(node.key);
             if shows && is_seen {
                 assert!(node.deficit > largest - 0.26, "{} at {} for {largest}", node.key, node.deficit);
@@ -164,7 +164,7 @@ fn a_view_comes_to_rest_at_what_the_rule_asks_for_wherever_it_looked_before() {
     (0..400).for_each(|_| cold.step());
     let rest = cold.shown();
     // Room for this view, and for little of any other.
-    let slots = cold.set.slots.used() as u32 + 40;
+    let slots = cold.set.slots().used() as u32 + 40;
     for seed in 0..6 {
         let mut still = Still::new(slots, seed);
         for _ in 0..12 {

@@ -23,6 +23,8 @@ struct Failure {
     /// ∞ for what is damaged.
     again_s: f64,
     wait_s: f64,
+    /// Whether it shows anything now: its family can do without what shows nothing.
+    is_shown: bool,
 }
 
 impl Retry {
@@ -40,7 +42,7 @@ impl Retry {
             BrickErrorKind::Damaged => f64::INFINITY,
             BrickErrorKind::Unavailable => now_s + wait_s,
         };
-        let is_first = self.failed.insert(key, Failure { again_s, wait_s }).is_none();
+        let is_first = self.failed.insert(key, Failure { again_s, wait_s, is_shown: true }).is_none();
         self.tell_family(key);
         is_first
     }
@@ -50,6 +52,16 @@ impl Retry {
         if self.failed.remove(&key).is_some() {
             self.tell_family(key);
         }
+    }
+
+    /// The transfer functions are others now: tells which of what failed shows anything.
+    pub fn look_anew(&mut self, shows: impl Fn(NodeKey) -> bool) {
+        self.families.clear();
+        let keys: Vec<NodeKey> = self.failed.keys().copied().collect();
+        for (&key, failure) in &mut self.failed {
+            failure.is_shown = shows(key);
+        }
+        keys.into_iter().for_each(|key| self.tell_family(key));
     }
 
     /// Whether a brick may be asked for: it never failed, or its wait is over.
@@ -76,7 +88,10 @@ impl Retry {
 
     fn tell_family(&mut self, key: NodeKey) {
         let Some(parent) = key.parent() else { return };
-        let of = |octant| self.failed.get(&parent.child(octant)).map(|failure| failure.again_s);
+        let of = |octant| {
+            let failure = self.failed.get(&parent.child(octant)).filter(|failure| failure.is_shown);
+            failure.map(|failure| failure.again_s)
+        };
         match (0..8).filter_map(of).max_by(f64::total_cmp) {
             Some(again_s) => self.families.insert(parent, again_s),
             None => self.families.remove(&parent),

@@ -1,7 +1,7 @@
 //! Room in the cache for what is more needed than what is there.
 
-use super::live::{Moment, WorkingSet};
-use super::{Family, neighbours};
+use super::holdings::Holdings;
+use super::{Family, Moment, neighbours};
 use bricks::NodeKey;
 use std::collections::{BTreeMap, HashSet};
 
@@ -52,7 +52,7 @@ pub(super) struct Room<'a> {
 }
 
 impl<'a> Room<'a> {
-    pub(super) fn new(set: &WorkingSet, moment: &'a Moment<'a>, priority: &'a [f64]) -> Self {
+    pub(super) fn new(set: &Holdings, moment: &'a Moment<'a>, priority: &'a [f64]) -> Self {
         let reserved = set.reserved() as i64;
         let mut room = Self {
             moment,
@@ -76,7 +76,7 @@ impl<'a> Room<'a> {
 
     /// Gives up what is least needed where more bricks are due than there are slots: nodes that were empty may have
     /// become visible.
-    pub(super) fn pay_debts(&mut self, set: &mut WorkingSet) {
+    pub(super) fn pay_debts(&mut self, set: &mut Holdings) {
         if self.free < 0 {
             self.give_up(set, f64::INFINITY, &HashSet::new());
         }
@@ -84,7 +84,7 @@ impl<'a> Room<'a> {
 
     /// The splits that splitting `place` takes, itself last, when there is room for all their bricks, which is then taken.
     /// Gives up what is less needed where that helps. Empty where there is no room now.
-    pub(super) fn make(&mut self, set: &mut WorkingSet, place: u32, urgency: f64) -> Vec<u32> {
+    pub(super) fn make(&mut self, set: &mut Holdings, place: u32, urgency: f64) -> Vec<u32> {
         let splits = set.cut.splits_for(self.moment.rules.shape, place);
         let needed: i64 = splits.iter().map(|&split| self.bricks_below(set, split)).sum();
         // One family may always be on its way, however small the limit is.
@@ -111,7 +111,7 @@ impl<'a> Room<'a> {
     }
 
     /// Bricks that a leaf's children would take.
-    fn bricks_below(&self, set: &WorkingSet, place: u32) -> i64 {
+    fn bricks_below(&self, set: &Holdings, place: u32) -> i64 {
         let key = set.cut.node(place).key;
         if set.is_lost(key) {
             return 0;
@@ -124,7 +124,7 @@ impl<'a> Room<'a> {
     }
 
     /// The families that must stay so that these splits leave touching nodes within one level.
-    fn kept(&self, set: &WorkingSet, splits: &[u32]) -> HashSet<u32> {
+    fn kept(&self, set: &Holdings, splits: &[u32]) -> HashSet<u32> {
         let mut kept = HashSet::new();
         for &split in splits {
             let key = set.cut.node(split).key;
@@ -136,7 +136,7 @@ impl<'a> Room<'a> {
 
     /// Families that splits rest on stay, were they about to go: they could not while what is split lasts, and the room that
     /// they were to make would be waited for in vain.
-    fn keep(&mut self, set: &mut WorkingSet, kept: &HashSet<u32>) {
+    fn keep(&mut self, set: &mut Holdings, kept: &HashSet<u32>) {
         for &place in kept {
             if std::mem::take(&mut set.cut.node_mut(place).is_leaving) {
                 self.coming -= self.bricks_of(set, place);
@@ -146,7 +146,7 @@ impl<'a> Room<'a> {
 
     /// Gives up families that are less needed, until all that is owed is free: at once where nobody sees them; others
     /// begin to fade, and make room in a later frame.
-    fn give_up(&mut self, set: &mut WorkingSet, urgency: f64, kept: &HashSet<u32>) {
+    fn give_up(&mut self, set: &mut Holdings, urgency: f64, kept: &HashSet<u32>) {
         let mut victims = self.victims.take().unwrap_or_else(|| self.all_victims(set));
         let mut passed = BTreeMap::new();
         while self.owed > self.free + self.coming {
@@ -177,33 +177,33 @@ impl<'a> Room<'a> {
     }
 
     /// Whether anybody would see a family go.
-    fn is_seen(&self, set: &WorkingSet, place: u32) -> bool {
+    fn is_seen(&self, set: &Holdings, place: u32) -> bool {
         let node = set.cut.node(place);
         let Some(first) = node.first_child.filter(|_| node.family != Family::Hidden) else { return false };
-        let seen = set.seen();
-        (first..first + 8).any(|child| seen.may_see(set.cut.node(child)))
+        let memory = set.memory();
+        (first..first + 8).any(|child| memory.may_see(set.cut.node(child)))
     }
 
     /// Slots that a family holds or has reserved.
-    fn bricks_of(&self, set: &WorkingSet, place: u32) -> i64 {
+    fn bricks_of(&self, set: &Holdings, place: u32) -> i64 {
         let Some(first) = set.cut.node(place).first_child else { return 0 };
         let holds = |&child: &u32| set.cut.node(child).brick.is_some() || set.awaits(child);
         (first..first + 8).filter(holds).count() as i64
     }
 
-    fn all_victims(&self, set: &WorkingSet) -> BTreeMap<Rank, u32> {
+    fn all_victims(&self, set: &Holdings) -> BTreeMap<Rank, u32> {
         let families = set.cut.walk().filter(|&place| self.is_victim(set, place));
         families.map(|place| (self.rank(set, place), place)).collect()
     }
 
-    fn is_victim(&self, set: &WorkingSet, place: u32) -> bool {
+    fn is_victim(&self, set: &Holdings, place: u32) -> bool {
         let node = set.cut.node(place);
         let is_leaf = |child| set.cut.node(child).first_child.is_none();
         let is_lowest = node.first_child.is_some_and(|first| (first..first + 8).all(is_leaf));
         is_lowest && !node.is_leaving
     }
 
-    fn rank(&self, set: &WorkingSet, place: u32) -> Rank {
+    fn rank(&self, set: &Holdings, place: u32) -> Rank {
         let node = set.cut.node(place);
         // Families of this very update have no priority yet: they are as needed as the leaf that they were split from.
         let priority = self.priority.get(place as usize).copied().unwrap_or(f64::INFINITY);

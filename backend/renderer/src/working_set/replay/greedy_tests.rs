@@ -83,9 +83,8 @@ fn greedy(demand: &Demand, rules: &IndexRules, summary: &dyn Fn(NodeKey) -> Node
 /// How coarse rays would find all of a cut, whether it is shown or not.
 fn shortfall(cut: &Cut, demand: &Demand, rules: &IndexRules) -> Shortfall {
     let leaves = cut.walk().filter(|&p| cut.node(p).first_child.is_none() && cut.node(p).is_visible);
-    let leaves = leaves.map(|place| (cut.node(place).key, place));
-    let seen = feedback_on(demand, rules.lod, rules.shape, leaves);
-    let deficits = seen.iter().map(|seen| (seen.rays, f64::from(seen.deficit)));
+    let met = feedback_on(demand, rules.lod, rules.shape, leaves.map(|place| cut.node(place).key));
+    let deficits = met.iter().map(|met| (met.rays, met.deficit));
     Shortfall::of(deficits).expect("rays meet something")
 }
 
@@ -168,9 +167,9 @@ fn compare(
             let lod = frame.lod_rule(header);
             let rules = rules(&shape, &lod, &frame.optics);
             let best = greedy(&frame.demand, &rules, summary, u64::from(slots));
-            let resident = shortfall(&replay.set.cut, &frame.demand, &rules);
+            let resident = shortfall(replay.set.cut(), &frame.demand, &rules);
             let of_best = shortfall(&best, &frame.demand, &rules);
-            sums.compare(shown, resident, of_best, [replay.set.slots.used(), used(&best)]);
+            sums.compare(shown, resident, of_best, [replay.set.slots().used(), used(&best)]);
         }
     }
     println!("| {name}, {slots} | moving | {} |", moving.row());

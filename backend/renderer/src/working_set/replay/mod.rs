@@ -13,6 +13,7 @@ mod disk;
 #[cfg(test)]
 mod greedy_tests;
 mod policy;
+mod stockroom;
 #[cfg(test)]
 mod tests;
 
@@ -20,14 +21,14 @@ pub use account::{Account, ReplayRun};
 pub use policy::{DiskModel, FetchOrder, Policy};
 
 use super::{
-    Arrival, IndexRules, Met, Moment, Shortfall, TraceHeader, TracedFrame, WorkingSet, feedback_on,
+    Feedback, IndexRules, Moment, Shortfall, Showing, TraceHeader, TracedFrame, WorkingSet, feedback_on,
     most_in_flight,
 };
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use disk::Disk;
 use layout::{code_from_deficit, deficit_from_code};
 use policy::Waiting;
-use std::collections::HashSet;
+use stockroom::Stockroom;
 use std::time::Instant;
 
 /// The volume of a trace, without its voxels.
@@ -69,7 +70,7 @@ pub fn replay(
 ) -> ReplayRun {
     let mut replay = Replay::new(header, volume, *policy);
     let frames = frames.iter().map(|frame| replay.play(frame)).collect();
-    let bricks_read = replay.disk.bricks_read;
+    let bricks_read = replay.stock.bricks_read();
     ReplayRun { frames, bricks_read, bytes_read: bricks_read * volume.brick_bytes }
 }
 
@@ -80,13 +81,10 @@ struct Replay<'a> {
     shape: OctreeShape,
     policy: Policy,
     set: WorkingSet,
-    disk: Disk,
-    waiting: Waiting,
+    stock: Stockroom,
     last: Option<&'a TracedFrame>,
     /// What rays of the frame before met.
-    met: Vec<Met>,
-    /// Bricks that were in the cache at any time.
-    known: HashSet<NodeKey>,
+    met: Vec<Feedback>,
 }
 
 impl<'a> Replay<'a> {
@@ -96,17 +94,15 @@ impl<'a> Replay<'a> {
             header,
             volume,
             set: WorkingSet::new((volume.summary)(NodeKey::ROOT), policy.slots(&shape)),
-            disk: Disk::new(policy.disk, volume.brick_bytes),
+            stock: Stockroom::new(policy, volume.brick_bytes),
             shape,
             policy,
-            waiting: Waiting::default(),
             last: None,
             met: Vec::new(),
-            known: HashSet::new(),
         }
     }
 
-    /// One frame, in the order of the renderer's: what rays met, what to fetch, what has come, what is shown.
+    /// One frame, as the renderer steps through it.
     fn play(&mut self, frame: &'a TracedFrame) -> ReplayedFrame {
         let (shape, lod) = (self.shape, frame.lod_rule(self.header));
         let moment = Moment {
@@ -123,59 +119,38 @@ impl<'a> Replay<'a> {
             fade_s: self.policy.fade_s,
             most_in_flight: most_in_flight(self.policy.upload_bytes),
         };
-        let started = Instant::now();
-        self.set.update(&moment, &self.met);
-        let mut update = started.elapsed();
-        let wanted = self.waiting.ordered(self.policy.order, &self.set);
         let before = self.last.map(|last| (last.lod_rule(self.header), last.time_s));
-        let ahead = self.set.ahead(&moment, self.met.iter().map(|met| met.key), before);
-        self.disk.run_until(frame.time_s);
-        self.disk.want(&wanted, &ahead);
-        self.disk.run_until(frame.time_s);
-        let (bricks_loaded, loaded_again) = self.take_arrived();
         let started = Instant::now();
-        self.set.show(&moment);
-        update += started.elapsed();
+        self.stock.open(frame.time_s);
+        self.set.step(&moment, &self.met, Showing::InTime { before }, &mut self.stock);
+        let update = started.elapsed().saturating_sub(self.stock.busy);
         let shortfall = self.look(frame, &moment.rules);
         self.last = Some(frame);
         ReplayedFrame {
             time_s: frame.time_s,
             shortfall,
-            bricks_loaded,
-            loaded_again,
-            bricks_resident: self.set.slots.used(),
+            bricks_loaded: self.stock.loaded,
+            loaded_again: self.stock.loaded_again,
+            bricks_resident: self.set.slots().used(),
             splits: self.set.splits,
-            collapses: self.set.collapses,
+            collapses: self.set.collapses(),
             update_ms: update.as_secs_f64() * 1e3,
         }
     }
 
-    /// Bricks that came into the cache, and those of them that had been there before.
-    fn take_arrived(&mut self) -> (u64, u64) {
-        let (mut loaded, mut again) = (0, 0);
-        for key in self.disk.arrived(self.policy.upload_bytes) {
-            if let Arrival::Slot(_) = self.set.arrived(key, 0.0, 0.0) {
-                loaded += 1;
-                again += u64::from(!self.known.insert(key));
-            }
-        }
-        (loaded, again)
-    }
-
     /// Casts the trace's rays at what is shown.
     fn look(&mut self, frame: &TracedFrame, rules: &IndexRules) -> Option<Shortfall> {
-        let cut = &self.set.cut;
-        let leaves = cut.shown_leaves().map(|place| (cut.node(place), place));
-        let leaves = leaves.filter(|(node, _)| node.is_visible).map(|(node, place)| (node.key, place));
-        let seen = feedback_on(&frame.demand, rules.lod, rules.shape, leaves);
-        self.met = seen.iter().map(|seen| Met { key: cut.node(seen.place).key, rays: seen.rays }).collect();
-        Shortfall::of(seen.iter().map(|seen| (seen.rays, as_told(seen.deficit))))
+        let cut = self.set.cut();
+        let leaves = cut.shown_leaves().map(|place| cut.node(place));
+        let leaves = leaves.filter(|node| node.is_visible).map(|node| node.key);
+        self.met = feedback_on(&frame.demand, rules.lod, rules.shape, leaves);
+        Shortfall::of(self.met.iter().map(|met| (met.rays, as_coded(met.deficit))))
     }
 }
 
-/// What a feedback table would tell of a deficit, where it is one.
-fn as_told(deficit: f32) -> f64 {
-    f64::from(deficit_from_code(code_from_deficit(deficit)).unwrap_or(0.0).max(0.0))
+/// A deficit as a feedback table has it; 0 where it is none.
+fn as_coded(deficit: f64) -> f64 {
+    f64::from(deficit_from_code(code_from_deficit(deficit as f32)).unwrap_or(0.0).max(0.0))
 }
 
 /// Whether two frames ask for the same detail.

@@ -87,6 +87,6 @@ impl Waiting {
 
 /// Rays that met what a brick is to refine. Nothing can do without the root.
 fn rays_above(set: &WorkingSet, key: NodeKey) -> u32 {
-    let parent = set.cut.node(set.cut.find(key)).parent;
-    parent.map_or(u32::MAX, |parent| set.cut.node(parent).met.rays)
+    let parent = set.cut().node(set.cut().find(key)).parent;
+    parent.map_or(u32::MAX, |parent| set.cut().node(parent).met.rays)
 }

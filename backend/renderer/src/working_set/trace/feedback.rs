@@ -1,20 +1,10 @@
 //! What rays would have told of a cut.
 
 use super::Demand;
+use crate::working_set::Feedback;
 use bricks::LodRule;
 use bricks::{NodeKey, OctreeShape};
 use std::collections::HashMap;
-
-/// A leaf of a cut that rays sampled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
-    /// Its place in the cut.
-    pub place: u32,
-    /// Levels it is too coarse by; at most 0 where no finer level exists.
-    pub deficit: f32,
-    /// Rays that sampled it, at least 1.
-    pub rays: u32,
-}
 
 /// The feedback of a frame's demand on any cut: of each leaf that rays meet, how much too coarse it is and how many rays
 /// say so, in the order of `leaves`. A leaf is seen where it overlaps a demanded node:
@@ -28,10 +18,10 @@ pub fn feedback_on(
     demand: &Demand,
     rule: &LodRule,
     shape: &OctreeShape,
-    leaves: impl Iterator<Item = (NodeKey, u32)>,
-) -> Vec<Seen> {
-    let leaves: Vec<(NodeKey, u32)> = leaves.collect();
-    let number: HashMap<NodeKey, usize> = leaves.iter().enumerate().map(|(i, leaf)| (leaf.0, i)).collect();
+    leaves: impl Iterator<Item = NodeKey>,
+) -> Vec<Feedback> {
+    let leaves: Vec<NodeKey> = leaves.collect();
+    let number: HashMap<NodeKey, usize> = leaves.iter().enumerate().map(|(i, &leaf)| (leaf, i)).collect();
     let mut rays = vec![0u32; leaves.len()];
     let mut spread: HashMap<NodeKey, (u32, Vec<usize>)> = HashMap::new();
     for node in demand.nodes() {
@@ -41,26 +31,26 @@ pub fn feedback_on(
         }
     }
     for (i, leaf) in leaves.iter().enumerate() {
-        for above in itself_and_above(leaf.0) {
+        for above in itself_and_above(*leaf) {
             if let Some((_, below)) = spread.get_mut(&above) {
                 below.push(i);
             }
         }
     }
     for (of_node, below) in spread.into_values() {
-        let depths: Vec<u8> = below.iter().map(|&i| leaves[i].0.depth).collect();
+        let depths: Vec<u8> = below.iter().map(|&i| leaves[i].depth).collect();
         for (i, share) in below.into_iter().zip(shares(of_node, &depths)) {
             rays[i] = rays[i].saturating_add(share);
         }
     }
-    let seen = leaves.iter().zip(rays).filter(|&(_, rays)| rays > 0);
-    seen.map(|(&(key, place), rays)| Seen { place, deficit: deficit(rule, shape, key), rays }).collect()
+    let met = leaves.iter().zip(rays).filter(|&(_, rays)| rays > 0);
+    met.map(|(&key, rays)| Feedback { key, rays, deficit: deficit(rule, shape, key) }).collect()
 }
 
-/// As the index tells it to rays.
-fn deficit(rule: &LodRule, shape: &OctreeShape, key: NodeKey) -> f32 {
+/// As rays read it in the index, in f32.
+fn deficit(rule: &LodRule, shape: &OctreeShape, key: NodeKey) -> f64 {
     let deficit = rule.deficit(shape, key);
-    (if key.depth == shape.finest_depth() { deficit.min(0.0) } else { deficit }) as f32
+    f64::from((if key.depth == shape.finest_depth() { deficit.min(0.0) } else { deficit }) as f32)
 }
 
 fn itself_and_above(key: NodeKey) -> impl Iterator<Item = NodeKey> {

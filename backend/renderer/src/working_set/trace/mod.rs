@@ -16,7 +16,7 @@ mod writer;
 
 pub use demand::{Demand, Demanded};
 pub use error::TraceError;
-pub use feedback::{Seen, feedback_on};
+pub use feedback::feedback_on;
 pub use reader::TraceReader;
 pub use record::{TraceHeader, TracedFrame};
 pub use writer::TraceWriter;

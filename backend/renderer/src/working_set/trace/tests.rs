@@ -1,6 +1,7 @@
 //! Laws of traces and of their replay.
 
 use super::*;
+use crate::working_set::Feedback;
 use bricks::LodRule;
 use bricks::{NodeKey, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
@@ -49,8 +50,8 @@ fn demand_of(keys: &[NodeKey], picks: &[(usize, u32)]) -> Demand {
     Demand::new(picks.iter().map(|&(pick, rays)| (keys[pick % keys.len()], rays)))
 }
 
-fn feedback(demand: &Demand, leaves: &[NodeKey]) -> Vec<Seen> {
-    feedback_on(demand, &rule(), &shape(), leaves.iter().copied().zip(0..))
+fn feedback(demand: &Demand, leaves: &[NodeKey]) -> Vec<Feedback> {
+    feedback_on(demand, &rule(), &shape(), leaves.iter().copied())
 }
 
 fn splits() -> impl Strategy<Value = Vec<usize>> {
@@ -66,10 +67,10 @@ proptest! {
     fn a_leaf_is_seen_where_it_overlaps_a_demanded_node(of in splits(), on in splits(), picks in picks(0..20)) {
         let demand = demand_of(&leaves(&of), &picks);
         let on = leaves(&on);
-        let seen: HashSet<u32> = feedback(&demand, &on).iter().map(|s| s.place).collect();
-        for (place, &leaf) in on.iter().enumerate() {
+        let seen: HashSet<NodeKey> = feedback(&demand, &on).iter().map(|s| s.key).collect();
+        for &leaf in &on {
             let expected = demand.nodes().iter().any(|node| overlap(node.key, leaf));
-            prop_assert_eq!(seen.contains(&(place as u32)), expected, "{}", leaf);
+            prop_assert_eq!(seen.contains(&leaf), expected, "{}", leaf);
         }
     }
 
@@ -93,7 +94,7 @@ proptest! {
     fn on_its_own_cut_a_demand_is_the_feedback(of in splits(), picks in picks(1..100)) {
         let on = leaves(&of);
         let demand = demand_of(&on, &picks);
-        let mut found: Vec<_> = feedback(&demand, &on).iter().map(|s| (on[s.place as usize], s.rays)).collect();
+        let mut found: Vec<_> = feedback(&demand, &on).iter().map(|s| (s.key, s.rays)).collect();
         found.sort_unstable();
         let expected: Vec<_> = demand.nodes().iter().map(|node| (node.key, node.rays)).collect();
         prop_assert_eq!(found, expected);
@@ -105,11 +106,11 @@ fn deficits_are_the_rule_s_and_end_at_the_finest_level() {
     let on = leaves(&[0]);
     let fine = on[3].child(0).child(0).child(0);
     let seen = feedback(&Demand::new([(fine, 5)]), &on);
-    let expected = rule().deficit(&shape(), on[3]) as f32;
-    assert_eq!(seen, [Seen { place: 3, deficit: expected, rays: 5 }]);
+    let expected = f64::from(rule().deficit(&shape(), on[3]) as f32);
+    assert_eq!(seen, [Feedback { key: on[3], deficit: expected, rays: 5 }]);
     let strict = LodRule { lod_scale: 0.0, ..rule() };
-    let seen = feedback_on(&Demand::new([(fine, 5)]), &strict, &shape(), std::iter::once((fine, 9)));
-    assert_eq!(seen, [Seen { place: 9, deficit: 0.0, rays: 5 }]);
+    let seen = feedback_on(&Demand::new([(fine, 5)]), &strict, &shape(), std::iter::once(fine));
+    assert_eq!(seen, [Feedback { key: fine, deficit: 0.0, rays: 5 }]);
 }
 
 fn optics(most: f64) -> Optics {

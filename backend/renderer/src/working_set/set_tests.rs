@@ -1,6 +1,6 @@
 //! Laws of the live working set.
 
-use super::live::{Arrival, Met, Moment, WorkingSet};
+use super::{Arrival, Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
 use super::{Cut, Family, visit_vertices};
 use bricks::{BrickErrorKind, NodeKey, NodeSummary, OctreeShape};
@@ -77,13 +77,13 @@ fn weights_by_corner(cut: &Cut, shape: &OctreeShape) -> BTreeMap<(u8, [u32; 3]),
 
 fn assert_sound(set: &WorkingSet, slots: u32) {
     let mut used = HashSet::new();
-    for place in set.cut.walk() {
-        let node = set.cut.node(place);
+    for place in set.cut().walk() {
+        let node = set.cut().node(place);
         if let Some(brick) = node.brick {
             assert!(used.insert(brick.slot), "slot {} has two bricks", brick.slot);
         }
         if let Some(parent) = node.parent {
-            let above = set.cut.node(parent);
+            let above = set.cut().node(parent);
             assert_eq!(node.key.parent(), Some(above.key));
             assert!(above.first_child.is_some_and(|first| (first..first + 8).contains(&place)));
         }
@@ -92,7 +92,7 @@ fn assert_sound(set: &WorkingSet, slots: u32) {
         }
         assert!((0.0..=1.0).contains(&node.shown) && (0.0..=1.0).contains(&node.permits));
     }
-    assert_eq!(used.len() as u64, set.slots.used());
+    assert_eq!(used.len() as u64, set.slots().used());
     assert!(used.len() as u32 <= slots && used.iter().all(|&slot| slot < slots));
 }
 
@@ -135,18 +135,18 @@ impl Life {
         let most_in_flight = 1 + random.below(200) as usize;
         let moment = Moment { rules, summary: &summary, now_s: self.now_s, is_still, fade_s, most_in_flight };
         let share = random.below(4);
-        let leaves = leaves(&self.set.cut, &self.world.shape, true);
+        let leaves = leaves(self.set.cut(), &self.world.shape, true);
         let mut meet = |place: u32| {
             let rays = random.below(100) as u32;
-            (random.below(4) < share).then(|| Met { key: self.set.cut.node(place).key, rays })
+            (random.below(4) < share).then(|| Feedback::met(self.set.cut().node(place).key, rays))
         };
-        let met: Vec<Met> = leaves.into_iter().filter_map(&mut meet).collect();
-        let before = weights_by_corner(&self.set.cut, &self.world.shape);
+        let met: Vec<Feedback> = leaves.into_iter().filter_map(&mut meet).collect();
+        let before = weights_by_corner(self.set.cut(), &self.world.shape);
         self.set.update(&moment, &met);
         let wanted = self.set.wanted().to_vec();
         // More may be due than there is room for where a transfer function changed or a lost brick is tried again; then
         // nothing is split.
-        let due = self.set.slots.used() as usize + self.set.reserved();
+        let due = self.set.slots().used() as usize + self.set.reserved();
         assert!(self.set.splits == 0 || due <= self.slots as usize);
         for key in wanted {
             match random.below(40) {
@@ -167,14 +167,14 @@ impl Life {
 
     fn check(&self, before: &BTreeMap<(u8, [u32; 3]), f32>, step: f32) {
         assert_sound(&self.set, self.slots);
-        for place in self.set.cut.walk().filter(|&place| self.set.cut.node(place).is_leaving) {
-            let node = self.set.cut.node(place);
-            let may_go = node.first_child.is_none() || self.set.cut.may_collapse(&self.world.shape, place);
+        for place in self.set.cut().walk().filter(|&place| self.set.cut().node(place).is_leaving) {
+            let node = self.set.cut().node(place);
+            let may_go = node.first_child.is_none() || self.set.cut().may_collapse(&self.world.shape, place);
             assert!(may_go, "{} is to go and cannot", node.key);
         }
-        assert_restricted(&self.set.cut, &self.world.shape, false);
-        assert_restricted(&self.set.cut, &self.world.shape, true);
-        for (corner, weight) in weights_by_corner(&self.set.cut, &self.world.shape) {
+        assert_restricted(self.set.cut(), &self.world.shape, false);
+        assert_restricted(self.set.cut(), &self.world.shape, true);
+        for (corner, weight) in weights_by_corner(self.set.cut(), &self.world.shape) {
             if let Some(earlier) = before.get(&corner) {
                 assert!(
                     (weight - earlier).abs() <= step + 1e-6,
@@ -200,7 +200,7 @@ fn a_random_life_keeps_all_laws() {
         for _ in 0..LIFE {
             life.step();
             changes[0] += life.set.splits;
-            changes[1] += life.set.collapses;
+            changes[1] += life.set.collapses();
         }
     }
     println!("{} splits, {} collapses", changes[0], changes[1]);

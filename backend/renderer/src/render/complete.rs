@@ -1,0 +1,215 @@
+//! A complete frame: view by view, rounds of casting and loading until nothing is missing.
+//!
+//! Each view has the cache to itself: what only others saw makes room for it. A coarse look by few rays comes first, and
+//! fetches most of what is needed; then every pixel is cast, and again the tiles that missed something.
+
+use super::account::milliseconds;
+use super::stock::{Clerk, Delivery};
+use super::work::{Pending, Work};
+use super::{RenderError, Renderer};
+use crate::device::FeedbackTag;
+use crate::working_set::{Feedback, Moment, Showing};
+use bricks::NodeKey;
+use protocol::{FrameReport, StopAsked};
+use std::collections::HashSet;
+use std::time::Instant;
+
+/// The coarse look casts every 16th pixel along x and y.
+const COARSE_STRIDE: u32 = 16;
+
+/// Rounds of a view, at most: in each the cut grows by a level, or a family of a full cache makes room for another that is
+/// needed more. Only a source whose answers change could take more.
+const MOST_ROUNDS: u32 = 256;
+
+/// Bricks that may be on their way: there is no limit.
+const NO_LIMIT: usize = 1 << 40;
+
+/// Where a view stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Stage {
+    /// Nothing of it has been cast.
+    #[default]
+    Begun,
+    /// Few rays are being cast.
+    Looking,
+    /// All rays are, or those again that missed something.
+    Casting,
+}
+
+/// How far a complete frame has come.
+#[derive(Debug, Default)]
+pub(super) struct Complete {
+    view: usize,
+    stage: Stage,
+    rounds: u32,
+    /// The nodes that rays of this view sampled, one view's alone.
+    sampled: HashSet<NodeKey>,
+    /// The nodes that any view sampled, where they are leaves in the end.
+    union: HashSet<NodeKey>,
+    /// The same of each view, added up.
+    sum: u64,
+    /// Nodes that stayed too coarse for want of room, over all views.
+    short: HashSet<NodeKey>,
+    /// Bricks that would have made them fine enough.
+    without_room: HashSet<NodeKey>,
+    has_begun: bool,
+    /// Whether the working set is not at rest since the last cast.
+    is_in_round: bool,
+}
+
+impl Complete {
+    /// What comes when all that was pending has been cast. The report, once the frame is done.
+    pub(super) fn next(
+        &mut self,
+        work: &mut Work,
+        renderer: &mut Renderer,
+        stop: StopAsked,
+    ) -> Result<Option<FrameReport>, RenderError> {
+        if !std::mem::replace(&mut self.has_begun, true) {
+            renderer.leave_live()?;
+            renderer.stock.damage.start_frame();
+        }
+        if self.view == work.setting.views.len() {
+            return Ok(Some(self.report(work, renderer)));
+        }
+        let met = if self.is_in_round { Vec::new() } else { self.learn(work, renderer)? };
+        self.is_in_round = true;
+        let Some(has_changed) = self.round(work, renderer, &met, stop)? else { return Ok(None) };
+        self.is_in_round = false;
+        match self.stage {
+            Stage::Begun => self.cast(work, renderer, Stage::Looking, None),
+            Stage::Looking if has_changed => self.cast(work, renderer, Stage::Looking, None),
+            Stage::Looking => self.cast(work, renderer, Stage::Casting, None),
+            Stage::Casting if has_changed && self.hides_something(renderer) => {
+                self.cast(work, renderer, Stage::Casting, None);
+            }
+            Stage::Casting if has_changed => {
+                let missing = work.missing.pop().unwrap_or_default();
+                self.cast(work, renderer, Stage::Casting, Some(missing));
+            }
+            Stage::Casting => self.end_view(work, renderer),
+        }
+        Ok(None)
+    }
+
+    /// What the rays of the cast found; of a view that has just begun, nothing.
+    fn learn(&mut self, work: &mut Work, renderer: &mut Renderer) -> Result<Vec<Feedback>, RenderError> {
+        if self.stage == Stage::Begun {
+            renderer.set.begin_view(work.frame.time_s);
+            return Ok(Vec::new());
+        }
+        let started = Instant::now();
+        renderer.device.end_feedback();
+        let found = renderer.device.wait_feedback()?;
+        work.account.stages.cast_ms += milliseconds(started);
+        let met = found.map(|(tag, table)| tag.feedback(&table)).unwrap_or_default();
+        if self.stage == Stage::Casting {
+            self.sampled.extend(met.iter().map(|met| met.key));
+        }
+        Ok(met)
+    }
+
+    /// Steps the working set until it is at rest. Whether rays see anything else then; None where `stop` asked to leave off
+    /// before.
+    fn round(
+        &mut self,
+        work: &mut Work,
+        renderer: &mut Renderer,
+        met: &[Feedback],
+        stop: StopAsked,
+    ) -> Result<Option<bool>, RenderError> {
+        if self.rounds == MOST_ROUNDS {
+            return Ok(Some(false));
+        }
+        self.rounds += 1;
+        let Renderer { set, stock, shelf, device, .. } = renderer;
+        let rules = work.setting.rules(&work.frame);
+        let (shape, source) = (stock.shape, std::sync::Arc::clone(&stock.source));
+        let summary = |key| source.summary(key);
+        let moment = Moment {
+            rules: rules.for_index(&shape, shelf.blank_slot()),
+            summary: &summary,
+            now_s: work.frame.time_s,
+            is_still: true,
+            fade_s: 0.0,
+            most_in_flight: NO_LIMIT,
+        };
+        shelf.refresh_cells(set.cut(), &rules);
+        let mut met = met;
+        loop {
+            let started = Instant::now();
+            let mut clerk = Clerk::new(stock, shelf, device, &rules, Delivery::All(stop));
+            set.step(&moment, met, Showing::AtOnce, &mut clerk);
+            clerk.settle_up(&mut work.account, milliseconds(started))?;
+            met = &[];
+            if set.is_at_rest() {
+                break;
+            }
+            if stop() {
+                return Ok(None);
+            }
+        }
+        stock.check_root(set)?;
+        shelf.write_settled(set, &moment, &rules, device, &mut work.account.stages);
+        Ok(Some(shelf.has_changed))
+    }
+
+    /// Casts few rays, all, or some tiles again.
+    fn cast(&mut self, work: &mut Work, renderer: &mut Renderer, stage: Stage, tiles: Option<Vec<u32>>) {
+        self.stage = stage;
+        let views = self.view..self.view + 1;
+        let stride = if stage == Stage::Looking { COARSE_STRIDE } else { 1 };
+        work.pending = Pending::all(&work.setting, views, stride);
+        if let Some(tiles) = tiles {
+            work.pending.tiles = vec![tiles];
+        }
+        work.missing.clear();
+        renderer.device.begin_feedback(FeedbackTag::of(renderer.set.cut()));
+    }
+
+    /// Whether a node that rays of this view sampled has made room for others: then any tile may look otherwise.
+    fn hides_something(&self, renderer: &Renderer) -> bool {
+        let cut = renderer.set.cut();
+        self.sampled.iter().any(|&key| cut.node(cut.find_shown(key)).key != key)
+    }
+
+    fn end_view(&mut self, work: &mut Work, renderer: &mut Renderer) {
+        let cut = renderer.set.cut();
+        let is_leaf = |key: &NodeKey| {
+            let node = cut.node(cut.find_shown(*key));
+            (node.key == *key && node.shown_child().is_none()).then_some(node)
+        };
+        let leaves: Vec<_> = self.sampled.iter().filter_map(is_leaf).collect();
+        self.sum += leaves.len() as u64;
+        self.union.extend(leaves.iter().map(|node| node.key));
+        for node in leaves.into_iter().filter(|node| node.is_visible && node.deficit > 0.0) {
+            let family: Vec<NodeKey> = (0..8).map(|octant| node.key.child(octant)).collect();
+            if !renderer.stock.damage.note_missed(&family) {
+                self.short.insert(node.key);
+                self.without_room.extend(renderer.stock.shown(&family, &work.frame.optics));
+            }
+        }
+        let [width, height] = work.setting.rays[self.view].raster;
+        work.account.done += u64::from(width) * u64::from(height);
+        work.finals.push(work.setting.views[self.view].projector);
+        self.sampled.clear();
+        (self.view, self.stage, self.rounds) = (self.view + 1, Stage::Begun, 0);
+    }
+
+    fn report(&self, work: &Work, renderer: &mut Renderer) -> FrameReport {
+        let full = (!self.short.is_empty()).then(|| {
+            format!(
+                "the brick cache is full: {} nodes are shown coarser than the display resolves; make the cache larger",
+                self.short.len()
+            )
+        });
+        let resident = renderer.set.slots().used();
+        let report = renderer.frame_report(work, full, None);
+        FrameReport {
+            bricks_wanted: resident + self.without_room.len() as u64,
+            working_set_union: self.union.len() as u64,
+            working_set_sum: self.sum,
+            ..report
+        }
+    }
+}

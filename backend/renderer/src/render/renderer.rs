@@ -1,0 +1,225 @@
+//! What a renderer is made of, and how a frame goes through it.
+
+use super::RenderError;
+use super::account::Account;
+use super::complete::Complete;
+use super::error::check;
+use super::live::{Live, LiveFrame};
+use super::recording::Recording;
+use super::setting::{Setting, TableCache};
+use super::shelf::Shelf;
+use super::stock::Stock;
+use super::work::{Course, Work};
+use crate::device::{ChosenDevice, Device, open_device};
+use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
+use bricks::{BrickSource, NodeKey};
+use optics::Enhancer;
+use protocol::{
+    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
+    RendererOptions, StopAsked, VolumeRef, draw_whole,
+};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The renderer of one back-end.
+pub struct Renderer {
+    pub(super) options: RendererOptions,
+    pub(super) device: Device,
+    pub(super) set: WorkingSet,
+    pub(super) stock: Stock,
+    pub(super) shelf: Shelf,
+    pub(super) tables: TableCache,
+    pub(super) live: Live,
+    pub(super) recording: Recording,
+    work: Option<Work>,
+}
+
+impl Renderer {
+    /// Opens the device; the volume is already open.
+    ///
+    /// # Errors
+    /// There is no such device.
+    pub fn new(
+        options: &RendererOptions,
+        source: Arc<dyn BrickSource>,
+    ) -> Result<(Self, DeviceInfo), RenderError> {
+        let shape = source.shape();
+        let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
+        let bricks: u64 = (0..=shape.finest_depth()).map(level).sum();
+        let ChosenDevice { device, info } =
+            open_device(options.device, options.filter, options.cache_bytes, bricks)?;
+        let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
+        let renderer = Self {
+            options: options.clone(),
+            // The shelf keeps one slot blank.
+            set: WorkingSet::new(source.summary(NodeKey::ROOT), device.slots() - 1),
+            shelf: Shelf::new(device.slots()),
+            device,
+            stock: Stock::new(source, loader),
+            tables: TableCache::default(),
+            live: Live::default(),
+            recording: Recording::default(),
+            work: None,
+        };
+        Ok((renderer, info))
+    }
+
+    /// From the next live frame on, writes a trace of what rays ask for, under this name once it is complete. Whoever
+    /// reads it finds the volume by `volume`.
+    pub fn record(&mut self, path: PathBuf, volume: &VolumeRef) {
+        self.recording = Recording::new(path, volume, &self.stock.shape, &self.options.display);
+    }
+
+    /// Draws one whole frame: until nothing is missing, or with what there is, as its pace says.
+    ///
+    /// # Errors
+    /// The root's brick or the device fails, or the frame does not fit the display.
+    pub fn draw(
+        &mut self,
+        frame: &FrameState,
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<FrameReport, RenderError> {
+        self.restart(frame)?;
+        loop {
+            let Advance { done, total, report, .. } = self.advance(&|| false)?;
+            self.present(&mut |image| sink(RenderEvent::Image(image)))?;
+            sink(RenderEvent::Progress { done, total });
+            if let Some(report) = report {
+                return Ok(*report);
+            }
+        }
+    }
+
+    /// Begins a frame, and drops what is unfinished of the one before.
+    ///
+    /// # Errors
+    /// The frame does not fit the display, or its numbers are out of bounds; nothing has changed then but that the frame
+    /// before is dropped.
+    pub fn restart(&mut self, frame: &FrameState) -> Result<(), RenderError> {
+        self.drop_work();
+        check(frame)?;
+        let frame = self.in_reach(frame);
+        let setting = Setting::new(self, &frame)?;
+        self.device.write_tables_if_new(&mut self.tables);
+        let account = Account::new(setting.rays());
+        let course = match frame.pace {
+            Pace::Complete => Course::Complete(Complete::default()),
+            Pace::Live { .. } => Course::Live(LiveFrame::default()),
+        };
+        self.work = Some(Work::new(frame, setting, account, course));
+        Ok(())
+    }
+
+    /// Goes on with the frame until `stop` asks to leave off, a picture has become final, or the frame is done. `stop` is
+    /// asked before each tile; on a GPU before each batch of tiles, which takes some milliseconds.
+    ///
+    /// # Errors
+    /// The root's brick or the device fails. The frame is dropped.
+    pub fn advance(&mut self, stop: StopAsked) -> Result<Advance, RenderError> {
+        let Some(mut work) = self.work.take() else { return Ok(Advance::default()) };
+        let gone_on = work.go_on(self, stop);
+        if gone_on.is_err() {
+            self.device.end_feedback();
+        }
+        gone_on?;
+        let report = work.report();
+        let (done, total) = work.rays();
+        self.work = Some(work);
+        Ok(Advance { done, total, lacking_bricks: self.set.reserved() as u64, report })
+    }
+
+    /// The picture of a projector of this frame as it stands now, final or not: what has not been cast is as it was before.
+    /// A complete frame keeps the one that it works at.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn picture(&mut self, projector: u32) -> Result<Option<ProjectorImage>, RenderError> {
+        let Some(work) = &self.work else { return Ok(None) };
+        let Some(view) = work.setting.views.iter().position(|view| view.projector == projector) else {
+            return Ok(None);
+        };
+        let [width, height] = work.setting.rays[view].raster;
+        let rgba = self.device.picture(work.picture_of(view))?;
+        Ok(Some(ProjectorImage { projector, width, height, rgba }))
+    }
+
+    /// Hands over the pictures that have become final since it was last called.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), RenderError> {
+        let finals = self.work.as_mut().map(|work| std::mem::take(&mut work.finals)).unwrap_or_default();
+        for projector in finals {
+            let started = std::time::Instant::now();
+            let image = self.picture(projector)?;
+            if let Some(work) = &mut self.work {
+                work.account.stages.readback_ms += super::account::milliseconds(started);
+            }
+            image.into_iter().for_each(&mut *sink);
+        }
+        Ok(())
+    }
+
+    /// No frame follows: completes the trace, where one is wanted.
+    ///
+    /// # Errors
+    /// The device fails, or the trace cannot be written.
+    pub fn finish(&mut self) -> Result<(), RenderError> {
+        self.drop_work();
+        self.take_last_feedback()?;
+        self.recording.finish()
+    }
+
+    fn drop_work(&mut self) {
+        if self.work.take().is_some_and(|work| !work.is_done()) {
+            self.device.end_feedback();
+        }
+    }
+
+    /// The frame without enhancers that the volume is out of reach of: tools cost nothing while nobody holds them to the
+    /// volume.
+    fn in_reach(&self, frame: &FrameState) -> FrameState {
+        let corners = self.stock.shape.corners(NodeKey::ROOT);
+        let corners = corners.map(|corner| frame.display_from_volume.transform_point3(corner));
+        let mut frame = frame.clone();
+        frame.optics.enhancers.retain(|enhancer: &Enhancer| enhancer.may_act_within(&corners));
+        frame
+    }
+}
+
+impl Render for Renderer {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        Ok(Self::restart(self, frame)?)
+    }
+
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
+        Ok(Self::advance(self, stop)?)
+    }
+
+    fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        Ok(Self::present(self, sink)?)
+    }
+
+    fn finish(&mut self) -> Result<(), DrawError> {
+        Ok(Self::finish(self)?)
+    }
+}
+
+impl Draw for Renderer {
+    fn draw(
+        &mut self,
+        frame: &FrameState,
+        sink: &mut dyn FnMut(RenderEvent),
+    ) -> Result<Vec<FrameReport>, DrawError> {
+        Ok(vec![draw_whole(self, frame, sink)?])
+    }
+
+    fn finish(&mut self) -> Result<(), DrawError> {
+        Ok(Self::finish(self)?)
+    }
+}
+
+/// Enough to keep a disk busy while others unpack.
+fn loader_threads() -> usize {
+    std::thread::available_parallelism().map_or(2, |n| n.get().clamp(2, 8))
+}

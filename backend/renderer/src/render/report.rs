@@ -1,0 +1,70 @@
+//! The account of a frame in words and numbers.
+
+use super::Renderer;
+use super::account::milliseconds;
+use super::work::Work;
+use protocol::{FrameReport, Upkeep};
+
+/// Damaged bricks that a report names one by one.
+const MOST_DAMAGES: usize = 16;
+
+impl Renderer {
+    /// What both kinds of frames report; `short` says why a frame is not complete, damage apart.
+    pub(super) fn frame_report(
+        &self,
+        work: &Work,
+        short: Option<String>,
+        upkeep: Option<Upkeep>,
+    ) -> FrameReport {
+        let damage = &self.stock.damage;
+        let shortfall = short.into_iter().chain(self.damages()).collect::<Vec<_>>().join("; ");
+        FrameReport {
+            frame: work.frame.index,
+            backend: self.options.backend,
+            projectors: self.options.projectors.clone(),
+            rays: work.account.rays,
+            samples: work.account.samples,
+            bricks_wanted: 0,
+            bricks_resident: self.set.slots().used(),
+            bricks_loaded: work.account.bricks_loaded,
+            bytes_loaded: work.account.bytes_loaded,
+            working_set_union: 0,
+            working_set_sum: 0,
+            complete: shortfall.is_empty(),
+            shortfall,
+            damaged_bricks: damage.missed(),
+            damaged: damage.sentences(MOST_DAMAGES),
+            upkeep,
+            stages: work.account.stages,
+            total_ms: milliseconds(work.account.started),
+        }
+    }
+
+    /// Why a live frame is not complete, by what rays of the frame before found, if it showed the same.
+    pub(super) fn live_shortfall(&self, short: usize, is_known: bool, upkeep: &Upkeep) -> Option<String> {
+        let Upkeep { in_flight, fading, .. } = upkeep;
+        let root = self.set.cut().node(0);
+        if root.brick.is_none() && root.is_visible {
+            Some("the volume's coarsest brick has not come yet".to_owned())
+        } else if short > 0 {
+            Some(format!(
+                "{short} nodes are shown coarser than the display resolves, {in_flight} bricks are on their way"
+            ))
+        } else if *fading > 0 {
+            Some(format!("the detail of {fading} nodes is coming or going"))
+        } else {
+            (!is_known).then(|| "it is not known yet what rays of this frame lack".to_owned())
+        }
+    }
+
+    fn damages(&self) -> Option<String> {
+        let damage = &self.stock.damage;
+        let first = damage.sentences(1).pop()?;
+        Some(match damage.missed() {
+            1 => format!("a brick cannot be read, and what is coarser is shown in its place: {first}"),
+            bricks => format!(
+                "{bricks} bricks cannot be read, and what is coarser is shown in their place; the first of them: {first}"
+            ),
+        })
+    }
+}

@@ -1,0 +1,104 @@
+//! What the rays of a frame are cast with.
+
+use super::rules::FrameRules;
+use super::views::{scene_numbers, views};
+use super::{RenderError, Renderer};
+use bricks::LodRule;
+use optics::Optics;
+use protocol::FrameState;
+use shaders::compose::Needs;
+use shaders::tables::Tables;
+use shaders::twin::{ProjectorRays, SceneNumbers};
+use std::sync::Arc;
+
+/// Cells are kept with a margin of one voxel for half a pair of steps.
+const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;
+
+/// One projector's place among the views.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    /// Index of the projector in the display.
+    pub(super) projector: u32,
+}
+
+/// What a frame, which has been checked, is drawn with.
+#[derive(Debug)]
+pub(super) struct Setting {
+    pub(super) scene: SceneNumbers<f32>,
+    pub(super) views: Vec<View>,
+    /// Of each view.
+    pub(super) rays: Vec<ProjectorRays<f32>>,
+    /// Blending apart, which depends on the working set.
+    pub(super) needs: Needs,
+    pub(super) tables: Arc<Tables>,
+    pub(super) lod: LodRule,
+    /// Whether the display asks for more than one level in this volume.
+    has_borders: bool,
+}
+
+impl Setting {
+    pub(super) fn new(renderer: &mut Renderer, frame: &FrameState) -> Result<Self, RenderError> {
+        let (display, shape) = (&renderer.options.display, renderer.stock.shape);
+        let found = views(display, &renderer.options.projectors, frame)?;
+        let scene = scene_numbers(display, frame, &shape);
+        let lod = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
+        let needs =
+            Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
+        Ok(Self {
+            scene,
+            views: found.iter().map(|view| View { projector: view.projector }).collect(),
+            rays: found.into_iter().map(|view| view.rays).collect(),
+            needs,
+            tables: renderer.tables.of(&frame.optics, &needs),
+            has_borders: !lod.is_uniform(&shape),
+            lod,
+        })
+    }
+
+    /// Rays of all views.
+    pub(super) fn rays(&self) -> u64 {
+        self.rays.iter().map(|rays| u64::from(rays.raster[0]) * u64::from(rays.raster[1])).sum()
+    }
+
+    /// What the frame asks of the cut; nodes blend where borders between levels may be seen.
+    pub(super) fn rules<'a>(&'a self, frame: &'a FrameState) -> FrameRules<'a> {
+        FrameRules {
+            lod: self.lod,
+            optics: &frame.optics,
+            tables: &self.tables,
+            can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
+            is_quadrilinear: frame.quality.quadrilinear,
+            blends: frame.quality.blended && self.has_borders,
+        }
+    }
+}
+
+/// The tables of the latest optics: they are made when these change.
+#[derive(Debug, Default)]
+pub(super) struct TableCache {
+    made: Option<(Optics, Needs, Arc<Tables>)>,
+    /// Whether the device has other ones.
+    pub(super) is_new: bool,
+}
+
+impl TableCache {
+    fn of(&mut self, optics: &Optics, needs: &Needs) -> Arc<Tables> {
+        if let Some((made, for_needs, tables)) = &self.made
+            && made == optics
+            && for_needs == needs
+        {
+            return Arc::clone(tables);
+        }
+        let tables = Tables::new(optics, needs);
+        let same = self.latest().filter(|latest| ***latest == tables).cloned();
+        self.is_new |= same.is_none();
+        let tables = same.unwrap_or_else(|| Arc::new(tables));
+        self.made = Some((optics.clone(), *needs, Arc::clone(&tables)));
+        tables
+    }
+
+    /// The tables that were asked for last.
+    pub(super) fn latest(&self) -> Option<&Arc<Tables>> {
+        self.made.as_ref().map(|(_, _, tables)| tables)
+    }
+}

@@ -1,0 +1,143 @@
+//! A frame under work: which rays are still to be cast, and what comes when they have been.
+
+use super::account::{Account, milliseconds};
+use super::complete::Complete;
+use super::live::LiveFrame;
+use super::setting::Setting;
+use super::{RenderError, Renderer};
+use crate::device::{CastJob, TileGrid};
+use protocol::{FrameReport, FrameState, Pace, StopAsked};
+use shaders::compose::Needs;
+use std::ops::Range;
+use std::time::Instant;
+
+/// What comes after a cast.
+#[derive(Debug)]
+pub(super) enum Course {
+    /// Rounds until nothing is missing.
+    Complete(Complete),
+    /// One round.
+    Live(LiveFrame),
+}
+
+/// Rays that are still to be cast.
+#[derive(Debug, Default)]
+pub(super) struct Pending {
+    /// Of these views.
+    pub(super) views: Range<usize>,
+    /// Pixels between cast rays.
+    pub(super) stride: u32,
+    /// These tiles of each.
+    pub(super) tiles: Vec<Vec<u32>>,
+}
+
+impl Pending {
+    /// All tiles of some views.
+    pub(super) fn all(setting: &Setting, views: Range<usize>, stride: u32) -> Self {
+        let tiles = |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, stride).count()).collect();
+        let tiles = setting.rays[views.clone()].iter().map(|rays| tiles(rays.raster)).collect();
+        Self { views, stride, tiles }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.tiles.iter().all(Vec::is_empty)
+    }
+}
+
+/// A frame under work.
+#[derive(Debug)]
+pub(super) struct Work {
+    pub(super) frame: FrameState,
+    pub(super) setting: Setting,
+    pub(super) account: Account,
+    pub(super) pending: Pending,
+    /// Tiles of the cast under way of which a ray met a node that is too coarse, view by view.
+    pub(super) missing: Vec<Vec<u32>>,
+    /// Projectors whose pictures are final and have not been presented.
+    pub(super) finals: Vec<u32>,
+    course: Option<Course>,
+    report: Option<FrameReport>,
+}
+
+impl Work {
+    pub(super) fn new(frame: FrameState, setting: Setting, account: Account, course: Course) -> Self {
+        Self {
+            frame,
+            setting,
+            account,
+            pending: Pending::default(),
+            missing: Vec::new(),
+            finals: Vec::new(),
+            course: Some(course),
+            report: None,
+        }
+    }
+
+    pub(super) fn is_done(&self) -> bool {
+        self.report.is_some()
+    }
+
+    /// Rays that are final, and all rays of the frame.
+    pub(super) fn rays(&self) -> (u64, u64) {
+        (self.account.done, self.account.total)
+    }
+
+    /// The device's picture of a view: those of a complete frame follow each other in one, each presented before the next
+    /// is begun.
+    pub(super) fn picture_of(&self, view: usize) -> usize {
+        if self.frame.pace == Pace::Complete { 0 } else { view }
+    }
+
+    /// The account of the frame, once it is done.
+    pub(super) fn report(&self) -> Option<Box<FrameReport>> {
+        self.report.clone().map(Box::new)
+    }
+
+    /// Goes on until `stop` asks to leave off, a picture has become final, or the frame is done.
+    pub(super) fn go_on(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
+        while self.finals.is_empty() && !self.is_done() && !stop() {
+            if self.pending.is_empty() {
+                self.next(renderer, stop)?;
+            } else {
+                self.cast(renderer, stop)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn next(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
+        let mut course = self.course.take().expect("a frame has a course until it is done");
+        let report = match &mut course {
+            Course::Complete(complete) => complete.next(self, renderer, stop)?,
+            Course::Live(live) => live.next(self, renderer)?,
+        };
+        self.course = Some(course);
+        self.report = report;
+        Ok(())
+    }
+
+    /// Casts what is pending, as far as `stop` allows.
+    fn cast(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
+        let started = Instant::now();
+        let Pending { views, stride, tiles } = &self.pending;
+        let outcome = renderer.device.cast(&CastJob {
+            scene: &self.setting.scene,
+            views: &self.setting.rays[views.clone()],
+            first_picture: self.picture_of(views.start),
+            needs: Needs { blends: renderer.shelf.blends, ..self.setting.needs },
+            stride: *stride,
+            tiles,
+            counts: true,
+            stop,
+        })?;
+        self.account.rays += outcome.rays;
+        self.account.samples += outcome.samples;
+        self.missing.resize(self.pending.tiles.len(), Vec::new());
+        for (known, found) in self.missing.iter_mut().zip(outcome.missing_tiles) {
+            known.extend(found);
+        }
+        self.pending.tiles = outcome.left;
+        self.account.stages.cast_ms += milliseconds(started);
+        Ok(())
+    }
+}

@@ -1,0 +1,201 @@
+//! The thread of a back-end that draws.
+
+use super::worker::Opened;
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, bounded, unbounded};
+use protocol::{FrameState, FromBackend, Render, Setup};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// What the messages' thread asks of it.
+pub(super) enum Command {
+    /// Open the volume and the device.
+    Open(Box<Setup>),
+    /// Draw this frame, and drop one that is not done.
+    Draw(Box<FrameState>),
+    /// Complete what is written beside the pictures.
+    Finish,
+}
+
+/// What it has to say.
+pub(super) enum Reply {
+    /// Pass this on.
+    Message {
+        /// To the front-end.
+        message: FromBackend,
+        /// Commands for which it owes nothing any more; a frame that another takes the place of is owed no longer.
+        answered: u64,
+    },
+    /// It cannot go on: one sentence.
+    Failed(String),
+}
+
+/// Replies it may be ahead of the messages' thread: few, because each may be a picture.
+const MOST_AHEAD: usize = 2;
+
+/// Progress is told this often while a frame is drawn.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
+
+/// The messages' thread's handle on it. Dropped, it has the thread leave off and waits until the renderer is gone.
+pub(super) struct RenderThread {
+    commands: Option<Sender<Command>>,
+    replies: Option<Receiver<Reply>>,
+    is_over: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl RenderThread {
+    /// Starts it; it opens its renderer with `make`.
+    pub(super) fn start<M>(make: M) -> Self
+    where
+        M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
+    {
+        let (commands, inbox) = unbounded();
+        let (outbox, replies) = bounded(MOST_AHEAD);
+        let is_over = Arc::new(AtomicBool::new(false));
+        let studio = Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0 };
+        let thread = std::thread::spawn(move || studio.run(make));
+        Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) }
+    }
+
+    /// Asks something of it; what it is drawing is left off after the present tile.
+    pub(super) fn command(&self, command: Command) {
+        // A thread that has ended has failed, and said so in a reply.
+        let _ = self.commands.as_ref().map(|commands| commands.send(command));
+    }
+
+    /// Its next reply, if there is one within `timeout`.
+    pub(super) fn reply(&self, timeout: Duration) -> Option<Reply> {
+        let replies = self.replies.as_ref()?;
+        match replies.recv_timeout(timeout) {
+            Ok(reply) => Some(reply),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(Reply::Failed(
+                "the thread that draws has ended; please report it with this line".to_owned(),
+            )),
+        }
+    }
+}
+
+impl Drop for RenderThread {
+    fn drop(&mut self) {
+        self.is_over.store(true, Ordering::Relaxed);
+        // Without these it waits for nothing and nobody any more.
+        drop((self.commands.take(), self.replies.take()));
+        // Its panics are caught inside, and told.
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+/// The thread itself.
+struct Studio {
+    inbox: Receiver<Command>,
+    outbox: Sender<Reply>,
+    is_over: Arc<AtomicBool>,
+    /// Commands that it has begun with.
+    taken: u64,
+}
+
+/// Why the thread ends.
+enum End {
+    /// Nobody listens any more.
+    Dismissed,
+    /// It cannot go on.
+    Failed(String),
+}
+
+impl From<protocol::DrawError> for End {
+    fn from(error: protocol::DrawError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+impl Studio {
+    fn run<M>(mut self, make: M)
+    where
+        M: FnOnce(Setup) -> Result<Opened, String>,
+    {
+        let ended = catch_unwind(AssertUnwindSafe(|| self.work(make)));
+        let sentence = match ended {
+            Ok(Ok(()) | Err(End::Dismissed)) => return,
+            Ok(Err(End::Failed(sentence))) => sentence,
+            Err(panic) => panic_sentence(panic.as_ref()),
+        };
+        let _ = self.outbox.send(Reply::Failed(sentence));
+    }
+
+    fn work<M>(&mut self, make: M) -> Result<(), End>
+    where
+        M: FnOnce(Setup) -> Result<Opened, String>,
+    {
+        let Ok(Command::Open(setup)) = self.inbox.recv() else { return Ok(()) };
+        self.taken = 1;
+        let (mut renderer, info) = make(*setup).map_err(End::Failed)?;
+        self.tell(FromBackend::Ready(info), true)?;
+        let mut is_drawing = false;
+        loop {
+            match self.next(is_drawing)? {
+                Some(Command::Draw(frame)) => {
+                    renderer.restart(&frame)?;
+                    is_drawing = true;
+                }
+                Some(Command::Finish) => {
+                    renderer.finish()?;
+                    self.tell(FromBackend::Finished, true)?;
+                    is_drawing = false;
+                }
+                Some(Command::Open(_)) => return Err(End::Failed("it was set up twice".to_owned())),
+                None => is_drawing = !self.go_on(renderer.as_mut())?,
+            }
+        }
+    }
+
+    /// The next command; None where there is none and something to draw.
+    fn next(&mut self, is_drawing: bool) -> Result<Option<Command>, End> {
+        let command = match is_drawing {
+            true => self.inbox.try_recv(),
+            false => self.inbox.recv().map_err(|_| TryRecvError::Disconnected),
+        };
+        match command {
+            Ok(command) => {
+                self.taken += 1;
+                Ok(Some(command))
+            }
+            Err(TryRecvError::Empty) => Ok(None),
+            Err(TryRecvError::Disconnected) => Err(End::Dismissed),
+        }
+    }
+
+    /// Goes on with the frame until it is done, a command comes, or it is time for news. Whether it is done.
+    fn go_on(&self, renderer: &mut dyn Render) -> Result<bool, End> {
+        let since = Instant::now();
+        let has_command = || !self.inbox.is_empty() || self.is_over.load(Ordering::Relaxed);
+        let advance = renderer.advance(&|| has_command() || since.elapsed() > PROGRESS_INTERVAL)?;
+        let mut sent = Ok(());
+        renderer.present(&mut |image| {
+            if sent.is_ok() {
+                sent = self.tell(FromBackend::Image(image), false);
+            }
+        })?;
+        sent?;
+        self.tell(FromBackend::Progress { done: advance.done, total: advance.total }, false)?;
+        let Some(report) = advance.report else { return Ok(false) };
+        self.tell(FromBackend::Done(report), true)?;
+        Ok(true)
+    }
+
+    fn tell(&self, message: FromBackend, is_answer: bool) -> Result<(), End> {
+        let answered = if is_answer { self.taken } else { self.taken - 1 };
+        self.outbox.send(Reply::Message { message, answered }).map_err(|_| End::Dismissed)
+    }
+}
+
+/// What a panic says, as a sentence.
+pub(super) fn panic_sentence(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
+    format!("it panicked: {text}; this is a fault in lightloom, please report it with this line")
+}

@@ -1,0 +1,110 @@
+//! A frame that another takes the place of, while it is drawn.
+
+use crate::session_fixtures::{device, frame, report, setups};
+use crate::threads;
+use crate::worker::Opened;
+use crate::{Link, LinkError};
+use protocol::{
+    Advance, DrawError, FrameState, FromBackend, FromFrontend, ProjectorImage, Render, Setup, StopAsked,
+};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+/// Long against the thread switches and looks at the link between two messages.
+const TILE: Duration = Duration::from_millis(30);
+
+/// The numbers of the frames whose tiles were cast, in order.
+type Cast = Arc<Mutex<Vec<u32>>>;
+
+/// Casts a tile every 30 ms; frame 0 has so many that it takes minutes. It looks whether to stop every so many tiles.
+struct Slow {
+    frame: u32,
+    left: u32,
+    patience: u32,
+    cast: Cast,
+}
+
+impl Render for Slow {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        (self.frame, self.left) = (frame.index, if frame.index == 0 { 10_000 } else { 2 });
+        Ok(())
+    }
+
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
+        while self.left > 0 && !(self.left.is_multiple_of(self.patience) && stop()) {
+            std::thread::sleep(TILE);
+            self.cast.lock().unwrap().push(self.frame);
+            self.left -= 1;
+        }
+        let report = (self.left == 0).then(|| Box::new(report(self.frame, 0)));
+        Ok(Advance { done: 1, total: 1, lacking_bricks: 0, report })
+    }
+
+    fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        Ok(())
+    }
+}
+
+/// The next message of the only back-end that is no news of progress.
+fn answer(link: &mut dyn Link) -> FromBackend {
+    loop {
+        match link.receive(Duration::from_secs(20)) {
+            Ok((_, FromBackend::Progress { .. } | FromBackend::Hello(_))) => {}
+            Ok((_, message)) => return message,
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
+/// Tiles of frame 0 that were begun or done after frame 1 was sent.
+fn tiles_after_restart(patience: u32) -> usize {
+    let cast = Cast::default();
+    let seen = Arc::clone(&cast);
+    let open = move |_: Setup| -> Result<Opened, String> {
+        let slow = Slow { frame: 0, left: 0, patience, cast: Arc::clone(&cast) };
+        Ok((Box::new(slow), device()))
+    };
+    let mut link = threads::spawn(1, open).unwrap();
+    let send = |link: &mut threads::ThreadLink, message| link.send(0, &message).unwrap();
+    send(&mut link, FromFrontend::Setup(Box::new(setups(1).remove(0))));
+    assert_eq!(answer(&mut link), FromBackend::Ready(device()));
+    send(&mut link, FromFrontend::Frame(Box::new(frame(0))));
+    while seen.lock().unwrap().len() < 3 {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let before = seen.lock().unwrap().len();
+    send(&mut link, FromFrontend::Frame(Box::new(frame(1))));
+    assert_eq!(answer(&mut link), FromBackend::Done(Box::new(report(1, 0))));
+    send(&mut link, FromFrontend::Quit);
+    link.finish().unwrap();
+    let tiles = seen.lock().unwrap();
+    assert!(tiles.ends_with(&[1, 1]));
+    tiles[before..].iter().filter(|&&frame| frame == 0).count()
+}
+
+/// The tile that is being cast when the message is sent is finished; a second one may begin while the message travels.
+#[test]
+fn a_restart_reaches_a_back_end_that_is_busy_within_a_tile() {
+    let tiles = tiles_after_restart(1);
+    assert!(tiles <= 2, "{tiles}");
+    let canary = tiles_after_restart(10);
+    assert!(canary > 2, "a renderer that seldom looks whether to stop would pass: {canary}");
+}
+
+#[test]
+fn a_busy_back_end_quits_within_a_tile() {
+    let cast = Cast::default();
+    let seen = Arc::clone(&cast);
+    let open = move |_: Setup| -> Result<Opened, String> {
+        Ok((Box::new(Slow { frame: 0, left: 0, patience: 1, cast: Arc::clone(&cast) }), device()))
+    };
+    let mut link = threads::spawn(1, open).unwrap();
+    link.send(0, &FromFrontend::Setup(Box::new(setups(1).remove(0)))).unwrap();
+    link.send(0, &FromFrontend::Frame(Box::new(frame(0)))).unwrap();
+    while seen.lock().unwrap().is_empty() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    link.send(0, &FromFrontend::Quit).unwrap();
+    assert_eq!(link.finish(), Ok::<(), LinkError>(()));
+    assert!(seen.lock().unwrap().len() < 10);
+}

@@ -1,0 +1,86 @@
+//! A display of no projectors, a frame and a report, for the tests of sessions.
+
+use display_config::Display;
+use glam::{DAffine3, DVec3};
+use optics::{Curve, ExtinctionUnit, Optics, Quality};
+use protocol::{
+    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, Pace, RendererOptions, Setup, Stages,
+    VolumeRef,
+};
+
+pub(crate) fn setups(count: u32) -> Vec<Setup> {
+    let display = Display {
+        name: "fake".to_owned(),
+        width_m: 1.0,
+        height_m: 1.0,
+        pixel_size_m: 1e-3,
+        angular_accuracy: 0.01,
+        observer_in_display: DVec3::Z,
+        eta: 1.0,
+        projectors: Vec::new(),
+    };
+    let options = |backend| RendererOptions {
+        display: display.clone(),
+        projectors: vec![backend],
+        backend,
+        device: DeviceChoice::Cpu,
+        filter: FilterChoice::Exact,
+        cache_bytes: 0,
+    };
+    let volume = || VolumeRef::Store("fake.lloom".into());
+    let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };
+    (0..count).map(setup).collect()
+}
+
+pub(crate) fn frame(index: u32) -> FrameState {
+    FrameState {
+        index,
+        time_s: 0.0,
+        observer_in_display: DVec3::Z,
+        eta: 1.0,
+        display_from_volume: DAffine3::IDENTITY,
+        optics: Optics {
+            domain: (0.0, 1.0),
+            extinction: Curve::constant(1.0),
+            extinction_unit: ExtinctionUnit::PerMetre,
+            colour: Curve::constant(DVec3::ONE),
+            mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
+        },
+        light: None,
+        quality: Quality::default(),
+        tool: None,
+        pace: Pace::Complete,
+        debug: None,
+    }
+}
+
+pub(crate) fn report(frame: u32, backend: u32) -> FrameReport {
+    FrameReport {
+        frame,
+        backend,
+        projectors: vec![backend],
+        rays: 1,
+        samples: 1,
+        bricks_wanted: 0,
+        bricks_resident: 0,
+        bricks_loaded: 0,
+        bytes_loaded: 0,
+        working_set_union: 0,
+        working_set_sum: 0,
+        complete: true,
+        shortfall: String::new(),
+        upkeep: None,
+        damaged_bricks: 0,
+        damaged: Vec::new(),
+        stages: Stages::default(),
+        total_ms: 0.0,
+    }
+}
+
+pub(crate) fn device() -> DeviceInfo {
+    let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
+    DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 }
+}
