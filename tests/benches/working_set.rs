@@ -51,7 +51,8 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
         let node = set.cut().node(*place);
         node.shown_child().is_none() && shape.contains(node.key)
     };
-    let met: Vec<Feedback> = set.cut()
+    let met: Vec<Feedback> = set
+        .cut()
         .walk_shown()
         .filter(leaf)
         .map(|place| Feedback::met(set.cut().node(place).key, place % 97))

@@ -2,7 +2,10 @@
 
 use bricks::BrickSource;
 use display_config::Display;
-use protocol::{DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, RendererOptions};
+use protocol::{
+    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent,
+    RendererOptions,
+};
 use renderer::Renderer;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

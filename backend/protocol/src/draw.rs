@@ -87,23 +87,3 @@ pub trait Render {
         Ok(())
     }
 }
-
-/// Draws a whole frame without leaving off.
-///
-/// # Errors
-/// Those of the renderer.
-pub fn draw_whole(
-    renderer: &mut dyn Render,
-    frame: &FrameState,
-    sink: &mut dyn FnMut(RenderEvent),
-) -> Result<FrameReport, DrawError> {
-    renderer.restart(frame)?;
-    loop {
-        let Advance { done, total, report, .. } = renderer.advance(&|| false)?;
-        renderer.present(&mut |image| sink(RenderEvent::Image(image)))?;
-        sink(RenderEvent::Progress { done, total });
-        if let Some(report) = report {
-            return Ok(*report);
-        }
-    }
-}

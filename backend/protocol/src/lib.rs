@@ -8,7 +8,7 @@ mod report;
 mod setup;
 pub mod wire;
 
-pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked, draw_whole};
+pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
 pub use frame::{FrameState, Pace, Tool, ToolKind};
 pub use image::ProjectorImage;
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};

@@ -5,7 +5,9 @@ use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, ExtinctionUnit, Optics, Quality};
 use protocol::{
-    Advance, DeviceChoice, DeviceInfo, Draw, DrawError, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace, ProjectorImage, Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked, VolumeRef, wire,
+    Advance, DeviceChoice, DeviceInfo, Draw, DrawError, FilterChoice, FrameReport, FrameState, FromBackend,
+    FromFrontend, Pace, ProjectorImage, Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked,
+    VolumeRef, wire,
 };
 
 use signal_hook::{consts::SIGKILL, low_level::raise};
@@ -129,7 +131,10 @@ pub fn open(setup: Setup) -> Result<Opened, String> {
         cache_bytes: 1 << 20,
     };
     let Setup { options, .. } = setup;
-    Ok((Box::new(Fake { backend: options.backend, width: options.cache_bytes as u32, frame: 0, step: 0 }), info))
+    Ok((
+        Box::new(Fake { backend: options.backend, width: options.cache_bytes as u32, frame: 0, step: 0 }),
+        info,
+    ))
 }
 
 fn setups(count: usize, width: u32) -> Vec<Setup> {

@@ -62,12 +62,7 @@ impl<'a> Darkroom<'a> {
         Ok(shot)
     }
 
-    fn draw(
-        &self,
-        source: &mut dyn Draw,
-        frame: &FrameState,
-        name: &str,
-    ) -> Result<Shot, FrontendError> {
+    fn draw(&self, source: &mut dyn Draw, frame: &FrameState, name: &str) -> Result<Shot, FrontendError> {
         let started = Instant::now();
         let views = EyeViews::new(&self.gallery.display, &self.gallery.eyes);
         let mut failure: Option<OutputError> = None;

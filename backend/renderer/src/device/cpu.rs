@@ -2,9 +2,9 @@
 
 use super::job::ViewJob;
 use super::under_way::UnderWay;
-use super::{CastJob, CastOutcome, DeviceError, Gather};
+use super::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
 use bricks::BRICK_VOXELS;
-use layout::{FeedbackEntry, NodeRecord};
+use layout::NodeRecord;
 use rayon::prelude::*;
 use shaders::tables::Tables;
 use shaders::twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixel};
@@ -21,7 +21,7 @@ pub struct CpuDevice {
     /// What the casts of this frame have told.
     frame_feedback: Vec<FeedbackCell>,
     /// The tables of earlier frames, which are there at once.
-    tables_of_frames: UnderWay<Vec<FeedbackEntry>>,
+    tables_of_frames: UnderWay<TaggedFeedback>,
 }
 
 /// The rays of one tile.
@@ -54,7 +54,7 @@ impl CpuDevice {
         self.nodes = nodes.to_vec();
         self.cells = cells.to_vec();
         // What was gathered says nothing of another index.
-        self.begin_feedback();
+        self.clear_feedback();
     }
 
     pub(super) fn write_tables(&mut self, tables: Tables) {
@@ -77,9 +77,13 @@ impl CpuDevice {
         };
         self.pictures.resize_with(self.pictures.len().max(job.first_picture + job.views.len()), Vec::new);
         let mut outcome = CastOutcome::nothing(job);
-        for (index, view) in job.view_jobs() {
-            let casts: Vec<TileCasts> =
-                view.tiles.par_iter().map(|&tile| cast_tile(&casting, &view, tile)).collect();
+        for (index, mut view) in job.view_jobs() {
+            let cast = |&tile: &u32| (!(job.stop)()).then(|| cast_tile(&casting, &view, tile));
+            let casts: Vec<Option<TileCasts>> = view.tiles.par_iter().map(cast).collect();
+            let (left, cast) = part(&view.tiles, &casts);
+            outcome.left[index] = left;
+            view.tiles = cast.into();
+            let casts: Vec<TileCasts> = casts.into_iter().flatten().collect();
             put_down(&casts, &view, &mut self.pictures[view.picture]);
             outcome.rays += casts.iter().map(|casts| casts.len() as u64).sum::<u64>();
             if job.has_counts() {
@@ -94,25 +98,36 @@ impl CpuDevice {
         Ok(outcome)
     }
 
-    pub(super) fn begin_feedback(&mut self) {
+    pub(super) fn clear_feedback(&mut self) {
         self.frame_feedback = no_feedback(&self.nodes);
     }
 
-    pub(super) fn end_feedback(&mut self) {
-        self.tables_of_frames.start(self.frame_feedback.iter().map(FeedbackCell::entry).collect());
+    pub(super) fn end_feedback(&mut self, tag: FeedbackTag) {
+        self.tables_of_frames.start((tag, self.frame_feedback.iter().map(FeedbackCell::entry).collect()));
     }
 
-    pub(super) fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub(super) fn take_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
         Ok(self.tables_of_frames.take(|_| true))
     }
 
-    pub(super) fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub(super) fn wait_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
         self.take_feedback()
+    }
+
+    pub(super) fn has_feedback_under_way(&self) -> bool {
+        !self.tables_of_frames.is_empty()
     }
 
     pub(super) fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
         Ok(self.pictures[index].clone())
     }
+}
+
+/// The tiles that were left, and those that were cast.
+fn part(tiles: &[u32], casts: &[Option<TileCasts>]) -> (Vec<u32>, Vec<u32>) {
+    let (cast, left): (Vec<_>, Vec<_>) = tiles.iter().zip(casts).partition(|(_, cast)| cast.is_some());
+    let tiles = |list: Vec<(&u32, _)>| list.into_iter().map(|(&tile, _)| tile).collect();
+    (tiles(left), tiles(cast))
 }
 
 /// Puts the colours of rays into their view's picture.

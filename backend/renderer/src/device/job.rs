@@ -1,6 +1,7 @@
 //! One cast: which rays, with which kernel, and what they found.
 
 use layout::{FeedbackEntry, TILE_EDGE};
+use protocol::StopAsked;
 use shaders::compose::Needs;
 use shaders::twin::{ProjectorRays, SceneNumbers};
 use std::borrow::Cow;
@@ -66,12 +67,20 @@ pub enum Part<'a> {
         /// Pixels between cast rays: 1 casts them all.
         stride: u32,
     },
-    /// All pixels of some tiles, which are listed view by view; stride 1.
-    Tiles(&'a [Vec<u32>]),
+    /// The same of some tiles.
+    Tiles {
+        /// Pixels between cast rays.
+        stride: u32,
+        /// View by view.
+        tiles: &'a [Vec<u32>],
+    },
 }
 
+/// A cast that is not to be left off.
+pub const NEVER: StopAsked = &|| false;
+
 /// One cast: the same scene for some projectors.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct CastJob<'a> {
     /// The scene, in f32.
     pub scene: &'a SceneNumbers<f32>,
@@ -87,6 +96,8 @@ pub struct CastJob<'a> {
     pub gather: Gather,
     /// Whether to count samples and list missing tiles (full-resolution casts only; makes a GPU cast blocking).
     pub counts: bool,
+    /// Asked before each tile whether to leave the others; a GPU asks before each batch of tiles.
+    pub stop: StopAsked<'a>,
 }
 
 /// What a cast casts of one view.
@@ -117,16 +128,16 @@ impl CastJob<'_> {
                 let grid = TileGrid::new(width, height, stride);
                 ViewJob { picture, rays, grid, tiles: (0..grid.count()).collect() }
             }
-            Part::Tiles(tiles) => {
+            Part::Tiles { stride, tiles } => {
                 let tiles = tiles.get(index).map_or(&[][..], Vec::as_slice);
-                ViewJob { picture, rays, grid: TileGrid::new(width, height, 1), tiles: tiles.into() }
+                ViewJob { picture, rays, grid: TileGrid::new(width, height, stride), tiles: tiles.into() }
             }
         }
     }
 
     /// Whether samples are counted and missing tiles listed.
     pub(super) fn has_counts(&self) -> bool {
-        self.counts && !matches!(self.part, Part::Every { stride: 2.. })
+        self.counts && matches!(self.part, Part::Every { stride: 1 } | Part::Tiles { stride: 1, .. })
     }
 }
 
@@ -152,6 +163,8 @@ pub struct CastOutcome {
     pub feedback: Vec<FeedbackEntry>,
     /// View by view, the tiles of which a ray met a node that is too coarse; empty where they were not asked for.
     pub missing_tiles: Vec<Vec<u32>>,
+    /// View by view, the tiles that were left.
+    pub left: Vec<Vec<u32>>,
     /// Rays cast.
     pub rays: u64,
     /// Samples taken; 0 where they were not asked for.
@@ -162,7 +175,8 @@ impl CastOutcome {
     /// Before anything is found.
     pub(super) fn nothing(job: &CastJob) -> Self {
         let lists = if job.has_counts() { job.views.len() } else { 0 };
-        Self { missing_tiles: vec![Vec::new(); lists], ..Self::default() }
+        let left = vec![Vec::new(); job.views.len()];
+        Self { missing_tiles: vec![Vec::new(); lists], left, ..Self::default() }
     }
 }
 

@@ -5,16 +5,16 @@ mod cpu;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod job;
+mod tag;
 mod under_way;
 
 pub(crate) use choose::slots_within;
 pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
-pub use job::{CastJob, CastOutcome, Gather, Part, TileGrid};
+pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, TileGrid};
+pub use tag::{FeedbackTag, TaggedFeedback};
 
-pub(crate) use under_way::MOST_UNDER_WAY;
-
-use layout::{FeedbackEntry, NodeRecord};
+use layout::NodeRecord;
 use shaders::tables::Tables;
 
 /// Why a device cannot go on: one sentence.
@@ -74,22 +74,26 @@ impl Device {
 
     /// From now on the casts that gather for the frame ([`Gather::Frame`]) add to an empty table. An index that is
     /// written meanwhile empties it again: places mean other nodes then.
-    pub fn begin_feedback(&mut self) {
-        on_device!(self, device => device.begin_feedback());
+    pub fn clear_feedback(&mut self) {
+        on_device!(self, device => device.clear_feedback());
     }
 
-    /// The frame's table is complete: starts it on its way to the host, and waits for nothing. Of the tables that nobody
-    /// takes only the latest few are kept.
-    pub fn end_feedback(&mut self) {
-        on_device!(self, device => device.end_feedback());
+    /// The frame's table is complete: starts it on its way to the host, with the tag, and waits for nothing. Of the tables
+    /// that nobody takes only the latest few are kept.
+    pub fn end_feedback(&mut self, tag: FeedbackTag) {
+        on_device!(self, device => device.end_feedback(tag));
     }
 
-    /// The oldest table that is under way, one entry per place of the index that its frame was cast with; None where
-    /// there is none, or it has not arrived. It never waits.
+    /// Whether any table is under way.
+    pub fn has_feedback_under_way(&self) -> bool {
+        on_device!(self, device => device.has_feedback_under_way())
+    }
+
+    /// The oldest table that is under way; None where there is none, or it has not arrived. It never waits.
     ///
     /// # Errors
     /// The device stopped answering.
-    pub fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub fn take_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
         on_device!(self, device => device.take_feedback())
     }
 
@@ -97,12 +101,12 @@ impl Device {
     ///
     /// # Errors
     /// The device stopped answering.
-    pub fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub fn wait_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
         on_device!(self, device => device.wait_feedback())
     }
 
-    /// Casts the rays of some views; their colours stay on the device, a picture per view. Where neither feedback nor
-    /// counts are asked of it, a GPU casts on while this returns.
+    /// Casts the rays of some views; their colours stay on the device, a picture per view. It returns when they
+    /// are, or when it has been asked to leave off.
     ///
     /// # Errors
     /// The device stopped answering.

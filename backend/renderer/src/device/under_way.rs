@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 /// Tables that may be under way: one that is read, one that is copied, and one to spare.
-pub(crate) const MOST_UNDER_WAY: usize = 3;
+const MOST_UNDER_WAY: usize = 3;
 
 /// Tables under way, in the order of their frames.
 #[derive(Debug)]
@@ -25,6 +25,11 @@ impl<T> UnderWay<T> {
             self.tables.pop_front();
         }
         self.tables.push_back(table);
+    }
+
+    /// Whether nothing is under way.
+    pub(super) fn is_empty(&self) -> bool {
+        self.tables.is_empty()
     }
 
     /// The oldest table, where it has arrived; later ones are not looked at before.

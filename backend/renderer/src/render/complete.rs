@@ -4,10 +4,10 @@
 //! fetches most of what is needed; then every pixel is cast, and again the tiles that missed something.
 
 use super::account::milliseconds;
+use super::feedback::{feedback_of, keys_of};
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use super::{RenderError, Renderer};
-use crate::device::FeedbackTag;
 use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
@@ -72,20 +72,20 @@ impl Complete {
         if self.view == work.setting.views.len() {
             return Ok(Some(self.report(work, renderer)));
         }
-        let met = if self.is_in_round { Vec::new() } else { self.learn(work, renderer)? };
+        let met = if self.is_in_round { Vec::new() } else { self.learn(work, renderer) };
         self.is_in_round = true;
         let Some(has_changed) = self.round(work, renderer, &met, stop)? else { return Ok(None) };
         self.is_in_round = false;
         match self.stage {
-            Stage::Begun => self.cast(work, renderer, Stage::Looking, None),
-            Stage::Looking if has_changed => self.cast(work, renderer, Stage::Looking, None),
-            Stage::Looking => self.cast(work, renderer, Stage::Casting, None),
+            Stage::Begun => self.cast(work, Stage::Looking, None),
+            Stage::Looking if has_changed => self.cast(work, Stage::Looking, None),
+            Stage::Looking => self.cast(work, Stage::Casting, None),
             Stage::Casting if has_changed && self.hides_something(renderer) => {
-                self.cast(work, renderer, Stage::Casting, None);
+                self.cast(work, Stage::Casting, None);
             }
             Stage::Casting if has_changed => {
                 let missing = work.missing.pop().unwrap_or_default();
-                self.cast(work, renderer, Stage::Casting, Some(missing));
+                self.cast(work, Stage::Casting, Some(missing));
             }
             Stage::Casting => self.end_view(work, renderer),
         }
@@ -93,20 +93,16 @@ impl Complete {
     }
 
     /// What the rays of the cast found; of a view that has just begun, nothing.
-    fn learn(&mut self, work: &mut Work, renderer: &mut Renderer) -> Result<Vec<Feedback>, RenderError> {
+    fn learn(&mut self, work: &Work, renderer: &mut Renderer) -> Vec<Feedback> {
         if self.stage == Stage::Begun {
             renderer.set.begin_view(work.frame.time_s);
-            return Ok(Vec::new());
+            return Vec::new();
         }
-        let started = Instant::now();
-        renderer.device.end_feedback();
-        let found = renderer.device.wait_feedback()?;
-        work.account.stages.cast_ms += milliseconds(started);
-        let met = found.map(|(tag, table)| tag.feedback(&table)).unwrap_or_default();
+        let met = feedback_of(&keys_of(renderer.set.cut()), &work.found);
         if self.stage == Stage::Casting {
             self.sampled.extend(met.iter().map(|met| met.key));
         }
-        Ok(met)
+        met
     }
 
     /// Steps the working set until it is at rest. Whether rays see anything else then; None where `stop` asked to leave off
@@ -155,16 +151,15 @@ impl Complete {
     }
 
     /// Casts few rays, all, or some tiles again.
-    fn cast(&mut self, work: &mut Work, renderer: &mut Renderer, stage: Stage, tiles: Option<Vec<u32>>) {
+    fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<u32>>) {
         self.stage = stage;
         let views = self.view..self.view + 1;
         let stride = if stage == Stage::Looking { COARSE_STRIDE } else { 1 };
-        work.pending = Pending::all(&work.setting, views, stride);
+        let mut pending = Pending::all(&work.setting, views, stride);
         if let Some(tiles) = tiles {
-            work.pending.tiles = vec![tiles];
+            pending.tiles = vec![tiles];
         }
-        work.missing.clear();
-        renderer.device.begin_feedback(FeedbackTag::of(renderer.set.cut()));
+        work.begin_cast(pending);
     }
 
     /// Whether a node that rays of this view sampled has made room for others: then any tile may look otherwise.

@@ -1,20 +1,22 @@
 //! Laws of damaged bricks: they are named, drawn from their parents, and nothing else changes.
 
+use super::Renderer;
 use super::rules::FrameRules;
 use super::test_scene::{Pictures, display, draw, frame, renderer};
 use super::views::{ProjectorView, scene_numbers, views};
-use super::*;
-use crate::device::{CastJob, CpuDevice, Gather, Part};
+use crate::device::{CastJob, CpuDevice, Device, Gather, NEVER, Part};
 use crate::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle};
 use bricks::LodRule;
 use bricks::is_shown;
 use bricks::procedural::ProceduralVolume;
 use bricks::volume::VolumeFrame;
-use bricks::{Brick, CellRanges, Codes, NodeKey, NodeSummary, OctreeShape};
+use bricks::{Brick, BrickError, BrickSource, CellRanges, Codes, NodeKey, NodeSummary, OctreeShape};
 use glam::{DVec3, UVec3};
+use protocol::FrameState;
 use reference::{Integrator, Reference};
 use shaders::compose::Needs;
 use shaders::tables::Tables;
+use std::sync::Arc;
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -132,7 +134,16 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         let (views, part) = (std::slice::from_ref(&view.rays), Part::Every { stride: 1 });
         let (gather, counts) = (Gather::Own, true);
         device
-            .cast(&CastJob { scene: &scene, views, first_picture: 0, needs, part, gather, counts })
+            .cast(&CastJob {
+                scene: &scene,
+                views,
+                first_picture: 0,
+                needs,
+                part,
+                gather,
+                counts,
+                stop: NEVER,
+            })
             .unwrap();
         device.picture(0).unwrap()
     };
@@ -157,9 +168,9 @@ fn largest_error(picture: &[f32], frame: &FrameState, reference: &Reference) -> 
 /// Bricks that the cut of a renderer holds: each has a slot, and no slot is held by nothing.
 #[track_caller]
 fn assert_no_slot_is_lost(renderer: &Renderer) {
-    let cut = &renderer.residency.set.cut;
+    let cut = renderer.set.cut();
     let held = cut.walk().filter(|&place| cut.node(place).brick.is_some()).count();
-    assert_eq!(renderer.residency.resident(), held as u64);
+    assert_eq!(renderer.set.slots().used(), held as u64);
 }
 
 #[test]
@@ -247,5 +258,5 @@ fn without_the_root_there_is_no_picture() {
         assert!(error.contains("of shells.lloom is spoiled"), "{error}");
     }
     assert_eq!(source.asked(), [NodeKey::ROOT]);
-    assert_eq!(renderer.residency.resident(), 0);
+    assert_eq!(renderer.set.slots().used(), 0);
 }

@@ -1,13 +1,15 @@
 //! A live frame: one round that shows what there is, and asks for what later frames will show.
 
 use super::account::milliseconds;
-use super::recording::Recording;
+use super::feedback::{feedback_of, keys_of};
+use super::rules::FrameRules;
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use super::{RenderError, Renderer};
 use crate::device::FeedbackTag;
 use crate::working_set::{Feedback, Moment, Shortfall, Showing, most_in_flight};
 use bricks::{LodRule, NodeKey};
+use layout::FeedbackEntry;
 use protocol::{FrameReport, FrameState, Pace, Upkeep};
 use std::time::Instant;
 
@@ -45,11 +47,9 @@ impl LiveFrame {
         renderer.take_feedback()?;
         self.is_still = renderer.live.enter(&work.frame);
         self.upkeep = Some(self.keep_up(work, renderer)?);
-        let tag = FeedbackTag::of(renderer.set.cut()).with_frame(&work.frame, renderer.live.now_s(&work.frame));
         renderer.recording.begin()?;
-        renderer.device.begin_feedback(tag);
-        work.missing.clear();
-        work.pending = Pending::all(&work.setting, 0..work.setting.views.len(), 1);
+        renderer.device.clear_feedback();
+        work.begin_cast(Pending::all(&work.setting, 0..work.setting.views.len(), 1));
         Ok(None)
     }
 
@@ -59,7 +59,7 @@ impl LiveFrame {
         let before = renderer.live.before(renderer);
         let Renderer { set, stock, shelf, device, live, .. } = renderer;
         stock.damage.start_frame();
-        let mut rules = work.setting.rules(&work.frame);
+        let rules = work.setting.rules(&work.frame);
         let (shape, source) = (stock.shape, std::sync::Arc::clone(&stock.source));
         let summary = |key| source.summary(key);
         let moment = Moment {
@@ -78,17 +78,16 @@ impl LiveFrame {
         let cancelled = clerk.cancelled;
         clerk.settle_up(&mut work.account, milliseconds(started))?;
         let blends = rules.blends || (work.frame.quality.blended && set.blends());
-        let moment = Moment { rules: moment.rules, ..moment };
         let stages = &mut work.account.stages;
-        let shown = super::rules::FrameRules { blends, ..rules };
-        rules.blends = blends;
-        shelf.write_live(set, &moment, &shown, device, stages);
+        shelf.write_live(set, &moment, &FrameRules { blends, ..rules }, device, stages);
         let update_ms = stages.refine_ms - refined_before;
         Ok(Upkeep { cancelled, update_ms, ..renderer.upkeep() })
     }
 
     fn end(&self, work: &mut Work, renderer: &mut Renderer, upkeep: Upkeep) -> FrameReport {
-        renderer.device.end_feedback();
+        let time_s = renderer.live.now_s(&work.frame);
+        let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
+        renderer.device.end_feedback(FeedbackTag { keys: keys_of(renderer.set.cut()), frame });
         work.account.done = work.account.total;
         work.finals.extend(work.setting.views.iter().map(|view| view.projector));
         let report = self.report(work, renderer, upkeep);
@@ -141,7 +140,7 @@ impl Renderer {
     /// Takes in what rays found whose tables have arrived; waits for none.
     fn take_feedback(&mut self) -> Result<(), RenderError> {
         while let Some((tag, table)) = self.device.take_feedback()? {
-            self.learn(&tag, tag.feedback(&table))?;
+            self.learn(&tag, &table)?;
         }
         self.live.is_fresh = self.live.last.is_some() && !self.device.has_feedback_under_way();
         Ok(())
@@ -150,17 +149,15 @@ impl Renderer {
     /// Waits for what rays of the latest frames found: none will follow.
     pub(super) fn take_last_feedback(&mut self) -> Result<(), RenderError> {
         while let Some((tag, table)) = self.device.wait_feedback()? {
-            self.learn(&tag, tag.feedback(&table))?;
+            self.learn(&tag, &table)?;
         }
         Ok(())
     }
 
-    fn learn(&mut self, tag: &FeedbackTag, met: Vec<Feedback>) -> Result<(), RenderError> {
-        if let Some(frame) = &tag.frame {
-            self.live.met = met;
-            self.recording.add(frame, self.live.met.iter().map(|met| (met.key, met.rays)))?;
-        }
-        Ok(())
+    fn learn(&mut self, tag: &FeedbackTag, table: &[FeedbackEntry]) -> Result<(), RenderError> {
+        self.live.met = feedback_of(&tag.keys, table);
+        let sampled = self.live.met.iter().map(|met| (met.key, met.rays));
+        tag.frame.as_ref().map_or(Ok(()), |frame| self.recording.add(frame, sampled))
     }
 
     /// A complete frame follows live ones: what is on its way to these is taken in, and they begin anew. The cache stays.
@@ -192,7 +189,9 @@ impl Renderer {
 /// Bytes of bricks that a live frame may move to the device, and the time of a fade, seconds.
 fn limits(frame: &FrameState) -> (u64, f64) {
     match frame.pace {
-        Pace::Live { upload_bytes, fade_s } => (upload_bytes, if frame.quality.blended { fade_s } else { 0.0 }),
+        Pace::Live { upload_bytes, fade_s } => {
+            (upload_bytes, if frame.quality.blended { fade_s } else { 0.0 })
+        }
         Pace::Complete => (u64::MAX, 0.0),
     }
 }

@@ -12,6 +12,7 @@ mod damage;
 #[cfg(test)]
 mod damage_tests;
 mod error;
+mod feedback;
 #[cfg(test)]
 mod interrupt_tests;
 mod live;
@@ -35,4 +36,3 @@ mod work;
 
 pub use error::RenderError;
 pub use renderer::Renderer;
-pub use views::view_of;

@@ -1,7 +1,7 @@
 //! Live frames record what rays asked for, and a replay follows them.
 
 use super::Renderer;
-use super::test_scene::{draw, frame, setup};
+use super::test_scene::{draw, frame, options, renderer};
 use crate::working_set::{
     DiskModel, FetchOrder, Policy, ReplayVolume, ReplayedFrame, TraceHeader, TraceReader, TracedFrame, replay,
 };
@@ -10,8 +10,8 @@ use bricks::volume::VolumeFrame;
 use bricks::{Brick, BrickError, BrickSource, NodeKey, NodeSummary, OctreeShape};
 use glam::UVec3;
 use optics::Quality;
-use protocol::{FrameReport, FrameState, Pace, Setup};
-use std::path::Path;
+use protocol::{FrameReport, FrameState, Pace, VolumeRef};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -58,14 +58,20 @@ fn live(index: u32) -> FrameState {
     FrameState { index, time_s, pace, quality: Quality::default(), ..frame(0.3) }
 }
 
+/// A renderer that writes a trace.
+fn recorder(path: PathBuf) -> Renderer {
+    let mut renderer = renderer(source());
+    renderer.record(path, &VolumeRef::Store("given by the test".into()));
+    renderer
+}
+
 /// Draws live frames, each when all that the one before asked for has been read.
 fn record(path: &Path) -> (Renderer, Vec<FrameReport>) {
-    let setup = Setup { trace: Some(path.to_owned()), ..setup() };
-    let mut renderer = Renderer::new(&setup, source()).unwrap().0;
+    let mut renderer = recorder(path.to_owned());
     let mut reports = Vec::new();
     for index in 0..FRAMES {
         reports.push(draw(&mut renderer, &live(index)).unwrap().1);
-        while !renderer.residency.loader.is_idle() {
+        while !renderer.stock.loader.is_idle() {
             std::thread::sleep(Duration::from_millis(1));
         }
     }
@@ -107,7 +113,7 @@ fn a_replay_by_the_recording_s_own_policy_follows_its_deficits() {
     let volume = ReplayVolume { summary: &summary, brick_bytes: 65536 };
     let disk = DiskModel { bytes_per_s: f64::INFINITY, latency_s: 1e-3, threads: 64 };
     let policy = Policy {
-        cache_bytes: setup().cache_bytes,
+        cache_bytes: options().cache_bytes,
         upload_bytes: UPLOAD_BYTES,
         disk,
         fade_s: FADE_S,
@@ -137,8 +143,7 @@ fn a_trace_that_cannot_be_written_is_told_in_a_sentence() {
     std::fs::write(path.join("in the way"), "").unwrap();
     let error = record(&path).0.finish().unwrap_err().to_string();
     assert!(error.starts_with("cannot write trace ") && error.contains("a.trace"), "{error}");
-    let setup = Setup { trace: Some(folder.path().join("no/such/folder/a.trace")), ..setup() };
-    let mut renderer = Renderer::new(&setup, source()).unwrap().0;
+    let mut renderer = recorder(folder.path().join("no/such/folder/a.trace"));
     let error = draw(&mut renderer, &live(0)).map(drop).unwrap_err().to_string();
     assert!(error.starts_with("cannot write trace "), "{error}");
 }
@@ -146,8 +151,7 @@ fn a_trace_that_cannot_be_written_is_told_in_a_sentence() {
 #[test]
 fn complete_frames_are_not_recorded() {
     let folder = tempfile::tempdir().unwrap();
-    let setup = Setup { trace: Some(folder.path().join("a.trace")), ..setup() };
-    let mut renderer = Renderer::new(&setup, source()).unwrap().0;
+    let mut renderer = recorder(folder.path().join("a.trace"));
     draw(&mut renderer, &frame(0.3)).unwrap();
     renderer.finish().unwrap();
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);

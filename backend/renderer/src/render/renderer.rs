@@ -16,7 +16,7 @@ use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
     Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
-    RendererOptions, StopAsked, VolumeRef, draw_whole,
+    RendererOptions, StopAsked, VolumeRef,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -70,6 +70,14 @@ impl Renderer {
         self.recording = Recording::new(path, volume, &self.stock.shape, &self.options.display);
     }
 
+    /// Runs this WGSL (entry point `cast_tile`, bindings as composed) in place of the composed kernels, whatever a frame
+    /// needs: for benchmarks that measure what composition costs. False on a device that runs no WGSL.
+    #[cfg(feature = "gpu")]
+    #[doc(hidden)]
+    pub fn substitute_kernel(&mut self, wgsl: &str) -> bool {
+        self.device.substitute_kernel(wgsl)
+    }
+
     /// Draws one whole frame: until nothing is missing, or with what there is, as its pace says.
     ///
     /// # Errors
@@ -96,11 +104,11 @@ impl Renderer {
     /// The frame does not fit the display, or its numbers are out of bounds; nothing has changed then but that the frame
     /// before is dropped.
     pub fn restart(&mut self, frame: &FrameState) -> Result<(), RenderError> {
-        self.drop_work();
+        self.work = None;
         check(frame)?;
         let frame = self.in_reach(frame);
         let setting = Setting::new(self, &frame)?;
-        self.device.write_tables_if_new(&mut self.tables);
+        self.tables.write_if_new(&mut self.device);
         let account = Account::new(setting.rays());
         let course = match frame.pace {
             Pace::Complete => Course::Complete(Complete::default()),
@@ -117,11 +125,7 @@ impl Renderer {
     /// The root's brick or the device fails. The frame is dropped.
     pub fn advance(&mut self, stop: StopAsked) -> Result<Advance, RenderError> {
         let Some(mut work) = self.work.take() else { return Ok(Advance::default()) };
-        let gone_on = work.go_on(self, stop);
-        if gone_on.is_err() {
-            self.device.end_feedback();
-        }
-        gone_on?;
+        work.go_on(self, stop)?;
         let report = work.report();
         let (done, total) = work.rays();
         self.work = Some(work);
@@ -141,6 +145,12 @@ impl Renderer {
         let [width, height] = work.setting.rays[view].raster;
         let rgba = self.device.picture(work.picture_of(view))?;
         Ok(Some(ProjectorImage { projector, width, height, rgba }))
+    }
+
+    /// Rays of the present frame that have been cast, repeated ones counted again.
+    #[cfg(test)]
+    pub(super) fn rays_cast(&self) -> u64 {
+        self.work.as_ref().map_or(0, |work| work.account.rays)
     }
 
     /// Hands over the pictures that have become final since it was last called.
@@ -165,15 +175,9 @@ impl Renderer {
     /// # Errors
     /// The device fails, or the trace cannot be written.
     pub fn finish(&mut self) -> Result<(), RenderError> {
-        self.drop_work();
+        self.work = None;
         self.take_last_feedback()?;
         self.recording.finish()
-    }
-
-    fn drop_work(&mut self) {
-        if self.work.take().is_some_and(|work| !work.is_done()) {
-            self.device.end_feedback();
-        }
     }
 
     /// The frame without enhancers that the volume is out of reach of: tools cost nothing while nobody holds them to the
@@ -211,7 +215,7 @@ impl Draw for Renderer {
         frame: &FrameState,
         sink: &mut dyn FnMut(RenderEvent),
     ) -> Result<Vec<FrameReport>, DrawError> {
-        Ok(vec![draw_whole(self, frame, sink)?])
+        Ok(vec![Self::draw(self, frame, sink)?])
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

@@ -3,6 +3,7 @@
 use super::rules::FrameRules;
 use super::views::{scene_numbers, views};
 use super::{RenderError, Renderer};
+use crate::device::Device;
 use bricks::LodRule;
 use optics::Optics;
 use protocol::FrameState;
@@ -78,7 +79,7 @@ impl Setting {
 pub(super) struct TableCache {
     made: Option<(Optics, Needs, Arc<Tables>)>,
     /// Whether the device has other ones.
-    pub(super) is_new: bool,
+    is_new: bool,
 }
 
 impl TableCache {
@@ -97,8 +98,15 @@ impl TableCache {
         tables
     }
 
-    /// The tables that were asked for last.
-    pub(super) fn latest(&self) -> Option<&Arc<Tables>> {
+    fn latest(&self) -> Option<&Arc<Tables>> {
         self.made.as_ref().map(|(_, _, tables)| tables)
+    }
+
+    /// Writes the tables that were asked for last, where the device has others.
+    pub(super) fn write_if_new(&mut self, device: &mut Device) {
+        if let Some(tables) = self.latest().filter(|_| self.is_new) {
+            device.write_tables(Tables::clone(tables));
+            self.is_new = false;
+        }
     }
 }

@@ -164,7 +164,6 @@ impl Shelf {
     }
 
     /// Writes the index, where it may be another one than the device has.
-    #[expect(clippy::too_many_arguments, reason = "two callers that differ in two of them")]
     fn write(
         &mut self,
         set: &WorkingSet,

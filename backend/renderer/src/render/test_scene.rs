@@ -6,7 +6,7 @@ use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
 use optics::{Curve, ExtinctionUnit, Light, Optics, Quality};
 use protocol::RenderEvent;
-use protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, Setup, VolumeRef};
+use protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, RendererOptions};
 use std::sync::Arc;
 
 /// Two projectors of 48 × 36 pixels, one the mirror image of the other.
@@ -67,22 +67,20 @@ pub(super) fn frame(least: f64) -> FrameState {
 }
 
 /// Both projectors on the CPU, with a cache that holds any volume of these tests.
-pub(super) fn setup() -> Setup {
-    Setup {
+pub(super) fn options() -> RendererOptions {
+    RendererOptions {
         display: display(),
         projectors: vec![0, 1],
         backend: 0,
-        volume: VolumeRef::Store("given by the test".into()),
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Auto,
         cache_bytes: 64 << 20,
-        trace: None,
     }
 }
 
-/// The renderer of this setup.
+/// The renderer of these options.
 pub(super) fn renderer(source: Arc<dyn BrickSource>) -> Renderer {
-    Renderer::new(&setup(), source).unwrap().0
+    Renderer::new(&options(), source).unwrap().0
 }
 
 /// A picture per projector, four numbers per pixel.

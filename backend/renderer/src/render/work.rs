@@ -5,7 +5,8 @@ use super::complete::Complete;
 use super::live::LiveFrame;
 use super::setting::Setting;
 use super::{RenderError, Renderer};
-use crate::device::{CastJob, TileGrid};
+use crate::device::{CastJob, Gather, Part, TileGrid};
+use layout::FeedbackEntry;
 use protocol::{FrameReport, FrameState, Pace, StopAsked};
 use shaders::compose::Needs;
 use std::ops::Range;
@@ -51,6 +52,8 @@ pub(super) struct Work {
     pub(super) setting: Setting,
     pub(super) account: Account,
     pub(super) pending: Pending,
+    /// What the rays of the cast under way found, by places of the index; a live frame leaves it on the device.
+    pub(super) found: Vec<FeedbackEntry>,
     /// Tiles of the cast under way of which a ray met a node that is too coarse, view by view.
     pub(super) missing: Vec<Vec<u32>>,
     /// Projectors whose pictures are final and have not been presented.
@@ -66,6 +69,7 @@ impl Work {
             setting,
             account,
             pending: Pending::default(),
+            found: Vec::new(),
             missing: Vec::new(),
             finals: Vec::new(),
             course: Some(course),
@@ -105,6 +109,13 @@ impl Work {
         Ok(())
     }
 
+    /// Begins another cast.
+    pub(super) fn begin_cast(&mut self, pending: Pending) {
+        self.pending = pending;
+        self.found.clear();
+        self.missing.clear();
+    }
+
     fn next(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
         let mut course = self.course.take().expect("a frame has a course until it is done");
         let report = match &mut course {
@@ -125,11 +136,12 @@ impl Work {
             views: &self.setting.rays[views.clone()],
             first_picture: self.picture_of(views.start),
             needs: Needs { blends: renderer.shelf.blends, ..self.setting.needs },
-            stride: *stride,
-            tiles,
+            part: Part::Tiles { stride: *stride, tiles },
+            gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },
             counts: true,
             stop,
         })?;
+        add(&mut self.found, &outcome.feedback);
         self.account.rays += outcome.rays;
         self.account.samples += outcome.samples;
         self.missing.resize(self.pending.tiles.len(), Vec::new());
@@ -139,5 +151,14 @@ impl Work {
         self.pending.tiles = outcome.left;
         self.account.stages.cast_ms += milliseconds(started);
         Ok(())
+    }
+}
+
+/// Adds what more rays found: the largest deficit, and all rays.
+fn add(known: &mut Vec<FeedbackEntry>, found: &[FeedbackEntry]) {
+    known.resize(known.len().max(found.len()), FeedbackEntry::default());
+    for (known, found) in known.iter_mut().zip(found) {
+        known.deficit_code = known.deficit_code.max(found.deficit_code);
+        known.rays += found.rays;
     }
 }

@@ -4,9 +4,9 @@
 //! the field is where the two leaves at a point have the same share of every level. Leaves of an octree have a face, an
 //! edge or a corner of the smaller one in common, on which shares are bilinear at most: the corners of leaves tell all.
 
-use super::{Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
 use super::{Cut, CutNode, Family};
+use super::{Feedback, Moment, WorkingSet};
 use bricks::LodRule;
 use bricks::{NodeKey, OctreeShape};
 use glam::{IVec3, UVec3};

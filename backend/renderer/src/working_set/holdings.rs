@@ -1,6 +1,6 @@
 //! What a working set holds: the cut, the slots of its bricks, what cannot be had, and since when rays count.
 
-use super::{Cut, Family, Feedback, Memory, Meeting, Moment, Retry, SlotPool};
+use super::{Cut, Family, Feedback, Meeting, Memory, Moment, Retry, SlotPool};
 use bricks::NodeKey;
 use std::collections::HashMap;
 

@@ -199,7 +199,11 @@ mod tests {
             let mut cut = Cut::new(NodeSummary { min: 0.0, max: 1.0 });
             for (pick, collapse) in choices {
                 if collapse {
-                    let families = cut.collapsible(u64::MAX);
+                    let is_leaf = |child: u32| cut.node(child).first_child.is_none();
+                    let is_lowest = |&place: &u32| {
+                        cut.node(place).first_child.is_some_and(|first| (first..first + 8).all(is_leaf))
+                    };
+                    let families: Vec<u32> = cut.walk().filter(is_lowest).collect();
                     if !families.is_empty() {
                         cut.collapse(families[pick % families.len()]);
                     }

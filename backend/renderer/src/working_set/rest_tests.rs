@@ -1,7 +1,7 @@
 //! A still view comes to rest: at the picture that an unlimited cache gives, or as evenly short of it as the cache is small.
 
-use super::{Arrival, Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
+use super::{Arrival, Feedback, Moment, WorkingSet};
 use super::{Family, settle, settled_weights};
 use bricks::LodRule;
 use bricks::NodeKey;
@@ -148,7 +148,8 @@ fn a_small_cache_comes_to_rest_evenly_short_of_it() {
         // No family whose parent would be clearly less short than that holds its room.
         for place in cut.walk() {
             let node = cut.node(place);
-            let shows = node.family == Family::Shown && still.set.cut().may_collapse(&still.world.shape, place);
+            let shows =
+                node.family == Family::Shown && still.set.cut().may_collapse(&still.world.shape, place);
             let is_seen = still.sees(node.key);
             if shows && is_seen {
                 assert!(node.deficit > largest - 0.26, "{} at {} for {largest}", node.key, node.deficit);

@@ -1,7 +1,7 @@
 //! Laws of the room in the cache.
 
-use super::{Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, optics, rule, rules};
+use super::{Feedback, Moment, WorkingSet};
 use bricks::LodRule;
 use bricks::NodeKey;
 use glam::UVec3;

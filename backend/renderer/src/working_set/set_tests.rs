@@ -1,7 +1,7 @@
 //! Laws of the live working set.
 
-use super::{Arrival, Feedback, Moment, WorkingSet};
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
+use super::{Arrival, Feedback, Moment, WorkingSet};
 use super::{Cut, Family, visit_vertices};
 use bricks::{BrickErrorKind, NodeKey, NodeSummary, OctreeShape};
 use glam::UVec3;

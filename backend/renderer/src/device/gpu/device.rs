@@ -9,13 +9,20 @@ use super::readback::Readback;
 use super::storage::{Storage, uniform};
 use super::view::ViewBuffers;
 use crate::device::job::ViewJob;
-use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
+use crate::device::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
 use shaders::tables::Tables;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Tiles of the first batch of a cast: few, because nobody knows yet how long they take.
+const FIRST_BATCH_TILES: usize = 64;
+/// About as long as a batch may take: whoever asks a cast to leave off waits for no longer. Drivers also give up on what
+/// takes seconds.
+const BATCH: Duration = Duration::from_millis(8);
 
 /// Workgroups along x of a dispatch: a tile each.
 const GROUPS_ACROSS: u32 = 32768;
@@ -46,6 +53,8 @@ pub struct GpuDevice {
     pixels_back: Readback,
     /// Places of the index.
     places: usize,
+    /// Tiles that take about [`BATCH`].
+    batch_tiles: usize,
 }
 
 impl GpuDevice {
@@ -92,6 +101,7 @@ impl GpuDevice {
             feedback_back: Readback::new(),
             pixels_back: Readback::new(),
             places: 0,
+            batch_tiles: FIRST_BATCH_TILES,
             context,
         })
     }
@@ -159,16 +169,42 @@ impl GpuDevice {
             Gather::Own => encoder.clear_buffer(&self.feedback.buffer, 0, None),
             Gather::Frame => self.frame_feedback.clear_stale(&mut encoder),
         }
-        for (_, view) in job.view_jobs() {
-            self.views[view.picture].prepare(&context, &view);
-            self.dispatch(&mut encoder, &pipeline, key, job, &view);
-            if job.has_counts() {
-                self.views[view.picture].copy_counts(&context, &mut encoder);
-            }
-            // A submission each: drivers give up on one that takes long.
-            context.submit(std::mem::replace(&mut encoder, new_encoder(&context)));
+        context.submit(encoder);
+        let mut outcome = CastOutcome::nothing(job);
+        let mut cast = Vec::new();
+        for (index, view) in job.view_jobs() {
+            let done = self.cast_view(&pipeline, key, job, &view)?;
+            let (tiles, left) = view.tiles.split_at(done);
+            outcome.left[index] = left.to_vec();
+            cast.push((index, ViewJob { tiles: tiles.to_vec().into(), ..view.clone() }));
         }
-        self.bring_back(job, encoder)
+        self.bring_back(job, &cast, outcome)
+    }
+
+    /// Casts the tiles of a view, batch by batch, until it is asked to leave off. How many it has cast.
+    fn cast_view(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        key: KernelKey,
+        job: &CastJob,
+        view: &ViewJob,
+    ) -> Result<usize, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let mut done = 0;
+        while done < view.tiles.len() && !(job.stop)() {
+            let end = view.tiles.len().min(done + self.batch_tiles);
+            let batch = ViewJob { tiles: view.tiles[done..end].into(), ..view.clone() };
+            let started = Instant::now();
+            self.views[view.picture].prepare(&context, &batch);
+            let mut encoder = new_encoder(&context);
+            self.dispatch(&mut encoder, pipeline, key, job, &batch);
+            context.run(encoder)?;
+            if end - done == self.batch_tiles {
+                self.batch_tiles = next_batch(self.batch_tiles, started.elapsed());
+            }
+            done = end;
+        }
+        Ok(done)
     }
 
     /// Notes the cast of one view.
@@ -192,25 +228,28 @@ impl GpuDevice {
         pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
     }
 
-    /// Runs a cast. What it is not asked for is not waited for.
+    /// Brings back what a cast found.
     fn bring_back(
         &mut self,
         job: &CastJob,
-        mut encoder: wgpu::CommandEncoder,
+        cast: &[(usize, ViewJob)],
+        mut outcome: CastOutcome,
     ) -> Result<CastOutcome, DeviceError> {
         let context = &self.context;
+        let mut encoder = new_encoder(context);
         let has_own = job.gather == Gather::Own;
         if has_own {
             let bytes = self.feedback.used_bytes;
             self.feedback_back.copy(context, &mut encoder, &self.feedback.buffer, bytes);
         }
-        context.submit(encoder);
-        if has_own || job.has_counts() {
-            context.wait()?;
+        if job.has_counts() {
+            for (_, view) in cast {
+                self.views[view.picture].copy_counts(context, &mut encoder);
+            }
         }
-        let mut outcome = CastOutcome::nothing(job);
-        for (index, view) in job.view_jobs() {
-            self.views[view.picture].add_up(context, job, (index, &view), &mut outcome)?;
+        context.run(encoder)?;
+        for (index, view) in cast {
+            self.views[view.picture].add_up(context, job, (*index, view), &mut outcome)?;
         }
         if has_own {
             outcome.feedback = self.feedback_back.read(context, self.places)?;
@@ -218,17 +257,21 @@ impl GpuDevice {
         Ok(outcome)
     }
 
-    pub(in crate::device) fn begin_feedback(&mut self) {
-        self.frame_feedback.begin();
+    pub(in crate::device) fn clear_feedback(&mut self) {
+        self.frame_feedback.clear();
     }
 
-    pub(in crate::device) fn end_feedback(&mut self) {
+    pub(in crate::device) fn end_feedback(&mut self, tag: FeedbackTag) {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
-        self.frame_feedback.end(&context);
+        self.frame_feedback.end(&context, tag);
     }
 
-    pub(in crate::device) fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub(in crate::device) fn has_feedback_under_way(&self) -> bool {
+        self.frame_feedback.is_under_way()
+    }
+
+    pub(in crate::device) fn take_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
         // Another back-end of this process may have the turn, for long; what it waits for moves these tables along, too.
         if let Some(_turn) = self.context.turn_if_free() {
             self.context.poll()?;
@@ -236,7 +279,7 @@ impl GpuDevice {
         self.frame_feedback.take(&self.context)
     }
 
-    pub(in crate::device) fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub(in crate::device) fn wait_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
         context.wait()?;
@@ -317,6 +360,15 @@ impl GpuDevice {
 
 fn new_encoder(context: &Context) -> wgpu::CommandEncoder {
     context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+}
+
+/// The tiles of the next batch, after one that took so long.
+fn next_batch(tiles: usize, took: Duration) -> usize {
+    match took {
+        _ if took > 2 * BATCH => (tiles / 2).max(1),
+        _ if 2 * took < BATCH => 2 * tiles,
+        _ => tiles,
+    }
 }
 
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {

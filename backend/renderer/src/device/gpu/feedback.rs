@@ -2,8 +2,8 @@
 
 use super::context::Context;
 use super::storage::Storage;
-use crate::device::DeviceError;
 use crate::device::under_way::UnderWay;
+use crate::device::{DeviceError, FeedbackTag, TaggedFeedback};
 use layout::FeedbackEntry;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -26,6 +26,7 @@ struct TableCopy {
     buffer: wgpu::Buffer,
     places: usize,
     /// Told once, when the copy can be read or has failed.
+    tag: FeedbackTag,
     told: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
@@ -48,7 +49,7 @@ impl FrameFeedback {
     }
 
     /// The next table is another frame's.
-    pub(super) fn begin(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.is_stale = true;
     }
 
@@ -65,7 +66,7 @@ impl FrameFeedback {
     }
 
     /// Starts the table on its way.
-    pub(super) fn end(&mut self, context: &Context) {
+    pub(super) fn end(&mut self, context: &Context, tag: FeedbackTag) {
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let bytes = self.table.used_bytes;
         let buffer = self.free_buffer(context, bytes);
@@ -77,7 +78,11 @@ impl FrameFeedback {
             // A closed channel means that this table was given up.
             let _ = tell.send(outcome);
         });
-        self.copies.start(TableCopy { buffer, places: self.places, told });
+        self.copies.start(TableCopy { buffer, places: self.places, tag, told });
+    }
+
+    pub(super) fn is_under_way(&self) -> bool {
+        !self.copies.is_empty()
     }
 
     /// A buffer that no copy uses, of at least so many bytes.
@@ -97,7 +102,7 @@ impl FrameFeedback {
     }
 
     /// The oldest table, where it has arrived.
-    pub(super) fn take(&mut self, context: &Context) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+    pub(super) fn take(&mut self, context: &Context) -> Result<Option<TaggedFeedback>, DeviceError> {
         let failed = |why: String| {
             DeviceError(format!("{} does not give the feedback of a frame back: {why}", context.name))
         };
@@ -113,7 +118,7 @@ impl FrameFeedback {
                 true
             }
         });
-        let Some(TableCopy { buffer, places, .. }) = arrived else { return Ok(None) };
+        let Some(TableCopy { buffer, places, tag, .. }) = arrived else { return Ok(None) };
         if let Some(why) = outcome {
             return Err(failed(why));
         }
@@ -127,6 +132,6 @@ impl FrameFeedback {
         };
         buffer.unmap();
         self.free.push(buffer);
-        Ok(Some(entries))
+        Ok(Some((tag, entries)))
     }
 }

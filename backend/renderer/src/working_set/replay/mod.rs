@@ -25,11 +25,9 @@ use super::{
     most_in_flight,
 };
 use bricks::{NodeKey, NodeSummary, OctreeShape};
-use disk::Disk;
 use layout::{code_from_deficit, deficit_from_code};
-use policy::Waiting;
-use stockroom::Stockroom;
 use std::time::Instant;
+use stockroom::Stockroom;
 
 /// The volume of a trace, without its voxels.
 #[derive(Clone, Copy)]
