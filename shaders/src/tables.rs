@@ -197,19 +197,10 @@ fn split<const N: usize>(sums: [Sum; N]) -> ([f32; N], [f32; N]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use optics::ExtinctionUnit;
 
     fn optics(points: Vec<(f64, f64)>) -> Optics {
-        Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::new(points).unwrap(),
-            extinction_unit: ExtinctionUnit::PerMetre,
-            colour: Curve::constant(DVec3::new(1.0, 0.5, 0.25)),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        }
+        let colour = Curve::constant(DVec3::new(1.0, 0.5, 0.25));
+        Optics::plain((0.0, 1.0), Curve::new(points).unwrap(), colour)
     }
 
     #[test]

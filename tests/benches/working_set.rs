@@ -7,8 +7,13 @@
 use bricks::LodRule;
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
+<<<<<<< engine
 use optics::{Curve, ExtinctionUnit, Optics};
 use renderer::working_set::{Feedback, IndexRules, Moment, WorkingSet, corner_weights};
+=======
+use optics::{Curve, Optics};
+use renderer::working_set::{IndexRules, Met, Moment, WorkingSet, corner_weights};
+>>>>>>> s1
 use std::time::Instant;
 
 /// Finest voxels along an edge: eight levels.
@@ -17,16 +22,7 @@ const EDGE: u32 = 28 << 7;
 const SIZES: [usize; 6] = [1_000, 2_000, 5_000, 10_000, 30_000, 100_000];
 
 fn optics() -> Optics {
-    Optics {
-        domain: (0.0, 1.0),
-        extinction: Curve::constant(1.0),
-        extinction_unit: ExtinctionUnit::PerVoxel,
-        colour: Curve::constant(DVec3::ONE),
-        mimda: None,
-        refraction: None,
-        materials: None,
-        enhancers: Vec::new(),
-    }
+    Optics::grey(Curve::constant(1.0))
 }
 
 /// A display like holo72 on which the volume, a metre wide, takes some number of nodes: the finer the detail, the more.

@@ -65,3 +65,8 @@ impl<V: Fn(DVec3) -> f64 + Send + Sync> BrickSource for ClosureVolume<V> {
         Ok(Brick::new(codes, low as f32, ((high - low) / largest) as f32))
     }
 }
+
+/// Smooth bumps between 0.1 and 0.9, a few voxels wide.
+pub fn bumps(p: DVec3) -> f64 {
+    0.5 + 0.4 * (0.35 * p.x).sin() * (0.3 * p.y + 0.5).cos() * (0.25 * p.z + 1.0).sin()
+}

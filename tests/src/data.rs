@@ -6,7 +6,7 @@ use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use volumes::{ImportOptions, import};
 use volumes::{RawLayout, Selection};
 
@@ -15,10 +15,14 @@ const CRANIUM: &str = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
 /// An MRI of a head, 181 × 217 × 181, 8 bit: in Debian's package mricron-data.
 const HEAD_MRI: &str = "/usr/share/mricron/templates/ch2.nii.gz";
 
-/// Says aloud that a test lacks something; a failure where LIGHTLOOM_REQUIRE_DATA=1.
-fn lacking(path: &str, package: &str) {
-    println!("SKIPPED: {path} is missing; install the Debian package {package}");
-    assert!(std::env::var("LIGHTLOOM_REQUIRE_DATA").as_deref() != Ok("1"), "{path} is required here");
+/// Whether a file is there. If not, that is printed, and is a failure with LIGHTLOOM_REQUIRE_DATA=1.
+fn has(path: &str, package: &str) -> bool {
+    let is_there = Path::new(path).exists();
+    if !is_there {
+        println!("SKIPPED: {path} is missing; install the Debian package {package}");
+        assert!(std::env::var("LIGHTLOOM_REQUIRE_DATA").as_deref() != Ok("1"), "{path} is required here");
+    }
+    is_there
 }
 
 /// How the cranium's voxels lie in its file.
@@ -32,12 +36,12 @@ pub fn cranium_layout() -> RawLayout {
     }
 }
 
-/// The cranium's voxels as a raw file in `folder`; None where the package is missing.
+/// The cranium's voxels as a raw file in `folder`, in place of what is there; None where the package is missing.
 pub fn cranium_raw(folder: &Path) -> Option<PathBuf> {
-    if !Path::new(CRANIUM).exists() {
-        lacking(CRANIUM, "invesalius-examples");
-        return None;
-    }
+    has(CRANIUM, "invesalius-examples").then(|| extract_cranium(folder))
+}
+
+fn extract_cranium(folder: &Path) -> PathBuf {
     let raw = folder.join("cranium.raw");
     let voxels = Command::new("tar")
         .args(["--extract", "--to-stdout", "--wildcards", "--file", CRANIUM, "*/matrix.dat"])
@@ -45,7 +49,7 @@ pub fn cranium_raw(folder: &Path) -> Option<PathBuf> {
         .expect("tar is part of Debian's essential packages");
     assert!(voxels.status.success(), "tar: {}", String::from_utf8_lossy(&voxels.stderr));
     std::fs::write(&raw, voxels.stdout).expect("a temporary folder takes 14 MB");
-    Some(raw)
+    raw
 }
 
 /// A folder that lives as long as the process; it holds the stores made for tests.
@@ -54,12 +58,21 @@ fn folder() -> &'static Path {
     FOLDER.get_or_init(|| tempfile::tempdir().expect("a temporary folder can be made")).path()
 }
 
-fn open_store(input: &Path, raw: Option<RawLayout>, bits: CodeBits, name: &str) -> Store {
+/// The store of this name in the folder, built by whoever asks first.
+fn store(name: &str, build: impl FnOnce(&Path)) -> Store {
+    static TURN: Mutex<()> = Mutex::new(());
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let out = folder().join(name);
+    if !out.exists() {
+        build(&out);
+    }
+    Store::open(&out).expect("a store just built opens")
+}
+
+fn build_store(input: &Path, raw: Option<RawLayout>, bits: CodeBits, out: &Path) {
     let options = ImportOptions { build: BuildOptions { bits, ..Default::default() }, ..Default::default() };
     let selection = Selection { raw, ..Default::default() };
-    import(&input.to_string_lossy(), &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
-    Store::open(&out).expect("a store just built opens")
+    import(&input.to_string_lossy(), &selection, out, &options, &|_, _| {}).expect("a whole file imports");
 }
 
 /// The cranium CT as a 16-bit store.
@@ -69,23 +82,30 @@ pub fn cranium() -> Option<Store> {
 
 /// The cranium CT as a store of so many bits per voxel.
 pub fn cranium_of(bits: CodeBits) -> Option<Store> {
-    let raw = cranium_raw(folder())?;
-    Some(open_store(&raw, Some(cranium_layout()), bits, &format!("cranium-{}.lloom", bits.bits())))
+    has(CRANIUM, "invesalius-examples").then(|| {
+        store(&format!("cranium-{}.lloom", bits.bits()), |out| {
+            let raw = extract_cranium(folder());
+            build_store(&raw, Some(cranium_layout()), bits, out);
+        })
+    })
 }
 
 /// The cranium CT with twice the voxels along each axis, interpolated, as a store: LFD section 6 enlarges its CTs to get
 /// volumes that no cache holds.
 pub fn cranium_doubled() -> Option<Store> {
-    let raw = std::fs::read(cranium_raw(folder())?).expect("a file just written can be read");
+    has(CRANIUM, "invesalius-examples").then(|| store("cranium-doubled.lloom", build_doubled))
+}
+
+fn build_doubled(out: &Path) {
+    let raw = std::fs::read(extract_cranium(folder())).expect("a file just written can be read");
     let layout = cranium_layout();
     let dims = 2 * layout.dims;
     let doubled = folder().join("cranium-doubled.raw");
     std::fs::write(&doubled, doubled_voxels(&raw, layout.dims)).expect("a temporary folder takes 113 MB");
     let layout = RawLayout { dims, spacing_mm: 0.5 * layout.spacing_mm, ..layout };
-    let store = open_store(&doubled, Some(layout), CodeBits::Sixteen, "cranium-doubled.lloom");
+    build_store(&doubled, Some(layout), CodeBits::Sixteen, out);
     // The store has it all.
     std::fs::remove_file(doubled).expect("a file just written can be removed");
-    Some(store)
 }
 
 /// Little-endian 16-bit voxels at twice the resolution: each is trilinear between the centres of the eight around it.
@@ -113,9 +133,6 @@ fn doubled_voxels(raw: &[u8], dims: UVec3) -> Vec<u8> {
 
 /// The head MRI as an 8-bit store.
 pub fn head_mri() -> Option<Store> {
-    if !Path::new(HEAD_MRI).exists() {
-        lacking(HEAD_MRI, "mricron-data");
-        return None;
-    }
-    Some(open_store(Path::new(HEAD_MRI), None, CodeBits::Eight, "head.lloom"))
+    let build = |out: &Path| build_store(Path::new(HEAD_MRI), None, CodeBits::Eight, out);
+    has(HEAD_MRI, "mricron-data").then(|| store("head.lloom", build))
 }

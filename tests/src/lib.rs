@@ -10,10 +10,13 @@ pub mod draw;
 pub mod faulty_source;
 pub mod head;
 pub mod ideal_cut;
+pub mod made_once;
 pub mod motion;
 pub mod presented;
 #[cfg(unix)]
 pub mod program;
+#[cfg(test)]
+mod program_list;
 pub mod random;
 pub mod random_scene;
 pub mod remembered;

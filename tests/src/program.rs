@@ -1,7 +1,8 @@
-//! The real programs, built once per test binary and run as a user would run them: nothing here may hang.
+//! The real programs, run as a user would run them: nothing here may hang.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{Read, Seek};
 use std::os::unix::process::CommandExt;
@@ -57,6 +58,11 @@ pub fn small_display(folder: &Path) -> String {
     let path = folder.join("small4.toml");
     fs::write(&path, SMALL_DISPLAY).expect("a temporary folder can be written");
     path.to_string_lossy().into_owned()
+}
+
+/// A file of the test data.
+pub fn test_data(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).to_string_lossy().into_owned()
 }
 
 /// `lightloom` with arguments.
@@ -115,13 +121,26 @@ fn skip(lack: &str, requirement: &str) {
     assert!(std::env::var(requirement).as_deref() != Ok("1"), "{requirement}=1, and {lack}");
 }
 
-/// The folder with both programs. Always optimised, whatever the tests are: they cast millions of rays.
+/// Names the folder with `lightloom` and `lightloom-backend`, built with the features of these tests. `tests/run` sets it;
+/// without it the programs are built here.
+pub const PROGRAMS: &str = "LIGHTLOOM_PROGRAMS";
+
+/// The folder with both programs.
 fn folder_of_programs() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-    FOLDER.get_or_init(|| keep(&build()))
+    FOLDER.get_or_init(|| std::env::var_os(PROGRAMS).map_or_else(|| keep(&build()), given))
 }
 
-/// Builds the programs with the features of these tests, and gives what cargo says of where they are.
+/// The folder that somebody else has filled.
+fn given(folder: OsString) -> PathBuf {
+    let folder = PathBuf::from(folder);
+    let program = folder.join("lightloom");
+    assert!(program.is_file(), "{PROGRAMS} is {}, and there is no lightloom in it", folder.display());
+    folder
+}
+
+/// Builds the programs with the features of these tests, and returns where cargo put them. Always optimised, whatever
+/// the tests are: the programs cast millions of rays.
 fn build() -> Vec<PathBuf> {
     let mut command = Command::new(env!("CARGO"));
     command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));

@@ -1,12 +1,14 @@
 //! The scenes that pictures are tested on.
 
 use crate::data;
+use crate::made_once::MadeOnce;
+use crate::remembered::Remembered;
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use display_config::{Display, Homography, Raster};
 use glam::{DAffine3, DQuat, DVec2, DVec3, UVec3};
-use optics::{Curve, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality};
-use protocol::{FrameState, Pace};
+use optics::{Curve, Light, Mimda, MimdaForm, Optics};
+use protocol::FrameState;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -32,16 +34,9 @@ pub fn optics(domain: (f64, f64), extinction: &Points, colour: &Colours) -> Opti
     let s = |value: f64| (value - domain.0) / (domain.1 - domain.0);
     let extinction = extinction.iter().map(|&(v, tau)| (s(v), tau)).collect();
     let colour = colour.iter().map(|&(v, rgb)| (s(v), DVec3::from(rgb))).collect();
-    Optics {
-        domain,
-        extinction: Curve::new(extinction).expect("the points of a test scene make a curve"),
-        extinction_unit: ExtinctionUnit::PerVoxel,
-        colour: Curve::new(colour).expect("the points of a test scene make a curve"),
-        mimda: None,
-        refraction: None,
-        materials: None,
-        enhancers: Vec::new(),
-    }
+    let extinction = Curve::new(extinction).expect("the points of a test scene make a curve");
+    let colour = Curve::new(colour).expect("the points of a test scene make a curve");
+    Optics::plain(domain, extinction, colour)
 }
 
 /// The volume's centre at the screen's centre, its longest edge `longest_m` long, turned by `rotation`.
@@ -61,19 +56,7 @@ pub fn frame(
     optics: Optics,
     light: Option<Light>,
 ) -> FrameState {
-    FrameState {
-        index: 0,
-        time_s: 0.0,
-        observer_in_display: display.observer_in_display,
-        eta: 1.0,
-        display_from_volume,
-        optics,
-        light,
-        quality: Quality::default(),
-        tool: None,
-        pace: Pace::Complete,
-        debug: None,
-    }
+    FrameState { light, ..FrameState::still(display.observer_in_display, display_from_volume, optics) }
 }
 
 /// The display with rasters of `width` × `height` pixels, each on the whole screen.
@@ -94,8 +77,15 @@ pub fn scaled(curve: &Curve<f64>, factor: f64) -> Curve<f64> {
     Curve::new(points).expect("a curve times a positive number is a curve")
 }
 
+/// The volume of this name for every scene of the process, its bricks in memory once they were asked for.
+fn shared<S: BrickSource + 'static>(name: String, make: impl FnOnce() -> S) -> Arc<dyn BrickSource> {
+    static VOLUMES: MadeOnce<Arc<dyn BrickSource>> = MadeOnce::new();
+    Arc::clone(&VOLUMES.get(name, || Arc::new(Remembered::new(Arc::new(make())))))
+}
+
 fn procedural(name: &str, edge: u32) -> Arc<dyn BrickSource> {
-    Arc::new(ProceduralVolume::new(name, UVec3::splat(edge), 1e-3).expect("the name is one of ours"))
+    let make = || ProceduralVolume::new(name, UVec3::splat(edge), 1e-3).expect("the name is one of ours");
+    shared(format!("{name}@{edge}"), make)
 }
 
 /// Nested semi-transparent shells, shaded.
@@ -138,7 +128,8 @@ pub fn sparse_vessels(display: &Display) -> TestScene {
 
 /// Skin and bone of the cranium CT, shaded, the head upright.
 pub fn cranium(display: &Display) -> Option<TestScene> {
-    let source: Arc<dyn BrickSource> = Arc::new(data::cranium()?);
+    let store = data::cranium()?;
+    let source = shared("cranium".into(), || store);
     let optics = optics(
         (-1024.0, 3071.0),
         &vec![(-400.0, 0.0), (-150.0, 0.03), (100.0, 0.01), (200.0, 0.02), (500.0, 0.5), (3000.0, 0.9)],
@@ -166,7 +157,8 @@ pub fn cranium_mimda(display: &Display, form: MimdaForm) -> Option<TestScene> {
 
 /// The head MRI as a cloud, unshaded.
 pub fn head_mri(display: &Display) -> Option<TestScene> {
-    let source: Arc<dyn BrickSource> = Arc::new(data::head_mri()?);
+    let store = data::head_mri()?;
+    let source = shared("head MRI".into(), || store);
     let optics = optics(
         (0.0, 255.0),
         &vec![(25.0, 0.0), (60.0, 0.02), (110.0, 0.06), (140.0, 0.0), (255.0, 0.1)],

@@ -1,6 +1,7 @@
 //! The illustrative techniques, each on a scene that shows it.
 
 use crate::closure_volume::ClosureVolume;
+use crate::remembered::Remembered;
 use crate::scenes::{self, TestScene};
 use bricks::BrickSource;
 use display_config::Display;
@@ -9,7 +10,7 @@ use optics::{
     BandPicker, ClipPlane, Curve, Detail, Enhancer, LayerOpacity, Light, Material, Mimda, MimdaForm, Probe,
     Ramp, Trapezoid,
 };
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A plane across the middle of the screen, that cuts away what lies before it.
 pub fn clip_plane() -> ClipPlane {
@@ -64,7 +65,10 @@ fn band(corners: [f64; 4]) -> Trapezoid {
 /// A smooth field of bumps, 56 voxels along each axis.
 pub fn bumps(display: &Display) -> TestScene {
     let field = |p: DVec3| 0.5 + 0.3 * (0.2 * p.x).sin() * (0.15 * p.y).cos() * (0.1 * p.z + 1.0).sin();
-    let source: Arc<dyn BrickSource> = Arc::new(ClosureVolume::new(UVec3::splat(56), (0.0, 1.0), field));
+    static SOURCE: OnceLock<Arc<dyn BrickSource>> = OnceLock::new();
+    let volume =
+        || Arc::new(Remembered::new(Arc::new(ClosureVolume::new(UVec3::splat(56), (0.0, 1.0), field))));
+    let source = Arc::clone(SOURCE.get_or_init(|| volume()));
     let optics = scenes::optics(
         (0.0, 1.0),
         &vec![(0.2, 0.0), (0.45, 0.02), (0.6, 0.1), (0.8, 0.3)],

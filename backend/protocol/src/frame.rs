@@ -70,6 +70,25 @@ pub struct FrameState {
 }
 
 impl FrameState {
+    /// Frame 0 of a scene that stands still: unlit, at default quality, complete, at η = 1.
+    ///
+    /// `observer_in_display` is in metres; `display_from_volume` leads from finest voxels to metres.
+    pub fn still(observer_in_display: DVec3, display_from_volume: DAffine3, optics: Optics) -> Self {
+        Self {
+            index: 0,
+            time_s: 0.0,
+            observer_in_display,
+            eta: 1.0,
+            display_from_volume,
+            optics,
+            light: None,
+            quality: Quality::default(),
+            tool: None,
+            pace: Pace::Complete,
+            debug: None,
+        }
+    }
+
     /// The light after the tool has had its say.
     pub fn light_in_effect(&self) -> Option<Light> {
         let light = self.light?;

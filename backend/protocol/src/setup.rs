@@ -75,6 +75,22 @@ pub struct Setup {
     pub trace: Option<PathBuf>,
 }
 
+impl Setup {
+    /// Back-end 0 in this process, on the CPU, with a brick cache of 64 MiB: for a renderer that is handed its volume.
+    pub fn in_process(display: Display, projectors: Vec<u32>) -> Self {
+        Self {
+            display,
+            projectors,
+            backend: 0,
+            volume: VolumeRef::Store("in this process".into()),
+            device: DeviceChoice::Cpu,
+            filter: FilterChoice::Auto,
+            cache_bytes: 64 << 20,
+            trace: None,
+        }
+    }
+}
+
 /// What a back-end says of itself when it starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hello {

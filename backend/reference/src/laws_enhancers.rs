@@ -271,28 +271,3 @@ fn one_segment_each_way_is_the_whole_without_importance() {
     let segments = super::Segmentation::uniform(0.0, 1.0, 37).unwrap();
     assert_close(tracer.segmented_on(&field, &oblique(), &segments).unwrap(), whole, 40.0 * TIGHT);
 }
-
-#[test]
-#[ignore = "a figure, not a law: time per ray of a large volume"]
-fn time_per_ray() {
-    let slow = |p: DVec3| noise(p * 0.1);
-    let field = StoredField::new(FormulaSource::shared(UVec3::splat(256), (0.0, 1.0), slow), &finest());
-    let ray = Ray::new(DVec3::new(-0.2, 0.3, 0.41), DVec3::new(1.0, 0.31, 0.27));
-    let thin = Curve::new(vec![(0.2, 0.0), (0.3, 0.01), (0.6, 0.005), (0.8, 0.02)]).unwrap();
-    let far = [
-        Enhancer::ClipPlane(ClipPlane { thickness_m: 1.0, boost: 2.0, ..plane(0.5) }),
-        Enhancer::Probe(probe(DVec3::splat(1.28), 0.8)),
-        picker([0.2, 0.4, 0.4, 0.6], 0.8),
-    ];
-    for (gamma, count) in [(0.0, 0), (0.0, 1), (0.0, 3), (0.7, 0), (0.7, 3)] {
-        let model = Optics { extinction: thin.clone(), ..busy_with_importance(gamma) };
-        let frame = frame(with(model, &far[..count]), Some(Light::default()));
-        let tracer = Tracer::new(&frame, Integrator::default()).unwrap();
-        let first = tracer.radiance_on(&field, &ray).unwrap();
-        let start = std::time::Instant::now();
-        for _ in 0..20 {
-            assert_eq!(tracer.radiance_on(&field, &ray).unwrap(), first);
-        }
-        println!("γ {gamma}, {count} enhancers: {:?} a ray, {first:?}", start.elapsed() / 20);
-    }
-}

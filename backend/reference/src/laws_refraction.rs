@@ -167,20 +167,3 @@ fn stored_samples_of_all_kinds_stay_numbers() {
         }
     }
 }
-
-#[test]
-#[ignore = "a figure, not a law: time per ray of a large volume"]
-fn time_per_bent_ray() {
-    let slow = |p: DVec3| noise(p * 0.1);
-    let field = StoredField::new(FormulaSource::shared(UVec3::splat(256), (0.0, 1.0), slow), &finest());
-    let ray = Ray::new(DVec3::new(-0.2, 0.3, 0.41), DVec3::new(1.0, 0.31, 0.27));
-    let thin = Curve::new(vec![(0.2, 0.0), (0.3, 0.01), (0.6, 0.005), (0.8, 0.02)]).unwrap();
-    for index in [&[(0.0, 1.0), (1.0, 1.02)][..], &[(0.0, 1.0), (1.0, 1.2)], &[(0.6, 1.0), (0.6, 1.3)]] {
-        for tolerance in [1e-3, 1e-4, 1e-5] {
-            let model = refracting(index, Optics { extinction: thin.clone(), ..busy() });
-            let start = std::time::Instant::now();
-            let seen = see(model, Some(Light::default()), tolerance, &field, &ray);
-            println!("{index:?}, tolerance {tolerance:e}: {:?}, {seen:?}", start.elapsed());
-        }
-    }
-}

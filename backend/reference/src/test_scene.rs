@@ -6,8 +6,8 @@ use bricks::{
     BRICK_EDGE, Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OVERLAP, OWN_EDGE, OctreeShape,
 };
 use glam::{DAffine3, DVec3, UVec3};
-use optics::{Curve, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality};
-use protocol::{FrameState, Pace};
+use optics::{Curve, Light, Mimda, MimdaForm, Optics};
+use protocol::FrameState;
 use std::sync::Arc;
 
 /// Edge of a voxel in the tests' frames, metres.
@@ -80,16 +80,7 @@ impl BrickSource for FormulaSource {
 
 /// An optical model over the domain [0, 1], per voxel.
 pub fn optics(extinction: Curve<f64>, colour: Curve<DVec3>) -> Optics {
-    Optics {
-        domain: (0.0, 1.0),
-        extinction,
-        extinction_unit: ExtinctionUnit::PerVoxel,
-        colour,
-        mimda: None,
-        refraction: None,
-        materials: None,
-        enhancers: Vec::new(),
-    }
+    Optics::plain((0.0, 1.0), extinction, colour)
 }
 
 /// The same with importance.
@@ -99,19 +90,8 @@ pub fn with_importance(optics: Optics, importance: Curve<f64>, gamma: f64, form:
 
 /// A frame that puts volume (0, 0, 0) at the display's origin, axes aligned.
 pub fn frame(optics: Optics, light: Option<Light>) -> FrameState {
-    FrameState {
-        index: 0,
-        time_s: 0.0,
-        observer_in_display: DVec3::new(0.0, 0.0, 3.0),
-        eta: 1.0,
-        display_from_volume: DAffine3::from_scale(DVec3::splat(VOXEL_M)),
-        optics,
-        light,
-        quality: Quality::default(),
-        tool: None,
-        pace: Pace::Complete,
-        debug: None,
-    }
+    let place = DAffine3::from_scale(DVec3::splat(VOXEL_M));
+    FrameState { light, ..FrameState::still(DVec3::new(0.0, 0.0, 3.0), place, optics) }
 }
 
 /// The tracer of that frame.

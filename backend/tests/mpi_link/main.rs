@@ -104,14 +104,32 @@ const CASES: &[Case] = &[
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         if output.status.code() == Some(2) && said.contains("mpirun -n 1") { Ok(said) } else { Err(said) }
     }),
+];
+
+/// Figures, which nothing can fail: printed where `--figures` asks for them, and not counted as tests.
+const FIGURES: &[Case] = &[
     ("what a frame costs", || cost_by_mpi("cost")),
     ("what a frame with pictures of 800 × 600 costs", || cost_by_mpi("cost of pictures")),
 ];
+
+fn print_figures() -> ExitCode {
+    for (name, measure) in FIGURES {
+        match measure() {
+            Ok(figures) => println!("{name}: {figures}"),
+            Err(why) => {
+                println!("{name} cannot be measured: {why}");
+                return ExitCode::FAILURE;
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}
 
 fn main() -> ExitCode {
     match env::args().nth(1).as_deref() {
         Some("--frontend") => return be_frontend(),
         Some("--worker") => return be_worker(),
+        Some("--figures") => return print_figures(),
         _ => {}
     }
     if Command::new("mpirun").arg("--version").stdout(Stdio::null()).status().is_err() {

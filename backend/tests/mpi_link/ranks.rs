@@ -3,11 +3,15 @@
 use crate::job::{CASE, CASE_LIMIT, DIRECTORY};
 use display_config::Display;
 use glam::{DAffine3, DVec3};
-use optics::{Curve, ExtinctionUnit, Optics, Quality};
+use optics::{Curve, Optics};
 use protocol::{
+<<<<<<< engine:backend/tests/mpi_link/ranks.rs
     Advance, DeviceChoice, DeviceInfo, Draw, DrawError, FilterChoice, FrameReport, FrameState, FromBackend,
     FromFrontend, Pace, ProjectorImage, Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked,
     VolumeRef, wire,
+=======
+    DeviceInfo, FrameReport, FrameState, FromBackend, FromFrontend, ProjectorImage, Setup, Stages, wire,
+>>>>>>> s1:backend/transport/tests/mpi_link/ranks.rs
 };
 
 use signal_hook::{consts::SIGKILL, low_level::raise};
@@ -148,6 +152,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         eta: 1.0,
         projectors: Vec::new(),
     };
+<<<<<<< engine:backend/tests/mpi_link/ranks.rs
     let options = |backend| RendererOptions {
         display: display.clone(),
         projectors: vec![2 * backend, 2 * backend + 1],
@@ -155,6 +160,12 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Exact,
         cache_bytes: width.into(),
+=======
+    let setup = |backend| Setup {
+        backend,
+        cache_bytes: width.into(),
+        ..Setup::in_process(display.clone(), vec![2 * backend, 2 * backend + 1])
+>>>>>>> s1:backend/transport/tests/mpi_link/ranks.rs
     };
     let volume = || VolumeRef::Store("fake.lloom".into());
     let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };
@@ -163,28 +174,8 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
 
 fn frame(index: u32, knots: usize) -> FrameState {
     let points = (0..knots).map(|i| (i as f64 / knots as f64, 1.0)).collect();
-    FrameState {
-        index,
-        time_s: 0.0,
-        observer_in_display: DVec3::Z,
-        eta: 1.0,
-        display_from_volume: DAffine3::IDENTITY,
-        optics: Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::new(points).expect("the points rise"),
-            extinction_unit: ExtinctionUnit::PerMetre,
-            colour: Curve::constant(DVec3::ONE),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        },
-        light: None,
-        quality: Quality::default(),
-        tool: None,
-        pace: Pace::Complete,
-        debug: None,
-    }
+    let optics = Optics::grey(Curve::new(points).expect("the points rise"));
+    FrameState { index, ..FrameState::still(DVec3::Z, DAffine3::IDENTITY, optics) }
 }
 
 /// All that the front-end gets of two frames, as bytes: pictures by frame and projector, and reports.

@@ -4,9 +4,13 @@ use super::truth::Truth;
 use super::{AccuracyError, Offer, Setting, Study, Trial, Watch};
 use bricks::store::EightBits;
 use bricks::{BrickSource, Codes, NodeKey};
+<<<<<<< engine
 use protocol::{
     DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup, VolumeRef,
 };
+=======
+use protocol::{DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, Setup};
+>>>>>>> s1
 use reference::Errors;
 use renderer::Renderer;
 use serde::Serialize;
@@ -120,6 +124,7 @@ pub(super) fn offer(study: &Study) -> Result<(Offer, DeviceInfo), AccuracyError>
 const AS_STORED: u8 = 16;
 
 fn open(study: &Study, filter: FilterChoice, bits: u8) -> Result<(Renderer, DeviceInfo), AccuracyError> {
+<<<<<<< engine
     let options = RendererOptions {
         display: study.display.clone(),
         projectors: study.projectors.clone(),
@@ -127,6 +132,13 @@ fn open(study: &Study, filter: FilterChoice, bits: u8) -> Result<(Renderer, Devi
         device: study.device,
         filter,
         cache_bytes: study.cache_bytes,
+=======
+    let setup = Setup {
+        device: study.device,
+        filter,
+        cache_bytes: study.cache_bytes,
+        ..Setup::in_process(study.display.clone(), study.projectors.clone())
+>>>>>>> s1
     };
     let source: Arc<dyn BrickSource> = match bits {
         8 => Arc::new(EightBits::new(Arc::clone(&study.source))),

@@ -138,6 +138,25 @@ fn too_large(
 }
 
 impl Optics {
+    /// A plain model, without importance, refraction, materials or enhancers; extinction is per finest voxel.
+    pub fn plain(domain: (f64, f64), extinction: Curve<f64>, colour: Curve<DVec3>) -> Self {
+        Self {
+            domain,
+            extinction,
+            extinction_unit: ExtinctionUnit::PerVoxel,
+            colour,
+            mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
+        }
+    }
+
+    /// A plain model in which everything is white, over the domain [0, 1]; extinction is per finest voxel.
+    pub fn grey(extinction: Curve<f64>) -> Self {
+        Self::plain((0.0, 1.0), extinction, Curve::constant(DVec3::ONE))
+    }
+
     /// Checks what the types do not.
     pub fn check(&self) -> Result<(), OpticsError> {
         let (lo, hi) = self.domain;

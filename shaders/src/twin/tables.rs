@@ -76,8 +76,7 @@ pub fn attenuation_mean<F: Real>(x: F) -> F {
 mod tests {
     use super::*;
     use crate::tables::optics_table;
-    use glam::DVec3;
-    use optics::{Curve, ExtinctionUnit, Optics};
+    use optics::{Curve, Optics};
     use proptest::prelude::*;
 
     /// Six terms of the series, cut off at x = 1/4: the next term is x⁶/5040.
@@ -88,16 +87,7 @@ mod tests {
     }
 
     fn table(points: Vec<(f64, f64)>) -> Vec<OpticsEntry> {
-        optics_table(&Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::new(points).unwrap(),
-            extinction_unit: ExtinctionUnit::PerMetre,
-            colour: Curve::constant(DVec3::ONE),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        })
+        optics_table(&Optics::grey(Curve::new(points).unwrap()))
     }
 
     #[test]

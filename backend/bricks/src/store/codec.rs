@@ -69,15 +69,12 @@ impl Codec {
 
 #[cfg(test)]
 mod tests {
+    use super::super::hostile_tests::Random;
     use super::*;
 
     fn noise() -> Vec<u8> {
-        let mut state = 1u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 56) as u8
-        };
-        (0..32768).map(|_| next()).collect()
+        let mut random = Random(1);
+        (0..32768).map(|_| random.below(256) as u8).collect()
     }
 
     #[test]

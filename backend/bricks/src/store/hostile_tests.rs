@@ -14,10 +14,11 @@ const STORES: usize = 2000;
 const NODES_PER_DEPTH: usize = 6;
 
 /// Numbers that follow each other without a pattern (Knuth's 64-bit congruential generator).
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn below(&mut self, end: usize) -> usize {
+    /// A number from 0 to `end` − 1.
+    pub(super) fn below(&mut self, end: usize) -> usize {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) % end as u64) as usize
     }

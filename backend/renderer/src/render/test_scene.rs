@@ -4,9 +4,14 @@ use super::{RenderError, Renderer};
 use bricks::BrickSource;
 use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
+<<<<<<< engine
 use optics::{Curve, ExtinctionUnit, Light, Optics, Quality};
 use protocol::RenderEvent;
 use protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, RendererOptions};
+=======
+use optics::{Curve, Light, Optics, Quality};
+use protocol::{FrameReport, FrameState, Setup};
+>>>>>>> s1
 use std::sync::Arc;
 
 /// Two projectors of 48 × 36 pixels, one the mirror image of the other.
@@ -42,31 +47,18 @@ pub(super) fn display() -> Display {
 /// A cloud of all values from `least` up, on the finest level everywhere.
 pub(super) fn frame(least: f64) -> FrameState {
     let placed = DAffine3::from_scale(DVec3::splat(2e-3)) * DAffine3::from_translation(DVec3::splat(-50.0));
+    let extinction = Curve::new(vec![(least, 0.0), (1.0, 0.08)]).unwrap();
+    let colour = Curve::new(vec![(0.0, DVec3::X), (1.0, DVec3::new(0.2, 0.7, 1.0))]).unwrap();
+    let optics = Optics::plain((0.0, 1.0), extinction, colour);
     FrameState {
-        index: 0,
-        time_s: 0.0,
-        observer_in_display: DVec3::new(0.0, 0.0, 1.2),
-        eta: 1.0,
-        display_from_volume: placed,
-        optics: Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::new(vec![(least, 0.0), (1.0, 0.08)]).unwrap(),
-            extinction_unit: ExtinctionUnit::PerVoxel,
-            colour: Curve::new(vec![(0.0, DVec3::X), (1.0, DVec3::new(0.2, 0.7, 1.0))]).unwrap(),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        },
         light: Some(Light::default()),
         quality: Quality { lod_scale: 0.0, ..Quality::default() },
-        tool: None,
-        pace: Pace::Complete,
-        debug: None,
+        ..FrameState::still(DVec3::new(0.0, 0.0, 1.2), placed, optics)
     }
 }
 
 /// Both projectors on the CPU, with a cache that holds any volume of these tests.
+<<<<<<< engine
 pub(super) fn options() -> RendererOptions {
     RendererOptions {
         display: display(),
@@ -76,6 +68,10 @@ pub(super) fn options() -> RendererOptions {
         filter: FilterChoice::Auto,
         cache_bytes: 64 << 20,
     }
+=======
+pub(super) fn setup() -> Setup {
+    Setup::in_process(display(), vec![0, 1])
+>>>>>>> s1
 }
 
 /// The renderer of these options.

@@ -171,20 +171,11 @@ mod tests {
     use crate::working_set::{ResidentBrick, refresh, settle};
     use bricks::{NodeKey, NodeSummary};
     use glam::{DAffine3, UVec3};
-    use optics::{Curve, ExtinctionUnit};
+    use optics::Curve;
     use proptest::prelude::*;
 
     fn optics() -> Optics {
-        Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::constant(1.0),
-            extinction_unit: ExtinctionUnit::PerVoxel,
-            colour: Curve::constant(glam::DVec3::ONE),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        }
+        Optics::grey(Curve::constant(1.0))
     }
 
     proptest! {

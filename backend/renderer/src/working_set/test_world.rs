@@ -4,7 +4,7 @@ use super::{Cut, IndexRules, corner_weights};
 use bricks::LodRule;
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
-use optics::{Curve, ExtinctionUnit, Optics};
+use optics::{Curve, Optics};
 use std::collections::HashMap;
 
 /// Random numbers from a seed (SplitMix64).
@@ -65,16 +65,7 @@ impl World {
 /// Shows values above `threshold`.
 pub(super) fn optics(threshold: f64) -> Optics {
     let extinction = Curve::new(vec![(0.0, 0.0), (threshold, 0.0), (1.0, 1.0)]).unwrap();
-    Optics {
-        domain: (0.0, 1.3),
-        extinction,
-        extinction_unit: ExtinctionUnit::PerVoxel,
-        colour: Curve::constant(DVec3::ONE),
-        mimda: None,
-        refraction: None,
-        materials: None,
-        enhancers: Vec::new(),
-    }
+    Optics { domain: (0.0, 1.3), ..Optics::grey(extinction) }
 }
 
 /// The centre of the volume stands at depth z; the finest voxel is a millimetre.

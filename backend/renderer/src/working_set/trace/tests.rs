@@ -5,7 +5,7 @@ use crate::working_set::Feedback;
 use bricks::LodRule;
 use bricks::{NodeKey, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
-use optics::{Curve, ExtinctionUnit, Optics, Quality};
+use optics::{Curve, Optics, Quality};
 use proptest::prelude::*;
 use protocol::{FrameState, VolumeRef};
 use std::collections::HashSet;
@@ -114,32 +114,13 @@ fn deficits_are_the_rule_s_and_end_at_the_finest_level() {
 }
 
 fn optics(most: f64) -> Optics {
-    Optics {
-        domain: (0.0, 1.0),
-        extinction: Curve::constant(most),
-        extinction_unit: ExtinctionUnit::PerVoxel,
-        colour: Curve::constant(DVec3::ONE),
-        mimda: None,
-        refraction: None,
-        materials: None,
-        enhancers: Vec::new(),
-    }
+    Optics::grey(Curve::constant(most))
 }
 
 fn frame(index: u32, optics: Optics) -> FrameState {
-    FrameState {
-        index,
-        time_s: f64::from(index) * 0.25,
-        observer_in_display: DVec3::Z,
-        eta: 1.0,
-        display_from_volume: rule().display_from_volume,
-        optics,
-        light: None,
-        quality: Quality { lod_scale: 0.5, ..Quality::default() },
-        tool: None,
-        pace: protocol::Pace::Complete,
-        debug: None,
-    }
+    let quality = Quality { lod_scale: 0.5, ..Quality::default() };
+    let time_s = f64::from(index) * 0.25;
+    FrameState { index, time_s, quality, ..FrameState::still(DVec3::Z, rule().display_from_volume, optics) }
 }
 
 fn header() -> TraceHeader {

@@ -1,0 +1,26 @@
+//! Pictures and stores against the truth, and the kernel against its twin: everything that a tolerance decides.
+//!
+//! One program, so that the tests share what costs the most: imported volumes and pictures by the reference. Tests that
+//! draw hold [`lightloom_tests::draw::turn`]: each uses all cores, and a GPU serves one at a time.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
+mod blending;
+mod debug_views;
+mod devices;
+mod eye;
+mod flat_layers;
+mod hard_cases;
+mod idle_tools;
+mod laws;
+mod layers;
+mod non_finite;
+mod paper;
+mod random;
+mod reference;
+mod refraction;
+mod round_trip;
+mod single_precision;
+mod techniques;
+mod thin_media;
+mod twin;

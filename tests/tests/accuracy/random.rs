@@ -1,0 +1,36 @@
+//! Random scenes: light in every pixel, the same by kernel and twin, and near the truth.
+//!
+//! `LIGHTLOOM_RANDOM_CASES=2000 LIGHTLOOM_RANDOM_SEED=1 cargo test --release -p lightloom-tests --test accuracy random:: --
+//! --nocapture` draws as many as one has time for, and prints the worst; LIGHTLOOM_RANDOM_FIRST=n begins with case n.
+
+use lightloom_tests::draw;
+use lightloom_tests::random_scene::{Plan, Wanted, run};
+
+/// A minute on two cores.
+const CASES: u64 = 40;
+const SEED: u64 = 20_100_607;
+
+fn number(variable: &str, default: u64) -> u64 {
+    std::env::var(variable).map_or(default, |text| text.parse().expect("the variable is a whole number"))
+}
+
+#[test]
+fn random_scenes_are_light_by_every_device_and_near_the_truth() {
+    let _turn = draw::turn();
+    let plan = Plan {
+        seed: number("LIGHTLOOM_RANDOM_SEED", SEED),
+        first: number("LIGHTLOOM_RANDOM_FIRST", 0),
+        cases: number("LIGHTLOOM_RANDOM_CASES", CASES),
+        wanted: Wanted::ALL,
+    };
+    println!("{plan:?}");
+    let summary = run(&plan);
+    println!("{summary}");
+    if std::env::var_os("LIGHTLOOM_RANDOM_CASES").is_some() {
+        let worst = summary.truth.iter().chain(&summary.rounding).flatten();
+        worst.for_each(|worst| println!("case {}: {:#?}", worst.case, worst.scene));
+    }
+    assert!(summary.failed.is_empty(), "{}", summary.failed.join("\n\n"));
+    // The canary: scenes that show nothing are compared with nothing.
+    assert!(plan.cases < CASES || 3 * summary.compared >= plan.cases, "too few show anything: {summary}");
+}

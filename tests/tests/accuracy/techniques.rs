@@ -1,0 +1,234 @@
+//! Every illustrative technique: kernel, twin and reference tell one picture.
+
+use display_config::Display;
+use lightloom_tests::compare::{self, Errors, Limits, errors_between, errors_of};
+use lightloom_tests::draw::{self, Drawn, With};
+use lightloom_tests::scenes::{self, TestScene};
+use lightloom_tests::techniques::{self, TECHNIQUES, band_picker, clip_plane, layer_opacity, probe};
+use lightloom_tests::twin_scene::{TwinScene, view};
+use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe};
+use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
+use shaders::twin::Real;
+use std::sync::Arc;
+
+/// One projector from the side and one near the middle.
+const PROJECTORS: [u32; 2] = [1, 5];
+/// What two ways to round cost: see the comparison of kernel and twin.
+const SAME_TO_ROUNDING: Limits = Limits::of_255(0.002, 0.05, 1.0);
+/// The same where light is bent: each of some hundred turns passes on the rounding of the turns before it, and on real
+/// data, where neighbouring rays part, a few pixels meet another surface.
+const SAME_BUT_BENT: Limits = Limits::of_255(0.05, 0.2, 8.0);
+/// What default quality keeps on every scene without techniques.
+const KEPT: Limits = Limits::of_255(0.15, 1.5, 4.0);
+/// A probe in real data: it scales extinction by the fourth power of an angle that noise turns from voxel to voxel.
+const KEPT_IN_A_PROBE: Limits = Limits::of_255(0.5, 6.0, 20.0);
+/// Bent light on real data: behind a few centimetres of tissue the error of a turn has become a voxel or more, and a ray
+/// near an edge sees what lies beside it. A pixel in some hundred does at default quality; the rest stay near the truth.
+const KEPT_BUT_BENT: Limits = Limits::of_255(3.0, 60.0, 256.0);
+/// The same with steps of a tenth of a voxel: it falls as the steps do.
+const KEPT_IN_SHORT_STEPS: Limits = Limits::of_255(0.6, 10.0, 128.0);
+const SHORT_STEPS: f64 = 0.1;
+
+fn test_display() -> Display {
+    scenes::with_raster(&Display::load("desk8").unwrap(), 160, 120)
+}
+
+fn draw_on(display: &Display, scene: &TestScene, device: DeviceChoice) -> Arc<Drawn> {
+    let TestScene { frame, source, .. } = scene;
+    let with = With { filter: FilterChoice::Exact, ..With::device(device) };
+    let drawn = draw::drawn_once(display, frame, source, &PROJECTORS, with);
+    assert!(drawn.report.complete, "{}", drawn.report.shortfall);
+    assert_is_light(scene.name, &drawn.images);
+    drawn
+}
+
+/// Neither NaN nor infinite nor negative, nor more than opaque.
+fn assert_is_light(name: &str, images: &[ProjectorImage]) {
+    let pixels = images.iter().flat_map(|image| image.rgba.as_chunks::<4>().0);
+    for pixel in pixels {
+        let is_light = pixel.iter().all(|n| n.is_finite() && *n >= 0.0) && pixel[3] <= 1.0 + 1e-5;
+        assert!(is_light, "{name}: {pixel:?} is no light");
+    }
+}
+
+/// Every technique on every base, with the plain picture of the base.
+fn for_each_technique(display: &Display, mut see: impl FnMut(&TestScene, &TestScene)) {
+    for base in techniques::bases(display) {
+        for (name, _) in TECHNIQUES {
+            see(&base, &techniques::with(&base, name));
+        }
+    }
+}
+
+fn is_bent(scene: &TestScene) -> bool {
+    scene.frame.optics.refraction.is_some()
+}
+
+#[test]
+fn kernel_and_twin_tell_the_same_picture() {
+    let _turn = draw::turn();
+    if !draw::has_gpu() {
+        return;
+    }
+    let display = test_display();
+    for_each_technique(&display, |base, scene| {
+        let plain = draw_on(&display, base, DeviceChoice::Cpu);
+        let twin = draw_on(&display, scene, DeviceChoice::Cpu);
+        let kernel = draw_on(&display, scene, DeviceChoice::Gpu);
+        let errors = errors_between(&kernel.images, &twin.images);
+        let effect = errors_between(&twin.images, &plain.images);
+        println!("{:10} {:40} {errors}; it changes {:.2} RMS", base.name, scene.name, effect.rms * 255.0);
+        let limits = if is_bent(scene) { SAME_BUT_BENT } else { SAME_TO_ROUNDING };
+        assert!(limits.hold(&errors), "{}, {}: {errors}", base.name, scene.name);
+        assert!(!limits.hold(&effect), "{}, {} changes nothing", base.name, scene.name);
+    });
+}
+
+#[test]
+fn the_reference_tells_the_same_picture() {
+    let _turn = draw::turn();
+    let display = test_display();
+    for_each_technique(&display, |base, scene| {
+        let truth = compare::traced(&display, &scene.frame, &scene.source, &PROJECTORS, 4);
+        let reached = truth.iter().filter(|pixel| pixel.truth.reached).count();
+        let errors = compare::errors(&draw_on(&display, scene, DeviceChoice::Cpu).images, &truth);
+        let plain = compare::errors(&draw_on(&display, base, DeviceChoice::Cpu).images, &truth);
+        println!("{:10} {:40} {errors}, {reached} to their tolerance", base.name, scene.name);
+        let is_wild = is_bent(scene) && base.name != "bumps";
+        assert!(is_wild || reached == truth.len(), "{}, {}: {reached} reached", base.name, scene.name);
+        let has_probe = scene.frame.optics.enhancers.iter().any(|link| matches!(link, Enhancer::Probe(_)));
+        let limits = match (is_wild, has_probe && base.name != "bumps") {
+            (true, _) => KEPT_BUT_BENT,
+            (false, true) => KEPT_IN_A_PROBE,
+            (false, false) => KEPT,
+        };
+        assert!(limits.hold(&errors), "{}, {}: {errors}", base.name, scene.name);
+        assert!(!limits.hold(&plain), "{}, {}: the plain picture passes", base.name, scene.name);
+        if is_wild {
+            let mut finer = scene.clone();
+            finer.frame.quality.step_voxels = SHORT_STEPS;
+            let errors = compare::errors(&draw_on(&display, &finer, DeviceChoice::Cpu).images, &truth);
+            println!("{:10} {:40} {errors} in short steps", base.name, scene.name);
+            assert!(KEPT_IN_SHORT_STEPS.hold(&errors), "{errors}");
+        }
+    });
+}
+
+#[test]
+fn f32_costs_no_more_than_rounding() {
+    let _turn = draw::turn();
+    let display = test_display();
+    fn numbers<F: Real>(rgba: Vec<[F; 4]>) -> impl Iterator<Item = [f64; 4]> {
+        rgba.into_iter().map(|rgba| rgba.map(|n| f64::from(n.to_f32())))
+    }
+    let pixels: Vec<(u32, u32)> = (0..120).flat_map(|y| (0..160).map(move |x| (x, y))).collect();
+    for_each_technique(&display, |base, scene| {
+        let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
+        let view = view(&display, PROJECTORS[0], &scene.frame, &*scene.source);
+        let pairs = numbers(twin.cast(&view.rounded(), &pixels)).zip(numbers(twin.cast(&view, &pixels)));
+        let errors: Errors = errors_of(pairs);
+        println!("{:10} {:40} f32 against f64: {errors}", base.name, scene.name);
+        let limits = if is_bent(scene) { SAME_BUT_BENT } else { SAME_TO_ROUNDING };
+        assert!(limits.hold(&errors), "{}, {}: {errors}", base.name, scene.name);
+    });
+}
+
+/// A strength that a host takes for one, and that rounds to 0 in f32: the kernel has the enhancer, which does nothing.
+const NEXT_TO_NOTHING: f64 = 1e-60;
+/// The same for a factor.
+const NEXT_TO_ONE: f64 = 1.0 + 1e-12;
+
+#[test]
+fn enhancers_that_do_nothing_are_none_to_the_bit() {
+    let _turn = draw::turn();
+    let display = test_display();
+    let neutral = [
+        Enhancer::ClipPlane(ClipPlane { strength: NEXT_TO_NOTHING, ..clip_plane() }),
+        Enhancer::Probe(Probe { strength: NEXT_TO_NOTHING, ..probe() }),
+        Enhancer::BandPicker(BandPicker { strength: NEXT_TO_NOTHING, ..band_picker([0.3, 0.4, 0.5, 0.6]) }),
+        Enhancer::LayerOpacity(LayerOpacity {
+            away: NEXT_TO_ONE,
+            toward: NEXT_TO_ONE,
+            ..layer_opacity([0.1, 0.2, 0.3, 0.4])
+        }),
+    ];
+    let importance = techniques::with(&techniques::bumps(&display), TECHNIQUES[10].0).frame.optics.mimda;
+    for base in techniques::bases(&display) {
+        for mimda in [None, importance.clone()] {
+            let mut plain = base.clone();
+            plain.frame.optics.mimda = mimda;
+            for device in draw::devices() {
+                let expected = &draw_on(&display, &plain, device).images;
+                let chains = neutral.iter().map(|&link| vec![link]).chain([neutral[..3].to_vec()]);
+                for chain in chains {
+                    let mut scene = plain.clone();
+                    scene.frame.optics.enhancers = chain;
+                    let found = &draw_on(&display, &scene, device).images;
+                    let errors = errors_between(found, expected);
+                    assert!(found == expected, "{device:?}, {:?}: {errors}", scene.frame.optics.enhancers);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn gamma_zero_is_ordinary_compositing_to_the_bit_under_enhancers_too() {
+    let _turn = draw::turn();
+    let display = test_display();
+    for base in techniques::bases(&display) {
+        let mut scene = techniques::with(&base, TECHNIQUES[10].0);
+        for device in draw::devices() {
+            for form in [MimdaForm::Paper, MimdaForm::Consistent] {
+                let with_gamma = |gamma: f64, scene: &mut TestScene| {
+                    let old = scene.frame.optics.mimda.take().unwrap();
+                    scene.frame.optics.mimda = Some(Mimda { gamma, form, ..old });
+                    draw_on(&display, scene, device)
+                };
+                let zero = with_gamma(0.0, &mut scene);
+                let some = with_gamma(0.8, &mut scene);
+                let mut without = scene.clone();
+                without.frame.optics.mimda = None;
+                let ordinary = draw_on(&display, &without, device);
+                assert!(zero.images == ordinary.images, "{device:?}, {form:?}");
+                assert!(some.images != ordinary.images, "{device:?}, {form:?}: γ changes nothing");
+            }
+        }
+    }
+}
+
+#[test]
+fn order_matters_exactly_where_the_reference_says_so() {
+    let _turn = draw::turn();
+    let display = test_display();
+    let base = techniques::with(&techniques::bumps(&display), TECHNIQUES[10].0);
+    let picker = Enhancer::BandPicker(band_picker([0.35, 0.4, 0.5, 0.7]));
+    let layer = Enhancer::LayerOpacity(layer_opacity([0.3, 0.4, 0.6, 0.8]));
+    let [plane, probe] = [Enhancer::ClipPlane(clip_plane()), Enhancer::Probe(probe())];
+    for (name, links, matters) in [
+        ("picker and probe", [picker, probe], true),
+        ("plane and layer", [plane, layer], false),
+        ("plane and picker", [plane, picker], false),
+        ("probe and plane", [probe, plane], false),
+    ] {
+        let told = |links: Vec<Enhancer>| {
+            let mut scene = base.clone();
+            scene.frame.optics.enhancers = links;
+            let truth = compare::truth(&display, &scene.frame, &scene.source, &PROJECTORS, 4);
+            let pictures = draw::devices().into_iter().map(|d| draw_on(&display, &scene, d));
+            (truth, pictures.collect::<Vec<_>>())
+        };
+        let (truth, pictures) = told(links.to_vec());
+        let (turned_truth, turned) = told(links.iter().rev().copied().collect());
+        let numbers = |r: &reference::Radiance| [r.rgb.x, r.rgb.y, r.rgb.z, r.opacity];
+        let pairs = truth.iter().zip(&turned_truth).map(|(a, b)| (numbers(&a.truth), numbers(&b.truth)));
+        let by_reference = errors_of(pairs);
+        println!("{name}: the reference {by_reference}");
+        assert_eq!(!SAME_TO_ROUNDING.hold(&by_reference), matters, "{name}: {by_reference}");
+        for (a, b) in pictures.iter().zip(&turned) {
+            let errors = errors_between(&a.images, &b.images);
+            println!("{name}: a device    {errors}");
+            assert_eq!(!SAME_TO_ROUNDING.hold(&errors), matters, "{name}: {errors}");
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The programs as users start them, alone and under mpirun.
+#![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    reason = "rules out what the test would fail on anyway; clippy knows the test functions only"
+)]
+
+mod accuracy;
+mod bad_input;
+mod export;
+mod import;
+mod live;
+mod lost_backend;
+mod pipeline_cache;
+mod replay;
+mod same_bytes;
+mod store_commands;
+mod whole_store;
