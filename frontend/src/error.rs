@@ -82,3 +82,9 @@ pub enum FrontendError {
     #[error("cannot put the report into JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
+
+impl From<protocol::DrawError> for FrontendError {
+    fn from(error: protocol::DrawError) -> Self {
+        Self::Backend(error.to_string())
+    }
+}

@@ -7,13 +7,8 @@
 use bricks::LodRule;
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
-<<<<<<< engine
-use optics::{Curve, ExtinctionUnit, Optics};
-use renderer::working_set::{Feedback, IndexRules, Moment, WorkingSet, corner_weights};
-=======
 use optics::{Curve, Optics};
-use renderer::working_set::{IndexRules, Met, Moment, WorkingSet, corner_weights};
->>>>>>> s1
+use renderer::working_set::{Feedback, IndexRules, Moment, Showing, Supply, WorkingSet, corner_weights};
 use std::time::Instant;
 
 /// Finest voxels along an edge: eight levels.
@@ -37,6 +32,25 @@ fn rule(lod_scale: f64, z: f64) -> LodRule {
     }
 }
 
+/// Stands for a disk that has everything at once; it notes when it was asked and when it had delivered.
+struct Disk {
+    asked: Instant,
+    delivered: Instant,
+}
+
+impl Supply for Disk {
+    fn want(&mut self, _: &WorkingSet, _: &[NodeKey]) {
+        self.asked = Instant::now();
+    }
+
+    fn deliver(&mut self, set: &mut WorkingSet) {
+        for key in set.wanted().to_vec() {
+            set.arrived(key, 0.0, 1.0);
+        }
+        self.delivered = Instant::now();
+    }
+}
+
 /// One frame; milliseconds of choosing, showing and weighing, without what stands for rays and disk.
 fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Optics, now_s: f64) -> [f64; 3] {
     let summary = |_: NodeKey| NodeSummary { min: 0.4, max: 0.6 };
@@ -54,16 +68,11 @@ fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Opt
         .map(|place| Feedback::met(set.cut().node(place).key, place % 97))
         .collect();
     let started = Instant::now();
-    set.update(&moment, &met);
-    let chosen = started.elapsed();
-    for key in set.wanted().to_vec() {
-        set.arrived(key, 0.0, 1.0);
-    }
+    let mut disk = Disk { asked: started, delivered: started };
+    set.step(&moment, &met, Showing::InTime { before: None }, &mut disk);
+    let (chosen, shown) = (disk.asked - started, disk.delivered.elapsed());
     let started = Instant::now();
-    set.show(&moment);
-    let shown = started.elapsed();
-    let started = Instant::now();
-    std::hint::black_box(corner_weights(&set.cut(), &rules, &summary, |_| false));
+    std::hint::black_box(corner_weights(set.cut(), &rules, &summary, |_| false));
     [chosen, shown, started.elapsed()].map(|spent| spent.as_secs_f64() * 1e3)
 }
 
@@ -107,7 +116,7 @@ fn main() {
             let now_s = 100.0 + f64::from(n) / 60.0;
             times.push(frame(&mut set, &shape, &rule(scale, z), &optics, now_s));
             nodes += set.cut().walk().count();
-            changes += set.splits + set.collapses;
+            changes += set.splits + set.collapses();
         }
         let nodes = nodes as f64 / f64::from(rounds);
         let [choosing, showing, weighing] =

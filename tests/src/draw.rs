@@ -3,16 +3,11 @@
 use crate::made_once::MadeOnce;
 use bricks::BrickSource;
 use display_config::Display;
-<<<<<<< engine
 use protocol::{
     DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent,
     RendererOptions,
 };
 use renderer::Renderer;
-=======
-use protocol::{DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, Setup};
-use renderer::{RenderEvent, Renderer};
->>>>>>> s1
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What a device made of a frame.
@@ -51,21 +46,11 @@ pub fn renderer(
     projectors: &[u32],
     with: With,
 ) -> (Renderer, DeviceInfo) {
-<<<<<<< engine
     let options = RendererOptions {
-        display: display.clone(),
-        projectors: projectors.to_vec(),
-        backend: 0,
         device: with.device,
         filter: with.filter,
         cache_bytes: with.cache_bytes,
-=======
-    let setup = Setup {
-        device: with.device,
-        filter: with.filter,
-        cache_bytes: with.cache_bytes,
-        ..Setup::in_process(display.clone(), projectors.to_vec())
->>>>>>> s1
+        ..RendererOptions::in_process(display.clone(), projectors.to_vec())
     };
     Renderer::new(&options, Arc::clone(source)).expect("the device was found before")
 }

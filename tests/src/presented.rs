@@ -2,14 +2,14 @@
 
 use crate::compare::lod_rule;
 use crate::twin_scene::{TwinScene, View, resident};
-use bricks::{BRICK_VOXELS, BrickSource, CellRanges, NodeKey};
+use bricks::{BRICK_VOXELS, BrickSource, CellRanges, LodRule, NodeKey};
 use display_config::Display;
 use glam::{IVec3, UVec3};
 use layout::{CELL_WORDS, FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 use protocol::FrameState;
 use reference::StoredField;
-use renderer::device::{CastJob, Device, Gather, Part};
-use renderer::working_set::{Cut, IndexRules, build_index};
+use renderer::device::{CastJob, Device, Gather, NEVER, Part};
+use renderer::working_set::{Cut, IndexRules, build_index, refresh, settle};
 use shaders::compose::{Compositing, Needs, Way};
 use shaders::tables::Tables;
 use std::collections::{HashMap, HashSet};
@@ -92,7 +92,11 @@ impl Presented {
                 places.extend(first..first + 8);
             }
         }
-        cut.show_all();
+        // All there is shows: the rule asks for the finest level everywhere.
+        let finest = LodRule { lod_scale: 0.0, ..lod };
+        let order: Vec<u32> = cut.walk().collect();
+        refresh(&mut cut, &IndexRules { lod: &finest, ..rules }, &order);
+        settle(&mut cut);
         let mut nodes = build_index(&cut, &[], &rules);
         for place in cut.walk() {
             self.blend(&cut, place, frame, &mut nodes, &mut atlas);
@@ -216,7 +220,16 @@ pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>
     let View { scene, rays } = view;
     let (views, part) = (std::slice::from_ref(rays), Part::Every { stride: 1 });
     let outcome = device
-        .cast(&CastJob { scene, views, first_picture: 0, needs, part, gather: Gather::Own, counts: true })
+        .cast(&CastJob {
+            scene,
+            views,
+            first_picture: 0,
+            needs,
+            part,
+            gather: Gather::Own,
+            counts: true,
+            stop: NEVER,
+        })
         .expect("the device stays");
     (device.picture(0).expect("the device stays"), outcome.samples)
 }

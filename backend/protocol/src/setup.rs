@@ -64,6 +64,20 @@ pub struct RendererOptions {
     pub cache_bytes: u64,
 }
 
+impl RendererOptions {
+    /// Back-end 0 of this process, on the CPU, with a brick cache of 64 MiB.
+    pub fn in_process(display: Display, projectors: Vec<u32>) -> Self {
+        Self {
+            display,
+            projectors,
+            backend: 0,
+            device: DeviceChoice::Cpu,
+            filter: FilterChoice::Auto,
+            cache_bytes: 64 << 20,
+        }
+    }
+}
+
 /// The first message to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setup {
@@ -73,22 +87,6 @@ pub struct Setup {
     pub volume: VolumeRef,
     /// Where to write the trace of the working set in live frames; None where none is wanted.
     pub trace: Option<PathBuf>,
-}
-
-impl Setup {
-    /// Back-end 0 in this process, on the CPU, with a brick cache of 64 MiB: for a renderer that is handed its volume.
-    pub fn in_process(display: Display, projectors: Vec<u32>) -> Self {
-        Self {
-            display,
-            projectors,
-            backend: 0,
-            volume: VolumeRef::Store("in this process".into()),
-            device: DeviceChoice::Cpu,
-            filter: FilterChoice::Auto,
-            cache_bytes: 64 << 20,
-            trace: None,
-        }
-    }
 }
 
 /// What a back-end says of itself when it starts.

@@ -5,13 +5,8 @@ use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, Optics};
 use protocol::{
-<<<<<<< engine:backend/tests/mpi_link/ranks.rs
-    Advance, DeviceChoice, DeviceInfo, Draw, DrawError, FilterChoice, FrameReport, FrameState, FromBackend,
-    FromFrontend, Pace, ProjectorImage, Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked,
-    VolumeRef, wire,
-=======
-    DeviceInfo, FrameReport, FrameState, FromBackend, FromFrontend, ProjectorImage, Setup, Stages, wire,
->>>>>>> s1:backend/transport/tests/mpi_link/ranks.rs
+    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, FromBackend, FromFrontend, ProjectorImage,
+    Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked, VolumeRef, wire,
 };
 
 use signal_hook::{consts::SIGKILL, low_level::raise};
@@ -152,20 +147,10 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         eta: 1.0,
         projectors: Vec::new(),
     };
-<<<<<<< engine:backend/tests/mpi_link/ranks.rs
     let options = |backend| RendererOptions {
-        display: display.clone(),
-        projectors: vec![2 * backend, 2 * backend + 1],
-        backend,
-        device: DeviceChoice::Cpu,
-        filter: FilterChoice::Exact,
-        cache_bytes: width.into(),
-=======
-    let setup = |backend| Setup {
         backend,
         cache_bytes: width.into(),
-        ..Setup::in_process(display.clone(), vec![2 * backend, 2 * backend + 1])
->>>>>>> s1:backend/transport/tests/mpi_link/ranks.rs
+        ..RendererOptions::in_process(display.clone(), vec![2 * backend, 2 * backend + 1])
     };
     let volume = || VolumeRef::Store("fake.lloom".into());
     let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };

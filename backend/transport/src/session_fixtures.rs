@@ -2,11 +2,8 @@
 
 use display_config::Display;
 use glam::{DAffine3, DVec3};
-use optics::{Curve, ExtinctionUnit, Optics, Quality};
-use protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, Pace, RendererOptions, Setup, Stages,
-    VolumeRef,
-};
+use optics::{Curve, Optics};
+use protocol::{DeviceInfo, FrameReport, FrameState, RendererOptions, Setup, Stages, VolumeRef};
 
 pub(crate) fn setups(count: u32) -> Vec<Setup> {
     let display = Display {
@@ -19,42 +16,16 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
         eta: 1.0,
         projectors: Vec::new(),
     };
-    let options = |backend| RendererOptions {
-        display: display.clone(),
-        projectors: vec![backend],
-        backend,
-        device: DeviceChoice::Cpu,
-        filter: FilterChoice::Exact,
-        cache_bytes: 0,
-    };
+    let options =
+        |backend| RendererOptions { backend, ..RendererOptions::in_process(display.clone(), vec![backend]) };
     let volume = || VolumeRef::Store("fake.lloom".into());
     let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };
     (0..count).map(setup).collect()
 }
 
 pub(crate) fn frame(index: u32) -> FrameState {
-    FrameState {
-        index,
-        time_s: 0.0,
-        observer_in_display: DVec3::Z,
-        eta: 1.0,
-        display_from_volume: DAffine3::IDENTITY,
-        optics: Optics {
-            domain: (0.0, 1.0),
-            extinction: Curve::constant(1.0),
-            extinction_unit: ExtinctionUnit::PerMetre,
-            colour: Curve::constant(DVec3::ONE),
-            mimda: None,
-            refraction: None,
-            materials: None,
-            enhancers: Vec::new(),
-        },
-        light: None,
-        quality: Quality::default(),
-        tool: None,
-        pace: Pace::Complete,
-        debug: None,
-    }
+    let optics = Optics::grey(Curve::constant(1.0));
+    FrameState { index, ..FrameState::still(DVec3::Z, DAffine3::IDENTITY, optics) }
 }
 
 pub(crate) fn report(frame: u32, backend: u32) -> FrameReport {

@@ -4,65 +4,11 @@ use super::*;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads::{self, ThreadLink};
 use crate::worker::Opened;
-<<<<<<< engine
 use protocol::{Advance, Hello, ProjectorImage, Render, StopAsked};
-=======
-use display_config::Display;
-use glam::{DAffine3, DVec3};
-use optics::{Curve, Optics};
-use protocol::{Draw, DrawEvent};
-use protocol::{Hello, Stages};
->>>>>>> s1
 use std::collections::VecDeque;
 
 const SHORT: Limits = Limits { opening: Duration::from_secs(1), drawing: Duration::from_secs(1) };
 
-<<<<<<< engine
-=======
-fn setups(count: u32) -> Vec<Setup> {
-    let display = Display {
-        name: "fake".to_owned(),
-        width_m: 1.0,
-        height_m: 1.0,
-        pixel_size_m: 1e-3,
-        angular_accuracy: 0.01,
-        observer_in_display: DVec3::Z,
-        eta: 1.0,
-        projectors: Vec::new(),
-    };
-    let setup = |backend| Setup { backend, ..Setup::in_process(display.clone(), vec![backend]) };
-    (0..count).map(setup).collect()
-}
-
-fn frame(index: u32) -> FrameState {
-    let optics = Optics::grey(Curve::constant(1.0));
-    FrameState { index, ..FrameState::still(DVec3::Z, DAffine3::IDENTITY, optics) }
-}
-
-fn report(frame: u32, backend: u32) -> FrameReport {
-    FrameReport {
-        frame,
-        backend,
-        projectors: vec![backend],
-        rays: 1,
-        samples: 1,
-        bricks_wanted: 0,
-        bricks_resident: 0,
-        bricks_loaded: 0,
-        bytes_loaded: 0,
-        working_set_union: 0,
-        working_set_sum: 0,
-        complete: true,
-        shortfall: String::new(),
-        upkeep: None,
-        damaged_bricks: 0,
-        damaged: Vec::new(),
-        stages: Stages::default(),
-        total_ms: 0.0,
-    }
-}
-
->>>>>>> s1
 /// Draws a grey pixel; back-end 1 does `mischief` in frame 1.
 struct Fake {
     backend: u32,

@@ -4,13 +4,9 @@ use super::truth::Truth;
 use super::{AccuracyError, Offer, Setting, Study, Trial, Watch};
 use bricks::store::EightBits;
 use bricks::{BrickSource, Codes, NodeKey};
-<<<<<<< engine
 use protocol::{
-    DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup, VolumeRef,
+    DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, RendererOptions,
 };
-=======
-use protocol::{DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, Setup};
->>>>>>> s1
 use reference::Errors;
 use renderer::Renderer;
 use serde::Serialize;
@@ -124,21 +120,11 @@ pub(super) fn offer(study: &Study) -> Result<(Offer, DeviceInfo), AccuracyError>
 const AS_STORED: u8 = 16;
 
 fn open(study: &Study, filter: FilterChoice, bits: u8) -> Result<(Renderer, DeviceInfo), AccuracyError> {
-<<<<<<< engine
     let options = RendererOptions {
-        display: study.display.clone(),
-        projectors: study.projectors.clone(),
-        backend: 0,
         device: study.device,
         filter,
         cache_bytes: study.cache_bytes,
-=======
-    let setup = Setup {
-        device: study.device,
-        filter,
-        cache_bytes: study.cache_bytes,
-        ..Setup::in_process(study.display.clone(), study.projectors.clone())
->>>>>>> s1
+        ..RendererOptions::in_process(study.display.clone(), study.projectors.clone())
     };
     let source: Arc<dyn BrickSource> = match bits {
         8 => Arc::new(EightBits::new(Arc::clone(&study.source))),

@@ -18,7 +18,7 @@ use crate::report::write_text;
 use crate::simulate::{Eye, Job};
 use display_config::{Display, Homography};
 use glam::{DMat3, DVec3, UVec2};
-use protocol::DeviceInfo;
+use protocol::{DeviceInfo, Draw};
 use renderer::output::OutputError;
 use std::path::{Path, PathBuf};
 

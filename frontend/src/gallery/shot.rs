@@ -4,7 +4,7 @@ use super::{EYES, Gallery, Technique};
 use crate::FrontendError;
 use crate::report::Totals;
 use crate::simulate::EyeViews;
-use protocol::FrameState;
+use protocol::{Draw, FrameState, RenderEvent};
 use renderer::output::{OutputError, write_png};
 use std::time::{Duration, Instant};
 

@@ -3,11 +3,10 @@
 use super::*;
 use crate::scene::{Scene, VolumeFacts};
 use crate::session;
-use crate::simulate::Event;
 use bricks::volume::VolumeFrame;
 use glam::{DVec2, UVec3};
 use optics::{Enhancer, Trapezoid};
-use protocol::{FrameReport, FrameState, ProjectorImage, Stages};
+use protocol::{Draw, DrawError, FrameReport, FrameState, ProjectorImage, RenderEvent, Stages};
 
 const SIZE: UVec2 = UVec2::new(16, 12);
 

@@ -25,7 +25,7 @@ use backend::open_renderer;
 use bricks::BrickSource;
 use display_config::{Display, EyeModel};
 use glam::{DVec2, DVec3};
-use protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
+use protocol::{DeviceInfo, Draw, RendererOptions, Setup, VolumeRef};
 use std::path::Path;
 use std::sync::Arc;
 use transport::{Launch, Limits, Link, Session, launch, threads};

@@ -7,7 +7,7 @@ use crate::session;
 use bricks::volume::VolumeFrame;
 use display_config::{Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
-use protocol::{DeviceInfo, FrameReport, Pace, ProjectorImage, Stages, Upkeep};
+use protocol::{DeviceInfo, Draw, DrawError, FrameReport, Pace, ProjectorImage, RenderEvent, Stages, Upkeep};
 use renderer::output::{EyePlan, ScreenRaster};
 use std::path::Path;
 

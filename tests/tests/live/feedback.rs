@@ -1,13 +1,13 @@
 //! The feedback of a frame: one table for all its views, that nobody waits for.
 
-use bricks::BRICK_VOXELS;
+use bricks::{BRICK_VOXELS, NodeKey};
 use display_config::Display;
 use layout::FeedbackEntry;
 use lightloom_tests::draw;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{DeviceChoice, FilterChoice};
-use renderer::device::{CastJob, CastOutcome, Device, Gather, Part, open_device};
+use renderer::device::{CastJob, CastOutcome, Device, FeedbackTag, Gather, NEVER, Part, open_device};
 use std::time::{Duration, Instant};
 
 /// A table that has not come by then never will.
@@ -55,7 +55,7 @@ impl Stage {
     fn cast(&mut self, view: usize, gather: Gather, counts: bool) -> CastOutcome {
         let View { scene, rays } = &self.views[view];
         let (views, part, needs) = (std::slice::from_ref(rays), Part::Every { stride: 1 }, self.scene.needs);
-        let job = CastJob { scene, views, first_picture: 0, needs, part, gather, counts };
+        let job = CastJob { scene, views, first_picture: 0, needs, part, gather, counts, stop: NEVER };
         self.device.cast(&job).unwrap()
     }
 
@@ -65,24 +65,29 @@ impl Stage {
 
     /// A frame of some views.
     fn frame(&mut self, views: &[usize]) {
-        self.device.begin_feedback();
+        self.device.clear_feedback();
         for &view in views {
             assert!(self.cast(view, Gather::Frame, false).feedback.is_empty());
         }
-        self.device.end_feedback();
+        self.device.end_feedback(numbered(views.len()));
     }
 
     /// Asks again and again, and waits for nothing.
     fn taken(&mut self) -> Vec<FeedbackEntry> {
         let started = Instant::now();
         while started.elapsed() < LONGEST_WAIT {
-            if let Some(table) = self.device.take_feedback().unwrap() {
+            if let Some((_, table)) = self.device.take_feedback().unwrap() {
                 return table;
             }
             std::thread::sleep(Duration::from_millis(1));
         }
         panic!("no table came in {LONGEST_WAIT:?}");
     }
+}
+
+/// A tag that can be told from others by its number.
+fn numbered(number: usize) -> FeedbackTag {
+    FeedbackTag { keys: vec![NodeKey::ROOT; number], frame: None }
 }
 
 fn union(a: &[FeedbackEntry], b: &[FeedbackEntry]) -> Vec<FeedbackEntry> {
@@ -102,13 +107,13 @@ fn a_frame_s_table_is_the_union_of_its_views() {
         assert!(own[0] != own[1], "two views that sample alike tell nothing here");
         let both = union(&own[0], &own[1]);
         stage.frame(&[0, 1]);
-        assert!(stage.device.wait_feedback().unwrap().unwrap() == both, "{choice:?}");
+        assert!(stage.device.wait_feedback().unwrap().unwrap() == (numbered(2), both.clone()), "{choice:?}");
         // A cast of its own in the midst of a frame neither adds to the frame's table nor clears it.
-        stage.device.begin_feedback();
+        stage.device.clear_feedback();
         stage.cast(0, Gather::Frame, false);
         assert!(stage.own(1) == own[1], "{choice:?}");
         stage.cast(1, Gather::Frame, true);
-        stage.device.end_feedback();
+        stage.device.end_feedback(numbered(2));
         assert!(stage.taken() == both, "{choice:?}");
         assert_eq!(stage.device.wait_feedback().unwrap(), None);
     }
@@ -146,6 +151,7 @@ fn views_cast_together_are_views_cast_one_by_one() {
             part: Part::Every { stride: 1 },
             gather: Gather::Own,
             counts: true,
+            stop: NEVER,
         };
         let both = stage.device.cast(&job).unwrap();
         assert_eq!((both.rays, both.missing_tiles.len()), (2 * 72 * 54, 2), "{choice:?}");
@@ -156,7 +162,8 @@ fn views_cast_together_are_views_cast_one_by_one() {
         }
         // A view without tiles keeps its picture.
         let tiles = [vec![], vec![0]];
-        let job = CastJob { views: &[views[1], views[0]], part: Part::Tiles(&tiles), ..job };
+        let job =
+            CastJob { views: &[views[1], views[0]], part: Part::Tiles { stride: 1, tiles: &tiles }, ..job };
         assert_eq!(stage.device.cast(&job).unwrap().rays, 64, "{choice:?}");
         assert!(stage.device.picture(1).unwrap() == alone[0].1, "{choice:?}");
         let mixed = stage.device.picture(2).unwrap();
@@ -196,12 +203,12 @@ fn another_index_between_frames_is_safe() {
         assert!(coarse.len() < fine.len());
         assert!(stage.taken() == fine && stage.taken() == coarse, "{choice:?}");
         // An index written within a frame: what was gathered before belongs to other nodes.
-        stage.device.begin_feedback();
+        stage.device.clear_feedback();
         stage.cast(1, Gather::Frame, false);
         let TwinScene { nodes, cells, .. } = stage.scene.clone();
         stage.device.write_index(&nodes, &cells);
         stage.cast(0, Gather::Frame, false);
-        stage.device.end_feedback();
+        stage.device.end_feedback(numbered(2));
         assert!(stage.taken() == coarse, "{choice:?}");
     }
 }

@@ -4,14 +4,8 @@ use super::{RenderError, Renderer};
 use bricks::BrickSource;
 use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
-<<<<<<< engine
-use optics::{Curve, ExtinctionUnit, Light, Optics, Quality};
-use protocol::RenderEvent;
-use protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, RendererOptions};
-=======
 use optics::{Curve, Light, Optics, Quality};
-use protocol::{FrameReport, FrameState, Setup};
->>>>>>> s1
+use protocol::{FrameReport, FrameState, RenderEvent, RendererOptions};
 use std::sync::Arc;
 
 /// Two projectors of 48 × 36 pixels, one the mirror image of the other.
@@ -58,20 +52,8 @@ pub(super) fn frame(least: f64) -> FrameState {
 }
 
 /// Both projectors on the CPU, with a cache that holds any volume of these tests.
-<<<<<<< engine
 pub(super) fn options() -> RendererOptions {
-    RendererOptions {
-        display: display(),
-        projectors: vec![0, 1],
-        backend: 0,
-        device: DeviceChoice::Cpu,
-        filter: FilterChoice::Auto,
-        cache_bytes: 64 << 20,
-    }
-=======
-pub(super) fn setup() -> Setup {
-    Setup::in_process(display(), vec![0, 1])
->>>>>>> s1
+    RendererOptions::in_process(display(), vec![0, 1])
 }
 
 /// The renderer of these options.
