@@ -3,8 +3,8 @@
 use bricks::BrickSource;
 use display_config::Display;
 use protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup,
-    VolumeRef,
+    AdapterWish, DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage,
+    RenderEvent, Setup, VolumeRef,
 };
 use renderer::Renderer;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -51,6 +51,7 @@ pub fn renderer(
         backend: 0,
         volume: VolumeRef::Store("given by the test".into()),
         device: with.device,
+        adapter: AdapterWish::default(),
         filter: with.filter,
         cache_bytes: with.cache_bytes,
         trace: None,
@@ -99,9 +100,13 @@ pub fn has_gpu() -> bool {
 /// LIGHTLOOM_REQUIRE_GPU=1.
 pub fn devices() -> Vec<DeviceChoice> {
     #[cfg(feature = "gpu")]
-    let gpu = renderer::device::gpu::adapter_name().map_err(|error| error.to_string());
+    let gpu = {
+        let (wish, filter) = (AdapterWish::default(), FilterChoice::Exact);
+        let opened = renderer::device::open_device(DeviceChoice::Gpu, &wish, filter, 0, 0);
+        opened.map_err(|error| error.to_string())
+    };
     #[cfg(not(feature = "gpu"))]
-    let gpu: Result<String, String> = Err("the tests were built without the gpu feature".into());
+    let gpu: Result<(), String> = Err("the tests were built without the gpu feature".into());
     match gpu {
         Ok(_) => vec![DeviceChoice::Cpu, DeviceChoice::Gpu],
         Err(why) => {

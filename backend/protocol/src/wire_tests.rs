@@ -79,9 +79,11 @@ prop_compose! {
         let display = Display {
             name, width_m: 1.6, height_m: 0.9, pixel_size_m: 1.5e-3, angular_accuracy: 0.014,
             observer_in_display: DVec3::Z, eta: 1.0, projectors,
+            adapters: vec![None, Some("card".into())],
         };
         FromFrontend::Setup(Box::new(Setup {
-            display, projectors: indices, backend: 1, volume, device: DeviceChoice::Cpu, filter: FilterChoice::Exact,
+            display, projectors: indices, backend: 1, volume, device: DeviceChoice::Cpu,
+            adapter: AdapterWish { turn: 3, name: (n % 5 == 0).then(|| "card".into()) }, filter: FilterChoice::Exact,
             cache_bytes: n, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
         }))
     }

@@ -5,8 +5,8 @@ use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, ExtinctionUnit, Optics, Quality};
 use protocol::{
-    DeviceChoice, DeviceInfo, Draw, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace,
-    ProjectorImage, RenderEvent, Setup, Stages, VolumeRef, wire,
+    AdapterWish, DeviceChoice, DeviceInfo, Draw, FilterChoice, FrameReport, FrameState, FromBackend,
+    FromFrontend, Pace, ProjectorImage, RenderEvent, Setup, Stages, VolumeRef, wire,
 };
 use signal_hook::{consts::SIGKILL, low_level::raise};
 use std::path::Path;
@@ -114,6 +114,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         observer_in_display: DVec3::Z,
         eta: 1.0,
         projectors: Vec::new(),
+        adapters: Vec::new(),
     };
     let setup = |backend| Setup {
         display: display.clone(),
@@ -121,6 +122,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         backend,
         volume: VolumeRef::Store("fake.lloom".into()),
         device: DeviceChoice::Cpu,
+        adapter: AdapterWish::default(),
         filter: FilterChoice::Exact,
         cache_bytes: width.into(),
         trace: None,

@@ -6,7 +6,7 @@ use crate::worker::Opened;
 use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, ExtinctionUnit, Optics, Quality};
-use protocol::{DeviceChoice, FilterChoice, Hello, Pace, Stages, VolumeRef};
+use protocol::{AdapterWish, DeviceChoice, FilterChoice, Hello, Pace, Stages, VolumeRef};
 use protocol::{Draw, RenderEvent};
 use std::collections::VecDeque;
 
@@ -22,6 +22,7 @@ fn setups(count: u32) -> Vec<Setup> {
         observer_in_display: DVec3::Z,
         eta: 1.0,
         projectors: Vec::new(),
+        adapters: Vec::new(),
     };
     let setup = |backend| Setup {
         display: display.clone(),
@@ -29,6 +30,7 @@ fn setups(count: u32) -> Vec<Setup> {
         backend,
         volume: VolumeRef::Store("fake.lloom".into()),
         device: DeviceChoice::Cpu,
+        adapter: AdapterWish::default(),
         filter: FilterChoice::Exact,
         cache_bytes: 0,
         trace: None,

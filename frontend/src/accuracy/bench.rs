@@ -5,7 +5,8 @@ use super::{AccuracyError, Offer, Setting, Study, Trial, Watch};
 use bricks::store::EightBits;
 use bricks::{BrickSource, Codes, NodeKey};
 use protocol::{
-    DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup, VolumeRef,
+    AdapterWish, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup,
+    VolumeRef,
 };
 use reference::Errors;
 use renderer::Renderer;
@@ -127,6 +128,7 @@ fn open(study: &Study, filter: FilterChoice, bits: u8) -> Result<(Renderer, Devi
         // The source is open already.
         volume: VolumeRef::Store("in this process".into()),
         device: study.device,
+        adapter: AdapterWish::default(),
         filter,
         cache_bytes: study.cache_bytes,
         trace: None,

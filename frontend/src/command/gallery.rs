@@ -23,9 +23,10 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;
     let backends = Backends::connect(args.drawing.backends)?;
-    let setups =
-        session::setups(&args.drawing, &scene.volume_ref(), &gallery.display, backends.count(), None)?;
-    let (mut source, devices) = backends.start(setups)?;
+    let wiring = backends.wiring(&gallery.display)?;
+    wiring.warning().iter().for_each(|warning| warn(warning));
+    let options = args.drawing.options(None);
+    let (mut source, devices) = backends.start(&options, &scene.volume_ref(), &gallery.display, &wiring)?;
     let mut progress = Progress::new(!args.quiet);
     let exhibits = gallery.draw(source.as_mut(), &mut progress)?;
     source.finish()?;

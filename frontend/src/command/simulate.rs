@@ -4,7 +4,7 @@ use super::{say, warn};
 use crate::FrontendError;
 use crate::cli::SimulateArgs;
 use crate::progress::Progress;
-use crate::report::{self, Report, units};
+use crate::report::{self, BackendSummary, Report, units};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session::{self, Backends};
 use crate::simulate::{Eye, Job};
@@ -33,13 +33,16 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     Job::prepare_output(&args.out)?;
     traces.map_or(Ok(()), session::prepare_traces)?;
     let backends = Backends::connect(args.drawing.backends)?;
-    let setups = session::setups(&args.drawing, &scene.volume_ref(), &job.display, backends.count(), traces)?;
-    let (mut source, devices) = backends.start(setups)?;
+    let wiring = backends.wiring(&job.display)?;
+    wiring.warning().iter().for_each(|warning| warn(warning));
+    let options = args.drawing.options(traces);
+    let (mut source, devices) = backends.start(&options, &scene.volume_ref(), &job.display, &wiring)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let frames = job.run(source.as_mut(), &mut progress)?;
     source.finish()?;
     drop(progress);
-    let report = Report::new(&scene, &facts, &job, devices, frames, started.elapsed());
+    let report =
+        Report::new(&scene, &facts, &job, BackendSummary::all(&wiring, devices), frames, started.elapsed());
     report::write(&report, &args.out)?;
     tell(args, &report)
 }

@@ -1,6 +1,7 @@
 //! What a run tells of itself, as JSON for programs and as a page for people.
 
 pub mod accuracy;
+mod backend;
 mod frame;
 pub(crate) mod html;
 mod memory;
@@ -10,6 +11,7 @@ mod stage_bar;
 pub mod units;
 mod upkeep;
 
+pub use backend::BackendSummary;
 pub use frame::{FrameSummary, Totals};
 pub use memory::peak_memory_bytes;
 
@@ -18,7 +20,7 @@ use crate::scene::{Scene, VolumeFacts, VolumeSource};
 use crate::simulate::{Job, LEGEND, shows};
 use display_config::Display;
 use optics::DebugView;
-use protocol::{DeviceInfo, FrameState};
+use protocol::FrameState;
 use renderer::output::{OutputError, write_atomically};
 use serde::Serialize;
 use std::io::Write;
@@ -41,8 +43,8 @@ pub struct Report {
     pub scene: SceneSummary,
     /// The display.
     pub display: DisplaySummary,
-    /// What each back-end drew with.
-    pub backends: Vec<DeviceInfo>,
+    /// What each back-end drew, and with what.
+    pub backends: Vec<BackendSummary>,
     /// What is shown in place of the pictures.
     pub debug_view: Option<DebugSummary>,
     /// The eyes.
@@ -125,7 +127,7 @@ impl Report {
         scene: &Scene,
         facts: &VolumeFacts,
         job: &Job,
-        backends: Vec<DeviceInfo>,
+        backends: Vec<BackendSummary>,
         frames: Vec<FrameSummary>,
         wall: Duration,
     ) -> Self {

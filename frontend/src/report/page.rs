@@ -127,8 +127,11 @@ fn sheet(report: &Report, out: &Path) -> Result<String, OutputError> {
 }
 
 fn setting(report: &Report) -> String {
-    let backends = report.backends.iter().enumerate().map(|(index, device)| {
+    let backends = report.backends.iter().enumerate().map(|(index, backend)| {
+        let device = &backend.device;
         let rows = [
+            ("projectors", backend.listed_projectors()),
+            ("why these", backend.why_these.clone()),
             ("adapter", device.adapter.clone()),
             ("why this one", device.reason.clone()),
             ("interpolation", device.filter.clone()),

@@ -19,6 +19,7 @@ pub(super) fn display() -> Display {
         observer_in_display: DVec3::new(0.0, 0.0, 3.0),
         eta: 1.0,
         projectors: vec![projector],
+        adapters: Vec::new(),
     }
 }
 

@@ -1,5 +1,7 @@
 //! What casts rays: the GPU, or the kernels' twin on the CPU.
 
+#[cfg(any(feature = "gpu", test))]
+mod adapter;
 mod choose;
 mod cpu;
 #[cfg(feature = "gpu")]

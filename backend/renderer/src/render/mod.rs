@@ -92,7 +92,7 @@ impl Renderer {
         let bricks: u64 =
             (0..=shape.finest_depth()).map(|d| shape.level_bricks(d).as_u64vec3().element_product()).sum();
         let ChosenDevice { device, info } =
-            open_device(setup.device, setup.filter, setup.cache_bytes, bricks)?;
+            open_device(setup.device, &setup.adapter, setup.filter, setup.cache_bytes, bricks)?;
         let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
         let residency = Residency::new(source, loader, device.slots());
         let renderer = Self {

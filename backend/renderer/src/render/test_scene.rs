@@ -6,7 +6,7 @@ use display_config::{Display, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
 use optics::{Curve, ExtinctionUnit, Light, Optics, Quality};
 use protocol::RenderEvent;
-use protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, Setup, VolumeRef};
+use protocol::{AdapterWish, DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, Setup, VolumeRef};
 use std::sync::Arc;
 
 /// Two projectors of 48 × 36 pixels, one the mirror image of the other.
@@ -36,6 +36,7 @@ pub(super) fn display() -> Display {
         observer_in_display: DVec3::new(0.0, 0.0, 1.2),
         eta: 1.0,
         projectors: vec![projector(-0.2), projector(0.2)],
+        adapters: Vec::new(),
     }
 }
 
@@ -74,6 +75,7 @@ pub(super) fn setup() -> Setup {
         backend: 0,
         volume: VolumeRef::Store("given by the test".into()),
         device: DeviceChoice::Cpu,
+        adapter: AdapterWish::default(),
         filter: FilterChoice::Auto,
         cache_bytes: 64 << 20,
         trace: None,
