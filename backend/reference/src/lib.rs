@@ -33,17 +33,18 @@
 //! | `cut`, `cell`, `cells`, `stored` | the field of a brick source, on the ideal cut or a given one |
 //! | `corners`, `level`, `ladder` | its samples blended with those of the two nodes above |
 //! | `analytic` | the field of a closed formula |
-//! | `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
+//! | `band`, `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
 //! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
 //! | `setting`, `course`, `passage` | what rays of a frame, a straight way and a piece have of it |
 //! | `quadrature`, `rise`, `accumulator` | the integration |
-//! | `refraction` | bent ways, and the light along them |
+//! | `refraction_index`, `refraction` | bent ways, and the light along them |
 //! | `segmentation` | the published, step-dependent compositing over given segments |
 //! | `tracer` | one call per ray |
 //! | `errors` | how far pictures are from the truth |
 
 mod accumulator;
 mod analytic;
+mod band;
 mod cell;
 mod cells;
 mod corners;
@@ -71,6 +72,7 @@ mod quadrature;
 mod radiance;
 mod ray;
 mod refraction;
+mod refraction_index;
 mod rise;
 mod segmentation;
 mod setting;

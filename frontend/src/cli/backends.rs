@@ -1,6 +1,6 @@
 //! The arguments that say with what pictures are drawn.
 
-use crate::session::BackendOptions;
+use crate::adapter::BackendOptions;
 use clap::{Args, ValueEnum};
 use protocol::{DeviceChoice, FilterChoice};
 use std::path::Path;

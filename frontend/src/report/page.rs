@@ -1,10 +1,10 @@
 //! The report as one page that needs nothing else.
 
 use super::html::{embedded_image, escape, facts, table};
+use super::legend::{marks, number};
 use super::stage_bar::stage_bar;
-use super::{FrameSummary, Report, Totals, units, upkeep};
+use super::{CONTACT_SHEET, FrameSummary, Report, Totals, units, upkeep};
 use crate::orientation::describe;
-use crate::simulate::{CONTACT_SHEET, marks, number};
 use renderer::output::OutputError;
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! One frame of a run.
 
 use super::pictures::FramePictures;
-use super::{CONTACT_SHEET, Event, FrameSource, Job};
+use super::{Event, FrameSource, Job};
 use crate::FrontendError;
-use crate::report::FrameSummary;
+use crate::report::{CONTACT_SHEET, FrameSummary};
 use protocol::{FrameReport, FrameState, ProjectorImage};
 use renderer::output::OutputError;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! Laws of a run, with a source that draws gradients instead of volumes.
 
 use super::*;
-use crate::report::{self, BackendSummary, Report};
+use crate::report::{self, BackendSummary, LEGEND};
 use crate::scene::{Scene, VolumeFacts};
 use bricks::volume::VolumeFrame;
 use display_config::{Homography, Projector, Raster};
@@ -180,7 +180,7 @@ fn reports(scene: &Scene, job: &Job, folder: &Path) -> (serde_json::Value, Strin
     let device = DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 };
     let wiring = job.display.wiring(2).unwrap();
     let backends = BackendSummary::all(&wiring, vec![device; 2]);
-    let report = Report::new(scene, &facts(), job, backends, frames, std::time::Duration::from_secs(1));
+    let report = job.report(scene, &facts(), backends, frames, Duration::from_secs(1));
     report::write(&report, folder).unwrap();
     let read = |name| std::fs::read_to_string(folder.join(name)).unwrap();
     (serde_json::from_str(&read(report::JSON)).unwrap(), read(report::HTML))

@@ -1,6 +1,7 @@
 //! Which device: asked for, or the best there is.
 
 use super::{CpuDevice, Device, DeviceError};
+use crate::cache_size::slots_within;
 use protocol::{AdapterWish, DeviceChoice, DeviceInfo, FilterChoice};
 
 /// A device, and what to say of it.
@@ -45,11 +46,6 @@ pub fn open_device(
         (DeviceChoice::Gpu, None) => gpu()
             .map_err(|error| DeviceError(format!("{error}; take --device cpu, or install a Vulkan driver"))),
     }
-}
-
-/// Slots for the bricks that fit, at least the nine that show a root and its children, and a blank one.
-pub(crate) fn slots_within(cache_bytes: u64, brick_bytes: u64, slots_needed: u64) -> u32 {
-    slots_needed.min(cache_bytes / brick_bytes).clamp(9, 1 << 20) as u32 + 1
 }
 
 /// Bytes of a brick in the CPU device's cache.

@@ -1,10 +1,11 @@
 //! Which volume a scene file names, and where it puts it.
 
-use super::Checked;
+use crate::scene::error::Checked;
 use crate::scene::file::{Lengths, PlacementTable, VolumeTable, Voxels};
+use crate::scene::names::PROCEDURAL;
 use crate::scene::placement::rotation_from_deg;
 use crate::scene::text::SceneText;
-use crate::scene::volume::{LARGEST_EDGE, PROCEDURAL};
+use crate::scene::volume::LARGEST_EDGE;
 use crate::scene::{Placement, Size, VolumeAxes, VolumeAxis, VolumeSource};
 use glam::{DVec3, UVec3};
 use std::ops::Range;
