@@ -17,7 +17,7 @@ mod zone;
 
 pub use display::Display;
 pub use error::{Clip, ConfigError, Place, RayError};
-pub use eye::{EyeModel, eye_weights};
+pub use eye::EyeModel;
 pub use homography::Homography;
 pub use preset::presets;
 pub use projector::Projector;

@@ -11,6 +11,7 @@ pub mod faulty_source;
 pub mod head;
 pub mod ideal_cut;
 pub mod motion;
+pub mod picture_difference;
 pub mod presented;
 #[cfg(unix)]
 pub mod program;

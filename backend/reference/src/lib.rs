@@ -32,7 +32,7 @@
 //! | `field` | what a field of data values must answer |
 //! | `cut`, `cell`, `cells`, `stored` | the field of a brick source, on the ideal cut or a given one |
 //! | `corners`, `level`, `ladder` | its samples blended with those of the two nodes above |
-//! | `analytic` | the field of a closed formula |
+//! | `analytic` | the field of a closed formula, for tests |
 //! | `band`, `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
 //! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
 //! | `setting`, `course`, `passage` | what rays of a frame, a straight way and a piece have of it |
@@ -43,6 +43,7 @@
 //! | `errors` | how far pictures are from the truth |
 
 mod accumulator;
+#[cfg(test)]
 mod analytic;
 mod band;
 mod cell;
@@ -85,7 +86,8 @@ mod test_scene;
 mod tracer;
 
 pub use accumulator::Integrator;
-pub use analytic::AnalyticField;
+#[cfg(test)]
+use analytic::AnalyticField;
 pub use cubic::Cubic;
 pub use errors::Errors;
 pub use field::{Field, Levels, Piece, Visitor};

@@ -6,6 +6,7 @@ mod modules;
 mod shape;
 mod sources;
 mod twins;
+mod unused;
 
 /// Fails with the faults that were found, a line each.
 #[track_caller]
