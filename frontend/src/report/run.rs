@@ -2,7 +2,7 @@
 
 use super::legend::{LEGEND, shows};
 use super::{BackendSummary, FrameSummary, Totals, peak_memory_bytes};
-use crate::scene::{Scene, VolumeFacts, VolumeSource};
+use crate::scene::{PROCEDURAL_PREFIX, Scene, VolumeFacts, VolumeSource};
 use display_config::Display;
 use optics::DebugView;
 use protocol::FrameState;
@@ -153,7 +153,7 @@ impl SceneSummary {
     pub(super) fn new(scene: &Scene, facts: &VolumeFacts, frame: Option<&FrameState>) -> Self {
         let volume = match &scene.volume {
             VolumeSource::Store(path) => path.display().to_string(),
-            VolumeSource::Procedural { name, .. } => format!("procedural:{name}"),
+            VolumeSource::Procedural { name, .. } => format!("{PROCEDURAL_PREFIX}{name}"),
         };
         let edges_m = frame.map_or([0.0; 3], |frame| {
             let linear = frame.display_from_volume.matrix3;

@@ -1,6 +1,6 @@
 //! Scenes by their names on the command line.
 
-use super::names::PROCEDURAL;
+use super::names::PROCEDURAL_PREFIX;
 use super::{Look, Scene, SceneError, VolumeSource, builtin, read};
 use optics::Optics;
 use std::path::Path;
@@ -8,7 +8,7 @@ use std::path::Path;
 impl Scene {
     /// The scene of a command-line argument: a TOML file, a `.lloom` store, or `procedural:NAME[@VOXELS]`.
     pub fn load(argument: &str) -> Result<Self, SceneError> {
-        if let Some(name) = argument.strip_prefix(PROCEDURAL) {
+        if let Some(name) = argument.strip_prefix(PROCEDURAL_PREFIX) {
             return Ok(builtin::procedural_scene(argument, VolumeSource::procedural(name)?));
         }
         let path = Path::new(argument);

@@ -28,6 +28,7 @@ pub use error::SceneError;
 pub use look::{DataLook, Look};
 pub use motion::{Motion, Track};
 pub use names::PROCEDURAL_NAMES;
+pub(crate) use names::PROCEDURAL_PREFIX;
 pub use placement::{Placement, Size};
 pub use quality::QualityPreset;
 pub use volume::{VolumeFacts, VolumeSource};

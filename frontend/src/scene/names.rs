@@ -1,6 +1,4 @@
-//! The names of procedural volumes.
+//! The names of procedural volumes, which are those of their fields.
 
-/// What names of procedural volumes begin with.
-pub(super) const PROCEDURAL: &str = "procedural:";
-/// Names that may follow `procedural:`.
-pub const PROCEDURAL_NAMES: [&str; 3] = ["shells", "marschner-lobb", "sparse-vessels"];
+pub use bricks::procedural::FIELD_NAMES as PROCEDURAL_NAMES;
+pub(crate) use volumes::PROCEDURAL_PREFIX;

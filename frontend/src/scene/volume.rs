@@ -1,7 +1,7 @@
 //! Which volume a scene shows, and what is known of it.
 
 use super::SceneError;
-use super::names::{PROCEDURAL, PROCEDURAL_NAMES};
+use super::names::{PROCEDURAL_NAMES, PROCEDURAL_PREFIX};
 use crate::orientation::FrameFacts;
 use bricks::BrickSource;
 use bricks::volume::VolumeFrame;
@@ -33,7 +33,7 @@ pub enum VolumeSource {
 impl VolumeSource {
     /// The volume of `procedural:NAME[@VOXELS]`; None for anything that does not begin so.
     pub fn parse_procedural(text: &str) -> Result<Option<Self>, SceneError> {
-        text.strip_prefix(PROCEDURAL).map(Self::procedural).transpose()
+        text.strip_prefix(PROCEDURAL_PREFIX).map(Self::procedural).transpose()
     }
 
     /// The volume of `NAME` or `NAME@VOXELS`, without `procedural:` in front.

@@ -43,10 +43,15 @@ pub fn open_device(
             None => gpu().or_else(|error| cpu(&error.0)),
         },
         (_, Some(_)) => gpu().map_err(|error| DeviceError(format!("{error}, or take --device cpu"))),
-        (DeviceChoice::Gpu, None) => gpu()
-            .map_err(|error| DeviceError(format!("{error}; take --device cpu, or install a Vulkan driver"))),
+        (DeviceChoice::Gpu, None) => {
+            gpu().map_err(|error| DeviceError(format!("{error}; take --device cpu, or {INSTEAD}")))
+        }
     }
 }
+
+/// What else helps where there is no GPU.
+const INSTEAD: &str =
+    if cfg!(feature = "gpu") { "install a Vulkan driver" } else { "build it with that feature" };
 
 /// Bytes of a brick in the CPU device's cache.
 const CPU_BRICK_BYTES: u64 = 2 * bricks::BRICK_VOXELS as u64;
@@ -81,5 +86,5 @@ fn software_gpu(_: &AdapterWish) -> Option<String> {
 
 #[cfg(not(feature = "gpu"))]
 fn open_gpu(_: &AdapterWish, _: FilterChoice, _: u64, _: u64) -> Result<ChosenDevice, DeviceError> {
-    Err(DeviceError("this program was built without its gpu feature; build it with that feature".into()))
+    Err(DeviceError("this program was built without its gpu feature".into()))
 }
