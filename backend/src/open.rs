@@ -6,13 +6,16 @@ use bricks::store::Store;
 use protocol::{Setup, VolumeRef};
 use renderer::Renderer;
 use std::sync::Arc;
+use transport::local_rank;
 use transport::worker::Opened;
 
-/// Opens the volume and the device that `setup` names.
+/// Opens the volume and the device that `setup` names. Ranks of one host take its adapters in turn, by their places on that
+/// host where the launcher says them.
 ///
 /// # Errors
 /// One sentence: the volume cannot be opened, or the device cannot be had.
-pub fn open_renderer(setup: Setup) -> Result<Opened, String> {
+pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
+    setup.options.adapter.turn = local_rank().unwrap_or(setup.options.adapter.turn);
     let source = open_volume(&setup.volume)?;
     let (mut renderer, info) = Renderer::new(&setup.options, source).map_err(|error| error.to_string())?;
     if let Some(path) = setup.trace {

@@ -97,49 +97,42 @@ pub(crate) fn bracket(beams: &[Beam], direction: f64, lit: impl Fn(&Beam) -> boo
     }
 }
 
-impl Display {
-    /// The angle, radians, between the two horizontally neighbouring beams at a screen point that enclose a horizontal
-    /// direction (atan(dx/dz), 0 straight ahead, positive to the right); outside the fan, of the two outermost on that
-    /// side. Beams are those of projectors whose raster covers the point; beams of one direction count as one. None
-    /// where fewer than two directions are lit.
-    ///
-    /// It varies slowly over screen and direction even for evenly placed projectors: the lobe an eye sees follows it.
-    pub fn local_beam_spacing(&self, screen: DVec2, direction: f64) -> Option<f64> {
-        let sources = Beams::new(self);
-        bracket(&sources.all_at(screen), direction, |beam| sources.lights(beam, screen))
-            .map(|(low, high)| high - low)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The angle, radians, between the two beams of a display that enclose a direction at a screen point.
+    fn spacing_at(display: &Display, screen: DVec2, direction: f64) -> Option<f64> {
+        let sources = Beams::new(display);
+        bracket(&sources.all_at(screen), direction, |beam| sources.lights(beam, screen))
+            .map(|(low, high)| high - low)
+    }
+
     #[test]
     fn holo72_has_beams_every_0_97_degrees() {
         let display = Display::load("holo72").unwrap();
-        let spacing = display.local_beam_spacing(DVec2::ZERO, 0.0).unwrap();
+        let spacing = spacing_at(&display, DVec2::ZERO, 0.0).unwrap();
         assert!((spacing.to_degrees() - 0.968).abs() < 1e-3, "{}", spacing.to_degrees());
         // The same spacing in x is a smaller angle off the axis: cos² of the direction.
-        let aside = display.local_beam_spacing(DVec2::ZERO, 0.5).unwrap();
+        let aside = spacing_at(&display, DVec2::ZERO, 0.5).unwrap();
         assert!((aside / spacing - 0.5f64.cos().powi(2)).abs() < 0.01);
     }
 
     #[test]
     fn outside_the_fan_the_outermost_pair_counts() {
         let display = Display::load("desk8").unwrap();
-        let outermost = display.local_beam_spacing(DVec2::ZERO, 0.56f64.atan() - 1e-3).unwrap();
-        assert_eq!(display.local_beam_spacing(DVec2::ZERO, 1.5), Some(outermost));
+        let outermost = spacing_at(&display, DVec2::ZERO, 0.56f64.atan() - 1e-3).unwrap();
+        assert_eq!(spacing_at(&display, DVec2::ZERO, 1.5), Some(outermost));
     }
 
     #[test]
     fn one_direction_has_no_spacing() {
         let mut display = Display::load("desk8").unwrap();
         display.projectors.truncate(1);
-        assert_eq!(display.local_beam_spacing(DVec2::ZERO, 0.0), None);
+        assert_eq!(spacing_at(&display, DVec2::ZERO, 0.0), None);
         let mut twin = display.projectors[0].clone();
         twin.name = "twin".into();
         display.projectors.push(twin);
-        assert_eq!(display.local_beam_spacing(DVec2::ZERO, 0.0), None);
+        assert_eq!(spacing_at(&display, DVec2::ZERO, 0.0), None);
     }
 }

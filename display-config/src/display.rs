@@ -23,6 +23,8 @@ pub struct Display {
     pub eta: f64,
     /// Its projectors, in the order of their pictures.
     pub projectors: Vec<Projector>,
+    /// Part of the name of the graphics adapter of each back-end; None, or no entry, where the file names none.
+    pub adapters: Vec<Option<String>>,
 }
 
 impl Display {

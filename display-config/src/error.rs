@@ -134,6 +134,12 @@ pub enum ConfigError {
         "{place} is {highest}, but no projector has back-end {missing}; number the back-ends from 0 without gaps"
     )]
     BackendGap { place: Place, highest: u32, missing: u32 },
+    /// A table for a back-end that no projector names.
+    #[error(
+        "{place} is the table of back-end {number}, but the projectors' back-ends end at {highest}; remove it, or give \
+         that back-end a projector"
+    )]
+    BackendWithoutProjectors { place: Place, number: usize, highest: usize },
     /// More back-ends than projectors, in a file.
     #[error("{place} is {backends} for {projectors} projectors; give each back-end at least one")]
     TooManyLineBackends { place: Place, backends: u32, projectors: u32 },

@@ -76,18 +76,6 @@ impl EyeModel {
     }
 }
 
-/// The weights of one screen point for one eye: [`EyeModel::weights`] for who asks once.
-///
-/// # Errors
-/// See [`EyeModel::new`].
-pub fn eye_weights(
-    display: &Display,
-    screen: DVec2,
-    eye_in_display: DVec3,
-) -> Result<Vec<(usize, f64)>, RayError> {
-    Ok(EyeModel::new(display, eye_in_display)?.weights(screen))
-}
-
 /// How much a beam counts for an eye in a direction. Angles in radians.
 struct Lobe {
     direction: f64,

@@ -6,6 +6,15 @@ use proptest::prelude::*;
 /// Rounding of a sum of a few weights.
 const ROUNDING: f64 = 1e-9;
 
+/// The weights of one screen point for one eye.
+fn eye_weights(
+    display: &Display,
+    screen: DVec2,
+    eye_in_display: DVec3,
+) -> Result<Vec<(usize, f64)>, RayError> {
+    Ok(EyeModel::new(display, eye_in_display)?.weights(screen))
+}
+
 fn holo72() -> Display {
     Display::load("holo72").unwrap()
 }

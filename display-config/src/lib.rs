@@ -1,6 +1,5 @@
 //! What a light-field display is: its geometry, its projectors, its ray model.
 
-mod assignment;
 mod beams;
 mod display;
 mod error;
@@ -13,13 +12,15 @@ mod preset;
 mod projector;
 mod raster;
 mod ray;
+mod wiring;
 mod zone;
 
 pub use display::Display;
 pub use error::{Clip, ConfigError, Place, RayError};
-pub use eye::{EyeModel, eye_weights};
+pub use eye::EyeModel;
 pub use homography::Homography;
 pub use preset::presets;
 pub use projector::Projector;
 pub use raster::{COVER_TOLERANCE_PX, Raster, RasterInverse};
 pub use ray::{BeamLaw, Ray};
+pub use wiring::{Origin, Share, Wiring};

@@ -1,6 +1,7 @@
 //! The program people start: its command line, scenes, simulation and reports.
 
 pub mod accuracy;
+pub mod adapter;
 pub mod cli;
 pub mod command;
 mod error;
@@ -10,7 +11,6 @@ pub mod orientation;
 pub mod progress;
 pub mod report;
 pub mod scene;
-pub mod session;
 pub mod simulate;
 
 pub use error::FrontendError;

@@ -215,7 +215,7 @@ fn read_rates(path: &Path) {
     println!("| checking all | {:.0} MiB/s |", found.bytes as f64 / MIB / started.elapsed().as_secs_f64());
 }
 
-/// Bricks of the finest level that take bytes, drawn at random from a fixed seed.
+/// Bricks of the finest level that hold several values, and so take bytes, drawn at random from a fixed seed.
 fn stored_nodes(store: &Store) -> Vec<NodeKey> {
     let depth = store.shape().finest_depth();
     let bricks = store.shape().level_bricks(depth);
@@ -225,7 +225,8 @@ fn stored_nodes(store: &Store) -> Vec<NodeKey> {
     while nodes.len() < READS {
         let cell = UVec3::new(random(bricks.x), random(bricks.y), random(bricks.z));
         let node = NodeKey { depth, cell };
-        if store.stored_bytes(node) > 0 {
+        let summary = store.summary(node);
+        if summary.min < summary.max {
             nodes.push(node);
         }
     }

@@ -189,7 +189,8 @@ fn visibility(holo: &Display, subjects: &[Subject], device: DeviceChoice) {
 
 /// Section 6: the load of each back-end.
 fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) {
-    let shares = holo.assign(BACKENDS).expect("holo72 has 72 projectors");
+    let wiring = holo.wiring(BACKENDS).expect("holo72 has 72 projectors");
+    let shares: Vec<_> = wiring.shares.into_iter().map(|share| share.projectors).collect();
     println!("## Working sets of {BACKENDS} back-ends of holo72, two projectors each: {}\n", subject.name);
     println!("Leaves that rays sampled, of a back-end's two views together, by raster:\n");
     println!(

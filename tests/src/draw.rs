@@ -4,8 +4,8 @@ use crate::made_once::MadeOnce;
 use bricks::BrickSource;
 use display_config::Display;
 use protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent,
-    RendererOptions,
+    AdapterWish, DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage,
+    RenderEvent, RendererOptions,
 };
 use renderer::Renderer;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -112,9 +112,13 @@ pub fn has_gpu() -> bool {
 /// LIGHTLOOM_REQUIRE_GPU=1.
 pub fn devices() -> Vec<DeviceChoice> {
     #[cfg(feature = "gpu")]
-    let gpu = renderer::device::gpu::adapter_name().map_err(|error| error.to_string());
+    let gpu = {
+        let (wish, filter) = (AdapterWish::default(), FilterChoice::Exact);
+        let opened = renderer::device::open_device(DeviceChoice::Gpu, &wish, filter, 0, 0);
+        opened.map_err(|error| error.to_string())
+    };
     #[cfg(not(feature = "gpu"))]
-    let gpu: Result<String, String> = Err("the tests were built without the gpu feature".into());
+    let gpu: Result<(), String> = Err("the tests were built without the gpu feature".into());
     match gpu {
         Ok(_) => vec![DeviceChoice::Cpu, DeviceChoice::Gpu],
         Err(why) => {

@@ -13,4 +13,6 @@ pub use frame::{FrameState, Pace, Tool, ToolKind};
 pub use image::ProjectorImage;
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{FrameReport, Stages, Upkeep};
-pub use setup::{DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Setup, VolumeRef};
+pub use setup::{
+    AdapterWish, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Setup, VolumeRef,
+};

@@ -31,6 +31,16 @@ pub enum FilterChoice {
     Exact,
 }
 
+/// Which of a host's graphics adapters.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AdapterWish {
+    /// Which of the back-ends of its host this is, counted from any number on: back-ends take turns where several adapters
+    /// fit.
+    pub turn: u32,
+    /// Part of the adapter's name, in capitals or not; None for any of the best kind.
+    pub name: Option<String>,
+}
+
 /// Which volume.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum VolumeRef {
@@ -58,6 +68,8 @@ pub struct RendererOptions {
     pub backend: u32,
     /// The device.
     pub device: DeviceChoice,
+    /// The adapter, where the device is a GPU.
+    pub adapter: AdapterWish,
     /// The interpolation.
     pub filter: FilterChoice,
     /// Size of the brick cache, bytes.
@@ -72,6 +84,7 @@ impl RendererOptions {
             projectors,
             backend: 0,
             device: DeviceChoice::Cpu,
+            adapter: AdapterWish::default(),
             filter: FilterChoice::Auto,
             cache_bytes: 64 << 20,
         }

@@ -79,9 +79,12 @@ prop_compose! {
         let display = Display {
             name, width_m: 1.6, height_m: 0.9, pixel_size_m: 1.5e-3, angular_accuracy: 0.014,
             observer_in_display: DVec3::Z, eta: 1.0, projectors,
+            adapters: vec![None, Some("card".into())],
         };
         let options = RendererOptions {
-            display, projectors: indices, backend: 1, device: DeviceChoice::Cpu, filter: FilterChoice::Exact, cache_bytes: n,
+            display, projectors: indices, backend: 1, device: DeviceChoice::Cpu,
+            adapter: AdapterWish { turn: 3, name: (n % 5 == 0).then(|| "card".into()) }, filter: FilterChoice::Exact,
+            cache_bytes: n,
         };
         FromFrontend::Setup(Box::new(Setup {
             options, volume, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),

@@ -1,9 +1,10 @@
 //! The accumulation of light along one ray.
 
+use super::band::Band;
 use super::course::Course;
 use super::enhancer::Chain;
 use super::field::Levels;
-use super::medium::{Band, Erasure, Medium};
+use super::medium::{Erasure, Medium};
 use super::passage::{Passage, Shown, Stretch};
 use super::rise::{Emitter, Rise, State};
 use super::{Piece, Radiance, Visitor};

@@ -32,18 +32,20 @@
 //! | `field` | what a field of data values must answer |
 //! | `cut`, `cell`, `cells`, `stored` | the field of a brick source, on the ideal cut or a given one |
 //! | `corners`, `level`, `ladder` | its samples blended with those of the two nodes above |
-//! | `analytic` | the field of a closed formula |
-//! | `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
+//! | `analytic` | the field of a closed formula, for tests |
+//! | `band`, `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
 //! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
 //! | `setting`, `course`, `passage` | what rays of a frame, a straight way and a piece have of it |
 //! | `quadrature`, `rise`, `accumulator` | the integration |
-//! | `refraction` | bent ways, and the light along them |
+//! | `refraction_index`, `refraction` | bent ways, and the light along them |
 //! | `segmentation` | the published, step-dependent compositing over given segments |
 //! | `tracer` | one call per ray |
 //! | `errors` | how far pictures are from the truth |
 
 mod accumulator;
+#[cfg(test)]
 mod analytic;
+mod band;
 mod cell;
 mod cells;
 mod corners;
@@ -71,6 +73,7 @@ mod quadrature;
 mod radiance;
 mod ray;
 mod refraction;
+mod refraction_index;
 mod rise;
 mod segmentation;
 mod setting;
@@ -83,7 +86,8 @@ mod test_scene;
 mod tracer;
 
 pub use accumulator::Integrator;
-pub use analytic::AnalyticField;
+#[cfg(test)]
+use analytic::AnalyticField;
 pub use cubic::Cubic;
 pub use errors::Errors;
 pub use field::{Field, Levels, Piece, Visitor};

@@ -1,66 +1,10 @@
 //! The curves of an optical model, cut into bands on which all of them are linear.
 
 use super::Cubic;
+use super::band::{Band, Linear, linear};
 use super::enhancer::Chain;
-use glam::{DVec3, DVec4};
-use optics::{Curve, CurveValue, MOST_ENHANCERS, Material, MimdaForm, Optics};
-
-/// A function that is linear over a band: its value at the band's start, and its change over the band.
-#[derive(Clone, Copy, Debug)]
-pub struct Linear<V>(pub V, pub V);
-
-/// An interval of the scalar on which every curve is linear. Positions in it are x = (s − start) / width.
-#[derive(Clone, Copy, Debug)]
-pub struct Band {
-    start: f64,
-    width: f64,
-    /// Extinction, 1/metre.
-    pub extinction: Linear<f64>,
-    /// Colour, linear RGB.
-    pub colour: Linear<DVec3>,
-    /// Importance as the chain leaves it; 0 where the medium has none.
-    pub importance: Linear<f64>,
-    /// Importance as the chain of enhancers is told it: the scene's own, 1 where none is accumulated.
-    pub told: Linear<f64>,
-    /// What each link of the chain has of the scalar: its own band's value, 0 for links without a band.
-    pub shares: [Linear<f64>; MOST_ENHANCERS],
-    /// Factors of the shading law, where they depend on the scalar.
-    pub material: Option<Linear<DVec4>>,
-}
-
-impl Band {
-    /// The place in the band of the scalar `s`.
-    pub fn place(&self, s: f64) -> f64 {
-        (s - self.start) / self.width
-    }
-
-    /// The place in the band along a way on which the scalar is a cubic.
-    pub fn places(&self, scalar: &Cubic) -> Cubic {
-        scalar.relative_to(self.start, self.width)
-    }
-
-    /// The importance at the scalar `s`.
-    pub fn importance_at(&self, s: f64) -> f64 {
-        (self.importance.0 + self.importance.1 * self.place(s)).clamp(0.0, 1.0)
-    }
-
-    /// The scalar at which the importance, which must change in this band, is `importance`.
-    pub fn scalar_where(&self, importance: f64) -> f64 {
-        self.start + self.width * ((importance - self.importance.0) / self.importance.1)
-    }
-
-    /// What the shading law is told at `place`: `light`'s factors where the scene has none per scalar.
-    pub fn material(&self, place: f64, light: Material) -> Material {
-        let Some(Linear(start, change)) = self.material else { return light };
-        let [ambient, diffuse, specular, shininess] = (start + change * place).to_array();
-        Material { ambient, diffuse, specular, shininess }
-    }
-
-    /// Whether nothing is visible anywhere in the band.
-    pub fn is_empty(&self) -> bool {
-        self.extinction.0 == 0.0 && self.extinction.1 == 0.0
-    }
-}
+use glam::DVec4;
+use optics::{Curve, Material, MimdaForm, Optics};
 
 /// How strongly importance erases what lies before it.
 #[derive(Clone, Copy, Debug)]
@@ -246,17 +190,11 @@ fn materials(curve: &Curve<Material>, s0: f64, s1: f64) -> Linear<DVec4> {
     Linear(start, end - start)
 }
 
-/// A curve over [s0, s1]; at its point where they are equal.
-pub fn linear<V: CurveValue + std::ops::Sub<Output = V>>(curve: &Curve<V>, s0: f64, s1: f64) -> Linear<V> {
-    let start = curve.at(s0);
-    let end = if s1 > s0 { curve.just_below(s1) } else { start };
-    Linear(start, end - start)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::test_scene::{optics, with_importance};
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn the_mean_of_a_curve_with_a_jump_is_its_integral_over_the_width() {

@@ -1,10 +1,10 @@
 //! A piece on its way through the accumulator.
 
+use super::band::Band;
 use super::course::Course;
 use super::enhanced::Enhanced;
 use super::enhancer::{Chain, Zones};
 use super::field::Levels;
-use super::medium::Band;
 use super::shading::Shader;
 use super::slopes::Slopes;
 use super::span::Span;

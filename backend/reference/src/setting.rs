@@ -6,7 +6,7 @@ use super::course::Course;
 use super::enhancer::Chain;
 use super::field::Levels;
 use super::medium::Medium;
-use super::refraction::Index;
+use super::refraction_index::Index;
 use super::shading::Shading;
 use super::slopes::shading_from_gradient;
 use glam::DAffine3;

@@ -1,7 +1,7 @@
 //! A span: a part of a piece within one band of the scalar.
 
 use super::Cubic;
-use super::medium::Band;
+use super::band::Band;
 use super::quadrature::{Estimate, integrate};
 use super::rise::{Emitter, GAIN_WHERE_SMOOTH};
 use super::shading::{Shader, Surface};

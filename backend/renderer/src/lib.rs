@@ -1,5 +1,6 @@
 //! The renderer of one back-end: working set, brick cache, devices, and what becomes of its pictures.
 
+mod cache_size;
 pub mod device;
 pub mod output;
 mod render;

@@ -146,6 +146,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         observer_in_display: DVec3::Z,
         eta: 1.0,
         projectors: Vec::new(),
+        adapters: Vec::new(),
     };
     let options = |backend| RendererOptions {
         backend,

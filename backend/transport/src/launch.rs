@@ -49,6 +49,24 @@ fn ranks_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
         .or_else(|| variable("PMIX_RANK").map(|_| number("SLURM_NTASKS").unwrap_or(2)))
 }
 
+/// Which of the ranks of its host this process is, as its launcher says; None where there is no launcher, or it does not
+/// say.
+pub fn local_rank() -> Option<u32> {
+    under_mpi().then(|| local_rank_in(|name| std::env::var(name).ok())).flatten()
+}
+
+fn local_rank_in(variable: impl Fn(&str) -> Option<String>) -> Option<u32> {
+    let names = [
+        "OMPI_COMM_WORLD_LOCAL_RANK",
+        "MPI_LOCALRANKID",
+        "MV2_COMM_WORLD_LOCAL_RANK",
+        "PMI_LOCAL_RANK",
+        "PALS_LOCAL_RANKID",
+        "SLURM_LOCALID",
+    ];
+    names.into_iter().find_map(|name| variable(name)?.parse().ok())
+}
+
 fn rank_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
     let names = ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "PMIX_RANK"];
     names.into_iter().find_map(|name| variable(name).and_then(|text| text.parse().ok()))
@@ -86,8 +104,12 @@ pub fn fail(program: &str, sentence: &str) -> ! {
 mod tests {
     use super::*;
 
+    fn value(environment: &[(&str, &str)], name: &str) -> Option<String> {
+        environment.iter().find(|(n, _)| *n == name).map(|(_, value)| (*value).to_owned())
+    }
+
     fn ranks(environment: &[(&str, &str)]) -> Option<usize> {
-        ranks_in(|name| environment.iter().find(|(n, _)| *n == name).map(|(_, v)| (*v).to_owned()))
+        ranks_in(|name| value(environment, name))
     }
 
     #[test]
@@ -98,5 +120,13 @@ mod tests {
         assert_eq!(ranks(&[("PMI_SIZE", "1")]), Some(1));
         assert_eq!(ranks(&[("PMIX_RANK", "0"), ("SLURM_NTASKS", "3")]), Some(3));
         assert_eq!(ranks(&[("PMIX_RANK", "0")]), Some(2));
+    }
+
+    #[test]
+    fn a_rank_s_place_on_its_host_is_what_its_launcher_says() {
+        let local = |environment: &[(&str, &str)]| local_rank_in(|name| value(environment, name));
+        assert_eq!(local(&[]), None);
+        assert_eq!(local(&[("OMPI_COMM_WORLD_LOCAL_RANK", "3"), ("SLURM_LOCALID", "0")]), Some(3));
+        assert_eq!(local(&[("MPI_LOCALRANKID", "?"), ("SLURM_LOCALID", "2")]), Some(2));
     }
 }

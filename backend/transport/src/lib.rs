@@ -33,7 +33,7 @@ pub mod threads;
 mod watchdog;
 pub mod worker;
 
-pub use launch::{Launch, fail, launch, under_mpi};
+pub use launch::{Launch, fail, launch, local_rank, under_mpi};
 pub use link::{Link, LinkError, WorkerLink};
 pub use session::{Limits, Session, SessionError};
 pub use worker::{Opened, WorkerError, serve};

@@ -15,6 +15,7 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
         observer_in_display: DVec3::Z,
         eta: 1.0,
         projectors: Vec::new(),
+        adapters: Vec::new(),
     };
     let options =
         |backend| RendererOptions { backend, ..RendererOptions::in_process(display.clone(), vec![backend]) };

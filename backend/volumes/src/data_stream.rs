@@ -1,7 +1,7 @@
 //! The unpacked bytes of a volume's files, as if they were one.
 
 use super::data_files::DataFiles;
-use super::file::Packing;
+use super::packing::Packing;
 use super::text_numbers::TextNumbers;
 use bricks::volume::Element;
 use flate2::read::{MultiGzDecoder, ZlibDecoder};

@@ -2,6 +2,7 @@
 
 use super::data_files::DataFiles;
 use super::data_stream::{DataStream, Source, Start, StreamError};
+use super::packing::Packing;
 use super::shape::Shape;
 use bricks::volume::{ByteOrder, Element, Samples, VolumeError, VolumeFrame};
 use bricks::volume::{VolumeInfo, VolumeReader};
@@ -12,16 +13,6 @@ use std::path::{Path, PathBuf};
 const DEFLATE_LARGEST_RATIO: u64 = 1032;
 /// Bytes read at once where only some of them are the volume's.
 const PICK_BUFFER_BYTES: usize = 1 << 16;
-
-/// How the voxels are packed in the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Packing {
-    Plain,
-    Gzip,
-    Zlib,
-    /// Written as decimal numbers.
-    Text,
-}
 
 /// What a format's header says; [`FileVolume::new`] checks it against the file.
 #[derive(Clone, Debug)]

@@ -12,6 +12,7 @@ mod metaimage;
 mod nifti;
 mod nrrd;
 mod open;
+mod packing;
 mod raw;
 #[cfg(test)]
 mod reader_tests;

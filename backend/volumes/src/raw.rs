@@ -2,7 +2,8 @@
 
 use super::data_files::DataFiles;
 use super::data_stream::Start;
-use super::file::{FileLayout, Packing, file_length};
+use super::file::{FileLayout, file_length};
+use super::packing::Packing;
 use super::shape::Shape;
 use bricks::volume::{ByteOrder, Element, VolumeError, VolumeFrame};
 use glam::{DVec3, UVec3};

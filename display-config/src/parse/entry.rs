@@ -35,7 +35,7 @@ fn projector(source: &Source<'_>, entry: &Spanned<RawProjector>) -> Result<Proje
         return Err(ConfigError::SingularRaster { place: source.place(key, span) });
     }
     Ok(Projector {
-        name: source.name(&raw.name)?,
+        name: source.name("name", &raw.name)?,
         centre_in_display: source.centre("centre_m", &raw.centre_m)?,
         raster,
         backend: *raw.backend.get_ref(),

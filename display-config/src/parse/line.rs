@@ -2,7 +2,7 @@
 
 use super::raw::{Covers, RawLine};
 use super::source::Source;
-use crate::assignment::shares;
+use crate::wiring::even_shares;
 use crate::{ConfigError, Homography, Projector, Raster};
 use glam::{DVec2, DVec3};
 
@@ -52,7 +52,7 @@ fn backends(source: &Source<'_>, raw: &RawLine, projectors: u32) -> Result<Vec<u
         let place = source.place("backends", raw.backends.span());
         return Err(ConfigError::TooManyLineBackends { place, backends, projectors });
     }
-    let shares = shares(projectors as usize, backends as usize);
+    let shares = even_shares(projectors as usize, backends as usize);
     Ok((0..backends).zip(shares).flat_map(|(backend, share)| share.map(move |_| backend)).collect())
 }
 

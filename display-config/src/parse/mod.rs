@@ -7,7 +7,7 @@ mod source;
 
 use crate::{ConfigError, Display, Projector, presets};
 use glam::{DVec2, DVec3};
-use raw::RawDisplay;
+use raw::{RawBackend, RawDisplay};
 use source::Source;
 use std::path::Path;
 use toml::Spanned;
@@ -55,15 +55,18 @@ fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError
     let accuracy_deg = source
         .within("angular_accuracy_deg", &raw.angular_accuracy_deg, accuracy, |a| a > 0.0 && a < 180.0)?;
     let eta = "a number from 0 (one perspective view) to 1 (full horizontal parallax)";
+    let projectors = projectors(source, raw, DVec2::new(width_m, height_m))?;
+    let adapters = adapters(source, raw, &projectors)?;
     Ok(Display {
-        name: source.name(&raw.name)?,
+        name: source.name("name", &raw.name)?,
         width_m,
         height_m,
         pixel_size_m: source.positive("pixel_size_m", &raw.pixel_size_m, A_LENGTH)?,
         angular_accuracy: accuracy_deg.to_radians(),
         observer_in_display: observer(source, raw)?,
         eta: source.within("eta", &raw.eta, eta, |eta| (0.0..=1.0).contains(&eta))?,
-        projectors: projectors(source, raw, DVec2::new(width_m, height_m))?,
+        projectors,
+        adapters,
     })
 }
 
@@ -90,6 +93,24 @@ fn projectors(source: &Source<'_>, raw: &RawDisplay, screen: DVec2) -> Result<Ve
             Err(ConfigError::NoProjectors { place: source.place("projector", span) })
         }
     }
+}
+
+/// The adapters that back-ends ask for. There are no tables for back-ends without projectors.
+fn adapters(
+    source: &Source<'_>,
+    raw: &RawDisplay,
+    projectors: &[Projector],
+) -> Result<Vec<Option<String>>, ConfigError> {
+    let tables = raw.backend.as_deref().unwrap_or_default();
+    let wired = projectors.iter().map(|projector| projector.backend as usize + 1).max().unwrap_or(0);
+    if let Some(table) = tables.get(wired) {
+        let place = source.place("backend", table.span());
+        return Err(ConfigError::BackendWithoutProjectors { place, number: wired, highest: wired - 1 });
+    }
+    let asked = |table: &Spanned<RawBackend>| {
+        table.get_ref().adapter.as_ref().map(|adapter| source.name("adapter", adapter)).transpose()
+    };
+    tables.iter().map(asked).collect()
 }
 
 #[cfg(test)]

@@ -16,6 +16,14 @@ pub(super) struct RawDisplay {
     /// Absent where a line generates the projectors.
     pub projector: Option<Spanned<Vec<Spanned<RawProjector>>>>,
     pub projector_line: Option<Spanned<RawLine>>,
+    /// The back-ends, in the order of their numbers.
+    pub backend: Option<Vec<Spanned<RawBackend>>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct RawBackend {
+    pub adapter: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]

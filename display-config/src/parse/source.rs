@@ -81,9 +81,9 @@ impl Source<'_> {
         Ok((width, self.at_least_one("height_px", height_px, expected)?))
     }
 
-    pub fn name(&self, value: &Spanned<String>) -> Result<String, ConfigError> {
+    pub fn name(&self, key: &str, value: &Spanned<String>) -> Result<String, ConfigError> {
         if value.get_ref().trim().is_empty() {
-            return Err(ConfigError::EmptyName { place: self.place("name", value.span()) });
+            return Err(ConfigError::EmptyName { place: self.place(key, value.span()) });
         }
         Ok(value.get_ref().clone())
     }

@@ -46,6 +46,10 @@ fn listed() -> String {
     format!("{HEAD}{PROJECTORS}")
 }
 
+fn backends_of(display: &Display) -> Vec<u32> {
+    display.projectors.iter().map(|projector| projector.backend).collect()
+}
+
 /// The message about the listed display with one piece of its text changed.
 fn message(from: &str, to: &str) -> String {
     message_of(&listed(), from, to)
@@ -63,7 +67,7 @@ fn message_of(text: &str, from: &str, to: &str) -> String {
 fn a_list_of_projectors_becomes_a_display() {
     let display = Display::from_toml(&listed(), "two.toml").unwrap();
     assert_eq!(display.eta, 1.0);
-    assert_eq!(display.own_assignment(), [[0], [1]]);
+    assert_eq!(backends_of(&display), [0, 1]);
     let [left, right] = &display.projectors[..] else { panic!("two projectors") };
     assert_eq!(right.raster.output, Some(("DP-1".into(), 0, 600)));
     // A rectangle and its own four corners are one map.
@@ -88,7 +92,7 @@ fn a_line_of_projectors_is_even_and_shared() {
     let display = Display::from_toml(&format!("{HEAD}{LINE}"), "line.toml").unwrap();
     let xs: Vec<f64> = display.projectors.iter().map(|p| p.centre_in_display.x).collect();
     assert_eq!(xs, [-1.0, 0.0, 1.0]);
-    assert_eq!(display.own_assignment(), display.assign(2).unwrap());
+    assert_eq!(backends_of(&display), [0, 1, 1]);
     assert_eq!(display.projectors[2].name, "projector-2");
 }
 
@@ -258,6 +262,24 @@ fn back_ends_are_numbered_without_gaps() {
     assert!(many.contains("line 16: `backends` is 4 for 3 projectors"), "{many}");
     let none = message_of(&line, "backends = 2", "backends = 0");
     assert!(none.contains("line 16: `backends` is 0; give a number of back-ends"), "{none}");
+}
+
+#[test]
+fn back_ends_may_name_their_adapters() {
+    let listed = |tables: &str| Display::from_toml(&format!("{}{tables}", listed()), "two.toml");
+    let adapters = |tables| listed(tables).unwrap().adapters;
+    assert_eq!(adapters(""), []);
+    let tables = "[[backend]]\n[[backend]]\nadapter = 'RTX'\n";
+    assert_eq!(adapters(tables), [None, Some("RTX".to_owned())]);
+    let message = |tables| listed(tables).unwrap_err().to_string();
+    assert_eq!(
+        message("[[backend]]\n[[backend]]\n[[backend]]\nadapter = 'RTX'\n"),
+        "two.toml, line 27: `backend` is the table of back-end 2, but the projectors' back-ends end at 1; remove it, or \
+         give that back-end a projector"
+    );
+    assert!(message("[[backend]]\nadapter = ' '\n").starts_with("two.toml, line 26: `adapter` is empty"));
+    assert!(message("[[backend]]\ncard = 1\n").contains("line 26: `card` is not a key of this table"));
+    assert!(message("[[backend]]\nadapter = 1\n").contains("line 26: `adapter` cannot have this value"));
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //! | `projectors` | which projectors' pictures are compared |
 //! | `truth` | their pixels by the reference |
 //! | `bench` | the device that draws, timed |
-//! | `study` | all of it, from a scene to what was found |
+//! | `study`, `run` | what is studied; all of it, from a scene to what was found |
 //! | `pareto` | which settings no other one beats |
 //! | `watch`, `supervise` | how a study is told to stop, and tells how far it is |
 
@@ -14,6 +14,7 @@ mod bench;
 mod error;
 mod pareto;
 mod projectors;
+mod run;
 mod setting;
 mod study;
 mod supervise;
@@ -25,8 +26,9 @@ pub use bench::Measured;
 pub use error::AccuracyError;
 pub use pareto::{BEATEN_BY, Score, beaten_by, front};
 pub use projectors::{check_projectors, two_projectors};
+pub use run::Outcome;
 pub use setting::{Family, Setting, Trial, filter_name, small};
-pub use study::{Outcome, Study};
+pub use study::Study;
 pub use supervise::supervised;
 pub use sweep::{Offer, around_default, product};
 pub use truth::TruthSummary;

@@ -1,7 +1,9 @@
 //! The arguments that say with what pictures are drawn.
 
+use crate::adapter::BackendOptions;
 use clap::{Args, ValueEnum};
 use protocol::{DeviceChoice, FilterChoice};
+use std::path::Path;
 
 /// Back-ends, their devices and their caches.
 #[derive(Clone, Debug, Args)]
@@ -18,6 +20,18 @@ pub struct BackendArgs {
     /// Brick cache of each back-end.
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
     pub cache_mib: u64,
+}
+
+impl BackendArgs {
+    /// What the back-ends draw with, and the folder for their traces.
+    pub fn options(&self, traces: Option<&Path>) -> BackendOptions {
+        BackendOptions {
+            device: self.device.into(),
+            filter: self.filter.into(),
+            cache_bytes: self.cache_mib << 20,
+            traces: traces.map(Path::to_owned),
+        }
+    }
 }
 
 /// See [`DeviceChoice`].

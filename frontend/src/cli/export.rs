@@ -5,6 +5,7 @@ use bricks::volume::Element;
 use clap::Args;
 use glam::UVec3;
 use std::path::PathBuf;
+use volumes::export::ExportOptions;
 
 /// `lightloom export`.
 #[derive(Clone, Debug, Args)]
@@ -35,6 +36,19 @@ pub struct ExportArgs {
     /// Print what was done as JSON on standard output, and nothing else.
     #[arg(long)]
     pub json: bool,
+}
+
+impl ExportArgs {
+    /// What to export, and how.
+    pub fn options(&self) -> ExportOptions {
+        ExportOptions {
+            level: self.level,
+            low: self.low,
+            size: self.size,
+            element: self.element,
+            is_packed: self.compress,
+        }
+    }
 }
 
 fn place(text: &str) -> Result<UVec3, String> {

@@ -1,6 +1,7 @@
 //! The arguments of `lightloom import`.
 
 use super::parse::{dims, finite, spacing};
+use crate::adapter::{ImportRequest, RawRequest, Skipped};
 use bricks::store::{CodeBits, Codec};
 use bricks::volume::ByteOrder;
 use clap::{Args, ValueEnum};
@@ -47,6 +48,32 @@ pub struct ImportArgs {
     pub json: bool,
 }
 
+impl ImportArgs {
+    /// What to import, and how.
+    pub fn request(&self) -> ImportRequest {
+        let skipped = match (self.empty_below, &self.empty_for) {
+            (Some(value), _) => Skipped::Below(value),
+            (None, Some(scene)) => Skipped::UnseenIn(scene.clone()),
+            (None, None) => Skipped::Uniform,
+        };
+        ImportRequest {
+            input: self.input.clone(),
+            output: self.output.clone(),
+            bits: self.bits.into(),
+            codec: self.codec.into(),
+            memory_bytes: self.memory_mib << 20,
+            skipped,
+            has_deviation: self.deviation,
+            series: self.pick.series.clone(),
+            level: self.pick.level,
+            channel: self.pick.channel,
+            time: self.pick.time,
+            voxel_mm: self.pick.voxel_mm,
+            raw: self.raw.request(),
+        }
+    }
+}
+
 /// Which of the volumes in an input, and what its files do not tell.
 #[derive(Clone, Debug, Args)]
 pub struct PickArgs {
@@ -85,6 +112,18 @@ pub struct RawArgs {
     /// Bytes before the first voxel.
     #[arg(long = "raw-skip", value_name = "BYTES", default_value_t = 0, requires = "dims")]
     pub skip_bytes: u64,
+}
+
+impl RawArgs {
+    fn request(&self) -> Option<RawRequest> {
+        Some(RawRequest {
+            dims: self.dims?,
+            element: self.element.clone()?,
+            byte_order: self.endian.into(),
+            spacing_mm: self.raw_spacing_mm,
+            skip_bytes: self.skip_bytes,
+        })
+    }
 }
 
 /// Bits per voxel in a store.

@@ -1,14 +1,14 @@
 //! `lightloom accuracy`.
 
-use super::{say, warn};
+use super::say::{say, warn};
 use crate::FrontendError;
 use crate::accuracy::{AccuracyError, Study, check_projectors, supervised, two_projectors};
+use crate::adapter;
 use crate::cli::AccuracyArgs;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::report::accuracy::{self as report, AccuracyReport};
 use crate::scene::{Scene, VolumeFacts};
-use crate::session;
 use renderer::output::can_write_into;
 use std::sync::Arc;
 use std::time::Instant;
@@ -31,13 +31,13 @@ pub(super) fn accuracy(args: &AccuracyArgs) -> Result<(), FrontendError> {
 }
 
 fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), FrontendError> {
-    let display = session::load_display(&args.display)?;
+    let display = adapter::load_display(&args.display)?;
     let count = scene.frame_count;
     if args.frame >= count {
         return Err(AccuracyError::Frame { frame: args.frame, count }.into());
     }
     check_projectors(&display, &args.projectors)?;
-    let source = session::open_volume(&scene.volume_ref())?;
+    let source = adapter::open_volume(&scene.volume_ref())?;
     let facts = VolumeFacts::of(source.as_ref());
     let study = Study {
         frame: scene.frame(args.frame, &display, &facts)?,

@@ -1,11 +1,11 @@
 //! `lightloom displays`.
 
-use super::say;
-use crate::{FrontendError, session};
+use super::say::say;
+use crate::{FrontendError, adapter};
 
 /// Lists the presets.
 pub(super) fn displays() -> Result<(), FrontendError> {
-    for (name, about) in session::preset_displays()? {
+    for (name, about) in adapter::preset_displays()? {
         say(&format!("{name:<12} {about}"));
     }
     Ok(())

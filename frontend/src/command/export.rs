@@ -1,15 +1,20 @@
 //! `lightloom export`.
 
-use super::{say, warn};
+use super::say::{say, warn};
 use crate::FrontendError;
+use crate::adapter::{self, ExportSummary};
 use crate::cli::ExportArgs;
 use crate::progress::Progress;
 use crate::report::units;
-use crate::session::{self, ExportSummary};
 
 /// Writes voxels of a store for other programs, and tells about it.
 pub(super) fn export(args: &ExportArgs) -> Result<(), FrontendError> {
-    let summary = session::export(args, Progress::new(!args.quiet && !args.json))?;
+    let summary = adapter::export(
+        &args.store,
+        &args.output,
+        &args.options(),
+        Progress::new(!args.quiet && !args.json),
+    )?;
     if args.json {
         say(&serde_json::to_string_pretty(&summary)?);
         return Ok(());

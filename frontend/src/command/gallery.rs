@@ -1,13 +1,13 @@
 //! `lightloom gallery`.
 
-use super::{say, warn};
+use super::say::{say, warn};
 use crate::FrontendError;
+use crate::adapter::{self, Backends};
 use crate::cli::GalleryArgs;
 use crate::gallery::{Exhibit, Gallery, Subject, with_picture_size};
 use crate::progress::Progress;
 use crate::report::units;
 use crate::scene::Scene;
-use crate::session::{self, Backends};
 use std::time::Instant;
 
 /// Draws all techniques and writes the page. All that can be wrong with the arguments is found before any back-end
@@ -16,16 +16,17 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     let started = Instant::now();
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
-    let display = session::load_display(&args.display)?;
+    let display = adapter::load_display(&args.display)?;
     let display = args.size.map_or(display.clone(), |size| with_picture_size(display, size));
-    let facts = session::volume_facts(&scene.volume_ref())?;
+    let facts = adapter::volume_facts(&scene.volume_ref())?;
     let subject = Subject::new(&scene, &display, &facts)?;
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;
     let backends = Backends::connect(args.drawing.backends)?;
-    let setups =
-        session::setups(&args.drawing, &scene.volume_ref(), &gallery.display, backends.count(), None)?;
-    let (mut source, devices) = backends.start(setups)?;
+    let wiring = backends.wiring(&gallery.display)?;
+    wiring.warning().iter().for_each(|warning| warn(warning));
+    let options = args.drawing.options(None);
+    let (mut source, devices) = backends.start(&options, &scene.volume_ref(), &gallery.display, &wiring)?;
     let mut progress = Progress::new(!args.quiet);
     let exhibits = gallery.draw(source.as_mut(), &mut progress)?;
     source.finish()?;

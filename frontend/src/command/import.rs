@@ -1,16 +1,16 @@
 //! `lightloom import`.
 
-use super::say;
+use super::say::say;
 use super::table::level_table;
 use crate::FrontendError;
+use crate::adapter::{self, ImportSummary};
 use crate::cli::ImportArgs;
 use crate::progress::Progress;
 use crate::report::units;
-use crate::session::{self, ImportSummary};
 
 /// Makes a store and tells about it.
 pub(super) fn import(args: &ImportArgs) -> Result<(), FrontendError> {
-    let summary = session::import(args, Progress::new(!args.quiet && !args.json))?;
+    let summary = adapter::import(&args.request(), Progress::new(!args.quiet && !args.json))?;
     if args.json {
         say(&serde_json::to_string_pretty(&summary)?);
     } else if !args.quiet {

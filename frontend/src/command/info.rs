@@ -1,15 +1,15 @@
 //! `lightloom info`.
 
-use super::say;
+use super::say::say;
 use super::table::level_table;
 use crate::FrontendError;
+use crate::adapter::{self, StoreSummary};
 use crate::cli::InfoArgs;
 use crate::report::units;
-use crate::session::{self, StoreSummary};
 
 /// Tells what a store holds.
 pub(super) fn info(args: &InfoArgs) -> Result<(), FrontendError> {
-    let summary = session::store_summary(&args.store)?;
+    let summary = adapter::store_summary(&args.store)?;
     if args.json {
         say(&serde_json::to_string_pretty(&summary)?);
     } else {

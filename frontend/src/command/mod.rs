@@ -7,13 +7,13 @@ mod gallery;
 mod import;
 mod info;
 mod replay;
+mod say;
 mod simulate;
 mod table;
 mod verify;
 
 use crate::FrontendError;
 use crate::cli::Command;
-use std::io::Write;
 
 /// Does what the command line asks for.
 pub fn run(command: &Command) -> Result<(), FrontendError> {
@@ -28,16 +28,4 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Replay(args) => replay::replay(args),
         Command::Displays => displays::displays(),
     }
-}
-
-/// Prints on standard output. Unlike `println!` it does not panic where nobody reads it any more.
-fn say(text: &str) {
-    let mut out = std::io::stdout().lock();
-    // Whoever closed standard output does not want the rest.
-    let _ = writeln!(out, "{text}").and_then(|()| out.flush());
-}
-
-/// Prints a warning on standard error.
-fn warn(text: &str) {
-    let _ = writeln!(std::io::stderr(), "lightloom: warning: {text}");
 }

@@ -1,9 +1,9 @@
 //! `lightloom replay`.
 
-use super::say;
+use super::say::say;
 use crate::FrontendError;
+use crate::adapter::{ReplayRow, Traces};
 use crate::cli::{DiskArg, FetchOrderArg, ReplayArgs};
-use crate::session::{ReplayRow, Traces};
 use clap::ValueEnum;
 use renderer::working_set::Policy;
 

@@ -1,12 +1,12 @@
 //! `lightloom simulate`.
 
-use super::{say, warn};
+use super::say::{say, warn};
 use crate::FrontendError;
+use crate::adapter::{self, Backends};
 use crate::cli::SimulateArgs;
 use crate::progress::Progress;
-use crate::report::{self, Report, units};
+use crate::report::{self, BackendSummary, Report, units};
 use crate::scene::{Scene, VolumeFacts};
-use crate::session::{self, Backends};
 use crate::simulate::{Eye, Job};
 use display_config::Display;
 use protocol::FrameState;
@@ -21,8 +21,8 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     }
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
-    let display = session::load_display(&args.display)?;
-    let facts = session::volume_facts(&scene.volume_ref())?;
+    let display = adapter::load_display(&args.display)?;
+    let facts = adapter::volume_facts(&scene.volume_ref())?;
     let job = Job {
         frames: frames(args, &scene, &display, &facts)?,
         eyes: args.eyes.iter().map(|&eye| Eye::before(&display, eye)).collect::<Result<_, _>>()?,
@@ -31,15 +31,17 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         exr: args.exr,
     };
     Job::prepare_output(&args.out)?;
-    traces.map_or(Ok(()), session::prepare_traces)?;
+    traces.map_or(Ok(()), adapter::prepare_traces)?;
     let backends = Backends::connect(args.drawing.backends)?;
-    let setups = session::setups(&args.drawing, &scene.volume_ref(), &job.display, backends.count(), traces)?;
-    let (mut source, devices) = backends.start(setups)?;
+    let wiring = backends.wiring(&job.display)?;
+    wiring.warning().iter().for_each(|warning| warn(warning));
+    let options = args.drawing.options(traces);
+    let (mut source, devices) = backends.start(&options, &scene.volume_ref(), &job.display, &wiring)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let frames = job.run(source.as_mut(), &mut progress)?;
     source.finish()?;
     drop(progress);
-    let report = Report::new(&scene, &facts, &job, devices, frames, started.elapsed());
+    let report = job.report(&scene, &facts, BackendSummary::all(&wiring, devices), frames, started.elapsed());
     report::write(&report, &args.out)?;
     tell(args, &report)
 }

@@ -1,6 +1,6 @@
 //! The errors of a store's levels as a small table.
 
-use crate::session::LevelSummary;
+use crate::adapter::LevelSummary;
 
 /// A heading and a line per level, the finest first; nothing where there are no levels.
 pub(super) fn level_table(levels: &[LevelSummary]) -> String {

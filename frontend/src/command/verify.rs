@@ -1,15 +1,15 @@
 //! `lightloom verify`.
 
-use super::say;
+use super::say::say;
 use crate::FrontendError;
+use crate::adapter::{self, VerifySummary};
 use crate::cli::VerifyArgs;
 use crate::progress::Progress;
 use crate::report::units;
-use crate::session::{self, VerifySummary};
 
 /// Checks a store; a damaged one is an error, after its damages have been listed.
 pub(super) fn verify(args: &VerifyArgs) -> Result<(), FrontendError> {
-    let found = session::verify(&args.store, Progress::new(!args.quiet && !args.json))?;
+    let found = adapter::verify(&args.store, Progress::new(!args.quiet && !args.json))?;
     if args.json {
         say(&serde_json::to_string_pretty(&found)?);
     } else if !args.quiet {

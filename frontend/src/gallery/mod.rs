@@ -2,12 +2,14 @@
 
 mod curves;
 mod page;
+mod plan;
 mod shot;
 mod subject;
 mod technique;
 #[cfg(test)]
 mod tests;
 
+pub use plan::{EYES, Gallery, HTML};
 pub use shot::{Exhibit, Shot};
 pub use subject::Subject;
 pub use technique::{TECHNIQUES, Technique};
@@ -15,52 +17,12 @@ pub use technique::{TECHNIQUES, Technique};
 use crate::FrontendError;
 use crate::progress::Progress;
 use crate::report::write_text;
-use crate::simulate::{Eye, Job};
 use display_config::{Display, Homography};
 use glam::{DMat3, DVec3, UVec2};
 use protocol::{DeviceInfo, Draw};
-use renderer::output::OutputError;
-use std::path::{Path, PathBuf};
-
-/// The page, in the output folder.
-pub const HTML: &str = "gallery.html";
-/// What the eyes are called, from left to right.
-pub const EYES: [&str; 3] = ["left", "middle", "right"];
-
-/// All that a gallery needs besides the thing that draws.
-pub struct Gallery {
-    /// What people call the scene.
-    pub name: String,
-    /// What techniques are shown on.
-    pub subject: Subject,
-    /// The display.
-    pub display: Display,
-    /// The eyes, from left to right.
-    pub eyes: Vec<Eye>,
-    /// The output folder.
-    pub out: PathBuf,
-}
+use std::path::PathBuf;
 
 impl Gallery {
-    /// The gallery of a subject, whose eyes it takes.
-    pub fn new(name: &str, subject: Subject, display: Display, out: &Path) -> Result<Self, FrontendError> {
-        let eyes = subject.eyes.iter().map(|&eye| Eye::before(&display, eye)).collect::<Result<_, _>>()?;
-        Ok(Self { name: name.to_owned(), subject, display, eyes, out: out.to_owned() })
-    }
-
-    /// Makes the output folder, tries to write in it, and takes away the page of an earlier gallery: it would describe
-    /// other pictures.
-    pub fn prepare_output(&self) -> Result<(), FrontendError> {
-        Job::prepare_output(&self.out)?;
-        let path = self.out.join(HTML);
-        match std::fs::remove_file(&path) {
-            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                Err(OutputError::Write { path, source }.into())
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// Draws every technique off and on. Equal frames are drawn once.
     pub fn draw(
         &self,

@@ -1,12 +1,13 @@
 //! Laws of a gallery, with a source that draws even pictures instead of volumes.
 
 use super::*;
+use crate::adapter;
 use crate::scene::{Scene, VolumeFacts};
-use crate::session;
 use bricks::volume::VolumeFrame;
 use glam::{DVec2, UVec3};
 use optics::{Enhancer, Trapezoid};
 use protocol::{Draw, DrawError, FrameReport, FrameState, ProjectorImage, RenderEvent, Stages};
+use std::path::Path;
 
 const SIZE: UVec2 = UVec2::new(16, 12);
 
@@ -16,7 +17,7 @@ fn facts() -> VolumeFacts {
 }
 
 fn display() -> Display {
-    with_picture_size(session::load_display("desk8").unwrap(), SIZE)
+    with_picture_size(adapter::load_display("desk8").unwrap(), SIZE)
 }
 
 fn subject_of(scene: &Scene) -> Subject {
@@ -194,7 +195,7 @@ fn an_observer_without_a_viewing_zone_is_told_so() {
 
 #[test]
 fn other_picture_sizes_light_the_same_screen() {
-    let (before, after) = (session::load_display("desk8").unwrap(), display());
+    let (before, after) = (adapter::load_display("desk8").unwrap(), display());
     for (old, new) in before.projectors.iter().zip(&after.projectors) {
         assert_eq!((new.raster.width, new.raster.height), (SIZE.x, SIZE.y));
         for share in [DVec2::ZERO, DVec2::new(0.3, 0.8), DVec2::ONE] {

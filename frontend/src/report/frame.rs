@@ -1,6 +1,5 @@
 //! The account of one frame.
 
-use super::upkeep::together;
 use protocol::{FrameReport, FrameState, Stages, Upkeep};
 use serde::Serialize;
 use std::time::Duration;
@@ -117,4 +116,29 @@ fn stages_sum(a: Stages, b: Stages) -> Stages {
         cast_ms: a.cast_ms + b.cast_ms,
         readback_ms: a.readback_ms + b.readback_ms,
     }
+}
+
+/// The back-ends of one frame together: counts add up, the largest deficit is that of all, and the mean is over the rays
+/// of all. None where no back-end drew a live frame.
+fn together<'a>(reports: impl IntoIterator<Item = &'a FrameReport>) -> Option<Upkeep> {
+    let mut sum: Option<Upkeep> = None;
+    let (mut rays, mut levels) = (0.0, 0.0);
+    for (one, cast) in reports.into_iter().filter_map(|r| Some((r.upkeep?, r.rays as f64))) {
+        rays += cast;
+        levels += cast * one.mean_deficit;
+        let before = sum.unwrap_or_default();
+        sum = Some(Upkeep {
+            nodes: before.nodes + one.nodes,
+            leaves: before.leaves + one.leaves,
+            splits: before.splits + one.splits,
+            collapses: before.collapses + one.collapses,
+            in_flight: before.in_flight + one.in_flight,
+            cancelled: before.cancelled + one.cancelled,
+            fading: before.fading + one.fading,
+            largest_deficit: before.largest_deficit.max(one.largest_deficit),
+            mean_deficit: if rays > 0.0 { levels / rays } else { 0.0 },
+            update_ms: before.update_ms + one.update_ms,
+        });
+    }
+    sum
 }

@@ -1,10 +1,10 @@
 //! The report as one page that needs nothing else.
 
 use super::html::{embedded_image, escape, facts, table};
+use super::legend::{marks, number};
 use super::stage_bar::stage_bar;
-use super::{FrameSummary, Report, Totals, units, upkeep};
+use super::{CONTACT_SHEET, FrameSummary, Report, Totals, units, upkeep};
 use crate::orientation::describe;
-use crate::simulate::{CONTACT_SHEET, marks, number};
 use renderer::output::OutputError;
 use std::path::Path;
 
@@ -127,8 +127,11 @@ fn sheet(report: &Report, out: &Path) -> Result<String, OutputError> {
 }
 
 fn setting(report: &Report) -> String {
-    let backends = report.backends.iter().enumerate().map(|(index, device)| {
+    let backends = report.backends.iter().enumerate().map(|(index, backend)| {
+        let device = &backend.device;
         let rows = [
+            ("projectors", backend.listed_projectors()),
+            ("why these", backend.why_these.clone()),
             ("adapter", device.adapter.clone()),
             ("why this one", device.reason.clone()),
             ("interpolation", device.filter.clone()),

@@ -5,9 +5,6 @@ use glam::DVec3;
 use optics::{Curve, Light, Quality};
 use std::path::Path;
 
-/// Names that may follow `procedural:`.
-pub const PROCEDURAL_NAMES: [&str; 3] = ["shells", "marschner-lobb", "sparse-vessels"];
-
 /// Control points over s: optical depth across the volume, and linear red, green, blue.
 type Points = &'static [(f64, f64, [f64; 3])];
 

@@ -1,6 +1,6 @@
 //! What can be wrong with a scene.
 
-use super::PROCEDURAL_NAMES;
+use super::names::PROCEDURAL_NAMES;
 use std::path::PathBuf;
 
 /// Why a scene cannot be had. Each is one sentence that says where, what, and what to do.
@@ -72,3 +72,6 @@ pub enum SceneError {
         reason: String,
     },
 }
+
+/// What a part of a scene file says, or what is wrong with it.
+pub(super) type Checked<T> = Result<T, SceneError>;

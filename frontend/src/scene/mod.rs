@@ -4,12 +4,15 @@ mod axis;
 mod band;
 mod builtin;
 mod check;
+mod contents;
 mod edits;
 mod enhancer;
 mod error;
 mod file;
+mod load;
 mod look;
 mod motion;
+mod names;
 mod placement;
 mod quality;
 mod read;
@@ -18,167 +21,17 @@ mod volume;
 
 pub use axis::{VolumeAxes, VolumeAxis};
 pub use band::Band;
-pub use builtin::PROCEDURAL_NAMES;
+pub use contents::Scene;
 pub use edits::{Edits, Held};
 pub use enhancer::{Anchor, SceneEnhancer};
 pub use error::SceneError;
 pub use look::{DataLook, Look};
 pub use motion::{Motion, Track};
+pub use names::PROCEDURAL_NAMES;
+pub(crate) use names::PROCEDURAL_PREFIX;
 pub use placement::{Placement, Size};
 pub use quality::QualityPreset;
 pub use volume::{VolumeFacts, VolumeSource};
-
-use band::normalised_band;
-use display_config::Display;
-use glam::DVec3;
-use optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
-use protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
-use std::path::Path;
-
-/// A scene, read and checked. Everything that is the same in all frames is here; `motion`
-/// and `edits` hold the rest.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    /// What people call it: the argument or the file's stem.
-    pub name: String,
-    /// Which volume.
-    pub volume: VolumeSource,
-    /// Edge lengths of a voxel, metres, in place of what the volume says of itself; its axes' directions stay.
-    pub voxel_size_m: Option<DVec3>,
-    /// Where the volume floats.
-    pub placement: Placement,
-    /// What scalars look like.
-    pub look: Look,
-    /// Bands of data values that have a name.
-    pub bands: Vec<Band>,
-    /// The chain of enhancers, in order.
-    pub enhancers: Vec<SceneEnhancer>,
-    /// Gradient shading; None shows the plain colours.
-    pub light: Option<Light>,
-    /// How closely the continuous model is followed.
-    pub quality: Quality,
-    /// η in place of the display's.
-    pub eta: Option<f64>,
-    /// The virtual observer in place of the display's, metres.
-    pub observer_m: Option<DVec3>,
-    /// The tool at rest, where there is one.
-    pub tool: Option<Tool>,
-    /// What moves.
-    pub motion: Motion,
-    /// What keyframes change of the look.
-    pub edits: Edits,
-    /// How many frames, from 0.
-    pub frame_count: u32,
-    /// Frames per second of the scene's clock.
-    pub rate_hz: f64,
-}
-
-impl Scene {
-    /// The scene of a command-line argument: a TOML file, a `.lloom` store, or `procedural:NAME[@VOXELS]`.
-    pub fn load(argument: &str) -> Result<Self, SceneError> {
-        if let Some(name) = argument.strip_prefix(volume::PROCEDURAL) {
-            return Ok(builtin::procedural_scene(argument, VolumeSource::procedural(name)?));
-        }
-        let path = Path::new(argument);
-        match path.extension().and_then(|e| e.to_str()) {
-            Some("toml") => read::scene_from_file(path),
-            Some("lloom") if path.is_file() => Ok(builtin::store_scene(path)),
-            Some("lloom") => Err(SceneError::NoStore { path: path.to_owned() }),
-            _ => Err(SceneError::NotAScene { argument: argument.to_owned() }),
-        }
-    }
-
-    /// What a scene file shows of any volume, one [`Optics`] for each look that its keyframes give it: of these, only
-    /// which data values they show means anything. The scene's own volume need not be there.
-    ///
-    /// # Errors
-    /// A file that is no scene, or one whose look depends on the volume.
-    pub fn visibility_in_file(path: &Path) -> Result<Vec<Optics>, SceneError> {
-        let scene = read::scene_without_volume(path)?;
-        let Look::InDataUnits(look) = &scene.look else {
-            return Err(SceneError::RelativeLook { path: path.to_owned() });
-        };
-        let shown = |time_s| look.edited(&scene.edits, time_s).visibility(&scene.chain_at(time_s));
-        scene.edits.times().map(shown).collect()
-    }
-
-    /// How a back-end is told of the volume.
-    pub fn volume_ref(&self) -> VolumeRef {
-        match &self.volume {
-            VolumeSource::Store(path) => VolumeRef::Store(path.clone()),
-            VolumeSource::Procedural { name, dims } => VolumeRef::Procedural {
-                name: name.clone(),
-                dims: *dims,
-                voxel_size_m: self.voxel_size_m.unwrap_or(volume::PROCEDURAL_VOXEL_M),
-            },
-        }
-    }
-
-    /// Frame `index` at `index / rate_hz` seconds. Fails only where the look does not fit the volume's values.
-    pub fn frame(
-        &self,
-        index: u32,
-        display: &Display,
-        facts: &VolumeFacts,
-    ) -> Result<FrameState, SceneError> {
-        let time_s = f64::from(index) / self.rate_hz;
-        let spacing_m = self.voxel_size_m.unwrap_or(facts.voxel_size_m());
-        let extent_m = facts.dims.as_dvec3() * spacing_m;
-        let scale = self.placement.scale(extent_m, display);
-        let place = self.placement_at(time_s);
-        let observer = self.observer_m.unwrap_or(display.observer_in_display);
-        Ok(FrameState {
-            index,
-            time_s,
-            observer_in_display: self.motion.observer_m.at(time_s).unwrap_or(observer),
-            eta: self.eta.unwrap_or(display.eta),
-            display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
-            optics: self.look.edited(&self.edits, time_s).optics(
-                facts.value_range,
-                extent_m.max_element() * scale,
-                &self.chain_at(time_s),
-            )?,
-            light: self.light,
-            quality: self.quality,
-            tool: self.tool_at(time_s),
-            pace: Pace::Complete,
-            debug: None,
-        })
-    }
-
-    fn placement_at(&self, time_s: f64) -> Placement {
-        let still = self.placement;
-        let centre_m = self.motion.centre_m.at(time_s).unwrap_or(still.centre_m);
-        let rotation = self.motion.rotation.at(time_s).unwrap_or(still.rotation);
-        Placement { centre_m, rotation, ..still }
-    }
-
-    /// The bands over s of a domain, in the order of the file.
-    pub fn bands_over(&self, domain: (f64, f64)) -> Result<Vec<Trapezoid>, SceneError> {
-        let failed =
-            |e: TrapezoidError| SceneError::Look { low: domain.0, high: domain.1, reason: e.to_string() };
-        self.bands.iter().map(|band| normalised_band(band.values, domain).map_err(failed)).collect()
-    }
-
-    /// The enhancers in their places, bands over data values.
-    fn chain_at(&self, time_s: f64) -> Vec<Enhancer> {
-        let centre_m = self.placement_at(time_s).centre_m;
-        let (tool, picked) = (self.tool_at(time_s), self.edits.pick.at(time_s).copied());
-        self.enhancers.iter().map(|enhancer| enhancer.placed(centre_m, tool.as_ref(), picked)).collect()
-    }
-
-    fn tool_at(&self, time_s: f64) -> Option<Tool> {
-        let still = self.tool?;
-        let tip_in_display = self.motion.tool_tip_m.at(time_s).unwrap_or(still.tip_in_display);
-        let axis = self.motion.tool_axis.at(time_s).map(|d| d.0);
-        Some(Tool { tip_in_display, axis_in_display: axis.unwrap_or(still.axis_in_display), ..still })
-    }
-}
-
-/// A tool that nothing has moved: before the screen, pointing at it.
-fn tool_at_rest(kind: ToolKind) -> Tool {
-    Tool { kind, tip_in_display: DVec3::new(0.0, 0.0, 0.5), axis_in_display: DVec3::NEG_Z }
-}
 
 #[cfg(test)]
 mod illustration_tests;

@@ -3,8 +3,10 @@
 use super::text::SceneText;
 use super::*;
 use bricks::volume::{Space, VolumeFrame};
-use display_config::{Homography, Projector, Raster};
-use glam::{DAffine3, DMat3, UVec3};
+use display_config::{Display, Homography, Projector, Raster};
+use glam::{DAffine3, DMat3, DVec3, UVec3};
+use protocol::VolumeRef;
+use std::path::Path;
 
 pub(super) fn display() -> Display {
     let raster = Raster { width: 8, height: 6, screen_from_pixel: Homography(DMat3::IDENTITY), output: None };
@@ -19,6 +21,7 @@ pub(super) fn display() -> Display {
         observer_in_display: DVec3::new(0.0, 0.0, 3.0),
         eta: 1.0,
         projectors: vec![projector],
+        adapters: Vec::new(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which volume a scene shows, and what is known of it.
 
-use super::{PROCEDURAL_NAMES, SceneError};
+use super::SceneError;
+use super::names::{PROCEDURAL_NAMES, PROCEDURAL_PREFIX};
 use crate::orientation::FrameFacts;
 use bricks::BrickSource;
 use bricks::volume::VolumeFrame;
@@ -8,8 +9,6 @@ use glam::{DVec3, UVec3};
 use serde::{Serialize, Serializer};
 use std::path::PathBuf;
 
-/// What names of procedural volumes begin with.
-pub(super) const PROCEDURAL: &str = "procedural:";
 /// Edges of a procedural voxel, where a scene does not say.
 pub(super) const PROCEDURAL_VOXEL_M: DVec3 = DVec3::splat(1e-3);
 /// Voxels along an edge, where a scene does not say.
@@ -34,7 +33,7 @@ pub enum VolumeSource {
 impl VolumeSource {
     /// The volume of `procedural:NAME[@VOXELS]`; None for anything that does not begin so.
     pub fn parse_procedural(text: &str) -> Result<Option<Self>, SceneError> {
-        text.strip_prefix(PROCEDURAL).map(Self::procedural).transpose()
+        text.strip_prefix(PROCEDURAL_PREFIX).map(Self::procedural).transpose()
     }
 
     /// The volume of `NAME` or `NAME@VOXELS`, without `procedural:` in front.

@@ -1,8 +1,7 @@
 //! Eyes before the display, and what they see while pictures come.
 
 use crate::FrontendError;
-use crate::session::{eye_optics, pixel_from_screen};
-use display_config::Display;
+use display_config::{Display, EyeModel};
 use glam::DVec3;
 use protocol::ProjectorImage;
 use renderer::output::{EyePlan, EyeView, OutputError, Picture, ScreenRaster};
@@ -24,9 +23,11 @@ impl Eye {
     /// # Errors
     /// A place that is not before the screen.
     pub fn before(display: &Display, position_m: DVec3) -> Result<Self, FrontendError> {
-        let optics = eye_optics(display, position_m)?;
-        let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), optics.weights);
-        Ok(Self { position_m, plan, warning: optics.warning })
+        let model = EyeModel::new(display, position_m).map_err(|e| FrontendError::Display(e.to_string()))?;
+        let warning = model.outside_zone();
+        let weights = move |screen| model.weights(screen);
+        let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), weights);
+        Ok(Self { position_m, plan, warning })
     }
 }
 
@@ -50,8 +51,10 @@ impl<'a> EyeViews<'a> {
     /// Adds what a projector of the display shows.
     pub fn add(&self, image: &ProjectorImage) -> Result<(), OutputError> {
         let projector = image.projector as usize;
-        if let Some(pixel) = pixel_from_screen(self.display, projector) {
-            self.views.iter().try_for_each(|view| hold(view).add_image(image, &pixel))?;
+        let raster = self.display.projectors.get(projector).map(|projector| &projector.raster);
+        if let Some(inverse) = raster.and_then(|raster| raster.inverse()) {
+            let pixel = |screen| inverse.pixel(screen);
+            self.views.iter().try_for_each(|view| hold(view).add_image(image, pixel))?;
         }
         if let Some(seen) = hold(&self.seen).get_mut(projector) {
             *seen = true;

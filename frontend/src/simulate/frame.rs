@@ -1,9 +1,9 @@
 //! One frame of a run.
 
+use super::Job;
 use super::pictures::FramePictures;
-use super::{CONTACT_SHEET, Job};
 use crate::FrontendError;
-use crate::report::FrameSummary;
+use crate::report::{CONTACT_SHEET, FrameSummary};
 use protocol::{Draw, FrameReport, FrameState, ProjectorImage, RenderEvent};
 use renderer::output::OutputError;
 use std::path::{Path, PathBuf};

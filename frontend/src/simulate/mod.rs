@@ -2,24 +2,21 @@
 
 mod eyes;
 mod frame;
-mod legend;
 mod pictures;
 
 pub use eyes::Eye;
 pub(crate) use eyes::EyeViews;
-pub use legend::{LEGEND, marks, number, shows};
 
 use crate::FrontendError;
 use crate::progress::Progress;
-use crate::report::{EyeSummary, FrameSummary};
+use crate::report::{self, BackendSummary, EyeSummary, FrameSummary, Report, Subject, write_legend};
+use crate::scene::{Scene, VolumeFacts};
 use display_config::Display;
 use optics::DebugView;
 use protocol::{Draw, FrameState};
 use renderer::output::{OutputError, can_write_into};
 use std::path::{Path, PathBuf};
-
-/// The contact sheet of the first frame, in the output folder.
-pub const CONTACT_SHEET: &str = "contact-sheet.png";
+use std::time::Duration;
 
 /// All that a run needs besides the thing that draws.
 pub struct Job {
@@ -50,7 +47,7 @@ impl Job {
     ) -> Result<Vec<FrameSummary>, FrontendError> {
         self.forget_earlier_run()?;
         if let Some(view) = self.debug_view() {
-            legend::write(view, &self.out)?;
+            write_legend(view, &self.out)?;
         }
         let mut summaries = Vec::with_capacity(self.frames.len());
         for (place, frame) in self.frames.iter().enumerate() {
@@ -64,12 +61,12 @@ impl Job {
     }
 
     /// What is shown in place of the pictures, the same in all frames.
-    pub fn debug_view(&self) -> Option<DebugView> {
+    fn debug_view(&self) -> Option<DebugView> {
         self.frames.first()?.debug
     }
 
     fn forget_earlier_run(&self) -> Result<(), OutputError> {
-        for name in [CONTACT_SHEET, LEGEND, crate::report::JSON, crate::report::HTML] {
+        for name in report::FILES {
             let path = self.out.join(name);
             match std::fs::remove_file(&path) {
                 Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
@@ -81,8 +78,21 @@ impl Job {
         Ok(())
     }
 
+    /// The report of its run.
+    pub fn report(
+        &self,
+        scene: &Scene,
+        facts: &VolumeFacts,
+        backends: Vec<BackendSummary>,
+        frames: Vec<FrameSummary>,
+        wall: Duration,
+    ) -> Report {
+        let subject = Subject { scene, facts, display: &self.display, first_frame: self.frames.first() };
+        Report::new(&subject, self.eye_summaries(), backends, frames, wall)
+    }
+
     /// What the report says of the eyes.
-    pub fn eye_summaries(&self) -> Vec<EyeSummary> {
+    fn eye_summaries(&self) -> Vec<EyeSummary> {
         let summary = |eye: &Eye| EyeSummary {
             position_m: eye.position_m.to_array(),
             projectors_seen: eye.plan.projectors_seen(),

@@ -1,9 +1,8 @@
 //! Laws of a run, with a source that draws gradients instead of volumes.
 
 use super::*;
-use crate::report::{self, Report};
+use crate::report::{self, BackendSummary, LEGEND};
 use crate::scene::{Scene, VolumeFacts};
-use crate::session;
 use bricks::volume::VolumeFrame;
 use display_config::{Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
@@ -41,6 +40,7 @@ fn display(projectors: u32) -> Display {
         observer_in_display: DVec3::new(0.0, 0.0, 3.0),
         eta: 1.0,
         projectors: (0..projectors).map(projector).collect(),
+        adapters: Vec::new(),
     }
 }
 
@@ -158,6 +158,11 @@ fn all_files_appear_and_the_report_adds_up() {
     assert_eq!(json["total"]["damaged"], serde_json::json!(["brick 7 of <a.lloom> is damaged"]));
     assert_eq!(json["frames"][1]["pictures"][2], "frame-0001/projector-02.png");
     assert_eq!(json["eyes"][0]["projectors_seen"], 1);
+    assert_eq!(json["backends"][1]["projectors"], serde_json::json!([2, 3]));
+    assert_eq!(json["backends"][1]["adapter"], "fake");
+    let why = "shared evenly, because the display file wires 1 back-end and 2 were started";
+    assert_eq!(json["backends"][0]["why_these"], why);
+    assert!(html.contains(why) && html.contains("2 to 3"));
     assert!(json["peak_memory_bytes"].is_u64() || !Path::new("/proc/self/status").exists());
     assert_eq!(html.matches("<li>brick 7 of &lt;a.lloom&gt; is damaged</li>").count(), 1);
     assert!(html.contains("the cache is full &lt;b&gt;") && html.contains("outside the viewing zone"));
@@ -169,8 +174,9 @@ fn reports(scene: &Scene, job: &Job, folder: &Path) -> (serde_json::Value, Strin
     let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
     let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
     let device = DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 };
-    let report =
-        Report::new(scene, &facts(), job, vec![device; 2], frames, std::time::Duration::from_secs(1));
+    let wiring = job.display.wiring(2).unwrap();
+    let backends = BackendSummary::all(&wiring, vec![device; 2]);
+    let report = job.report(scene, &facts(), backends, frames, Duration::from_secs(1));
     report::write(&report, folder).unwrap();
     let read = |name| std::fs::read_to_string(folder.join(name)).unwrap();
     (serde_json::from_str(&read(report::JSON)).unwrap(), read(report::HTML))
@@ -275,11 +281,4 @@ fn a_folder_that_cannot_be_written_is_found_first() {
     std::fs::write(folder.path().join("file"), "").unwrap();
     let error = Job::prepare_output(&folder.path().join("file/out")).unwrap_err().to_string();
     assert!(error.starts_with("cannot write "), "{error}");
-}
-
-#[test]
-fn projectors_are_shared_evenly() {
-    let shares = session::assignment(&display(7), 3).unwrap();
-    assert_eq!(shares, [vec![0, 1], vec![2, 3], vec![4, 5, 6]]);
-    assert!(session::assignment(&display(7), 8).is_err());
 }

@@ -140,11 +140,10 @@ fn devices(slots: u32) -> Vec<Device> {
     let mut all = vec![Device::Cpu(Box::new(CpuDevice::new(slots)))];
     #[cfg(feature = "gpu")]
     if draw::has_gpu() {
-        use protocol::FilterChoice;
-        use renderer::device::gpu::GpuDevice;
-        all.push(Device::Gpu(Box::new(
-            GpuDevice::open(FilterChoice::Exact, slots.next_power_of_two()).unwrap(),
-        )));
+        use protocol::{AdapterWish, DeviceChoice, FilterChoice};
+        use renderer::device::open_device;
+        let (gpu, exact) = (DeviceChoice::Gpu, FilterChoice::Exact);
+        all.push(open_device(gpu, &AdapterWish::default(), exact, 1 << 30, slots.into()).unwrap().device);
     }
     all
 }

@@ -16,3 +16,4 @@ mod replay;
 mod same_bytes;
 mod store_commands;
 mod whole_store;
+mod wiring;

@@ -75,8 +75,8 @@ fn every_changed_byte_of_a_real_store_is_found() {
     let whole = fs::read(store.path()).unwrap();
     assert_eq!(store.verify(&|_, _| {}).damage_count, 0);
     let mut random = Random(1000);
-    // Half of them in the header and the table, which are a small part of the file.
-    let table = whole.len() as u64 - 64 * store.listed_nodes();
+    // Half of them in the header and the table, which are a small part of the file: each brick has an entry of 64 bytes.
+    let table = whole.len() as u64 - 64 * store.stored_bricks();
     let mut places: Vec<u64> = (0..CHANGES / 2).map(|_| random.below(whole.len() as u64)).collect();
     places.extend((0..CHANGES / 4).map(|_| random.below(320)));
     places.extend((0..CHANGES / 4).map(|_| table + random.below(whole.len() as u64 - table)));

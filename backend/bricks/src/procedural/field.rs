@@ -1,6 +1,5 @@
 //! A scalar field given by a formula.
 
-use super::{MarschnerLobb, Shells, SparseVessels};
 use glam::DVec3;
 
 /// A scalar field over the unit cube; a volume of dims (nx, ny, nz) fills the part up to `extent` = dims / max(dims),
@@ -12,17 +11,4 @@ pub trait Field: Send + Sync {
     fn gradient(&self, position: DVec3) -> DVec3;
     /// Bounds of the value over an axis-parallel box: never tighter than the truth, (0, 0) only where all is 0.
     fn range_in_box(&self, low: DVec3, high: DVec3) -> (f64, f64);
-}
-
-/// Names that [`field_named`] knows.
-pub const FIELD_NAMES: [&str; 3] = ["shells", "marschner-lobb", "sparse-vessels"];
-
-/// The field of that name for a volume of that extent; None for an unknown name.
-pub fn field_named(name: &str, extent: DVec3) -> Option<Box<dyn Field>> {
-    Some(match name {
-        "shells" => Box::new(Shells::new(extent)),
-        "marschner-lobb" => Box::new(MarschnerLobb::new(extent)),
-        "sparse-vessels" => Box::new(SparseVessels::new(extent)),
-        _ => return None,
-    })
 }

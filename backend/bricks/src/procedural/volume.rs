@@ -1,6 +1,7 @@
 //! A field as a volume: bricks and slabs made when they are asked for, of any size.
 
-use super::field::{FIELD_NAMES, Field, field_named};
+use super::field::Field;
+use super::named::{FIELD_NAMES, field_named};
 use crate::store::{CodeBits, quantise};
 use crate::volume::{Element, MAX_EDGE_VOXELS, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
 use crate::{

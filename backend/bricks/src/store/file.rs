@@ -110,7 +110,8 @@ impl Store {
     }
 
     /// Nodes that the table lists; it leaves out what is one value throughout.
-    pub fn listed_nodes(&self) -> u64 {
+    #[cfg(test)]
+    pub(super) fn listed_nodes(&self) -> u64 {
         self.table.count()
     }
 
@@ -137,17 +138,18 @@ impl Store {
         self.header.bits
     }
 
-    /// Compression of the bricks.
-    pub fn codec(&self) -> Codec {
-        self.header.codec
-    }
-
-    /// Bytes that a node's brick takes in the file: what reading it costs; 0 where all samples are equal.
-    pub fn stored_bytes(&self, node: NodeKey) -> u64 {
+    /// Bytes that a node's brick takes in the file; 0 where all samples are equal.
+    #[cfg(test)]
+    pub(super) fn stored_bytes(&self, node: NodeKey) -> u64 {
         match self.find(node) {
             Found::Entry(entry) => entry.extent.bytes(),
             Found::Within(_) | Found::Lost { .. } => 0,
         }
+    }
+
+    /// Compression of the bricks.
+    pub fn codec(&self) -> Codec {
+        self.header.codec
     }
 
     /// The range of a node's codes around each cell, without its voxels; None in stores of older programs.

@@ -7,6 +7,7 @@ mod build_tests;
 mod bytes;
 mod cells;
 mod codec;
+mod codes;
 #[cfg(test)]
 mod damage_tests;
 mod eight_bits;
@@ -41,15 +42,16 @@ mod verify;
 mod working_file;
 mod writer;
 
-pub use brick::{BRICK_EDGE, BRICK_VOXELS, Brick, Codes, Deviation, OVERLAP, OWN_EDGE};
+pub use brick::{Brick, Deviation};
 pub use build::build;
 pub use cells::CellRanges;
 pub use codec::Codec;
+pub use codes::{BRICK_EDGE, BRICK_VOXELS, CodeBits, Codes, OVERLAP, OWN_EDGE};
 pub use eight_bits::EightBits;
 pub use error::StoreError;
 pub use file::Store;
 pub use octree::{NodeKey, OctreeShape};
 pub use options::{BuildOptions, BuildReport, Emptiness, LevelError};
-pub use quantise::{CodeBits, quantise};
+pub use quantise::quantise;
 pub use source::{BrickError, BrickErrorKind, BrickSource, NodeSummary, is_shown};
 pub use verify::{MOST_DAMAGES, Verification, verify};

@@ -1,5 +1,6 @@
 //! Turning data values into codes over a brick's own range.
 
+use super::CodeBits;
 use crate::{BRICK_VOXELS, Brick, Codes};
 
 /// Integers up to this magnitude, and their neighbours, are exact in f32.
@@ -10,38 +11,6 @@ const ROUNDER: f32 = 8_388_608.0;
 const SMALLEST_INVERTIBLE: f32 = 1e-30;
 /// Numbers compared side by side.
 const LANES: usize = 16;
-
-/// Bits per stored sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CodeBits {
-    /// 256 codes per brick.
-    Eight,
-    /// 65536 codes per brick.
-    Sixteen,
-}
-
-impl CodeBits {
-    /// 8 or 16.
-    pub fn bits(self) -> u8 {
-        match self {
-            CodeBits::Eight => 8,
-            CodeBits::Sixteen => 16,
-        }
-    }
-
-    /// The largest code.
-    pub fn largest(self) -> u16 {
-        match self {
-            CodeBits::Eight => 255,
-            CodeBits::Sixteen => 65535,
-        }
-    }
-
-    /// Bytes of a brick's codes.
-    pub fn brick_bytes(self) -> usize {
-        BRICK_VOXELS * usize::from(self.bits()) / 8
-    }
-}
 
 /// Quantises [`BRICK_VOXELS`] finite samples. Code 0 is the smallest sample exactly; no code that occurs stands for
 /// more than the largest. The error is at most half a step, plus the rounding of the step (at the largest code of 16

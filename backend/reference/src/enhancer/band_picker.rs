@@ -1,6 +1,6 @@
 //! A band picker, seen along one ray.
 
-use crate::medium::Linear;
+use crate::band::Linear;
 use glam::DVec3;
 use optics::{BandPicker, CurveValue};
 

@@ -4,6 +4,8 @@ mod band_picker;
 mod chain;
 mod clip_plane;
 mod layer_opacity;
+mod place;
 mod probe;
 
-pub use chain::{Chain, Place, Zone, Zones};
+pub use chain::Chain;
+pub use place::{Place, Zone, Zones};

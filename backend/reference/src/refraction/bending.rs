@@ -1,8 +1,8 @@
 //! What bends light at a point: the index and its gradient.
 
-use super::Index;
 use super::runge_kutta::Pose;
 use crate::Field;
+use crate::refraction_index::Index;
 use bricks::BrickError;
 use glam::{DAffine3, DVec3};
 use optics::Optics;

@@ -1,9 +1,9 @@
 //! The light of a ray that the refraction index bends.
 
-use super::Index;
 use super::bending::Bending;
 use super::follower::{End, Follower, Limits};
 use crate::accumulator::{Accumulator, Integrator, Progress, Scene};
+use crate::refraction_index::Index;
 use crate::setting::View;
 use crate::{Field, Radiance, Ray};
 use bricks::BrickError;

@@ -1,8 +1,8 @@
 //! The laws of geometrical optics that a way must keep.
 
-use super::Index;
 use super::bending::Bending;
 use super::follower::{End, Follower, LONGEST_WAY_DIAGONALS, Limits};
+use crate::refraction_index::Index;
 use crate::test_scene::{VOXEL_M, optics};
 use crate::{AnalyticField, Field, Ray};
 use glam::{DAffine3, DMat3, DVec3};

@@ -3,11 +3,9 @@
 mod bending;
 mod bent_light;
 mod follower;
-mod index;
 mod interface;
 #[cfg(test)]
 mod laws;
 mod runge_kutta;
 
 pub use bent_light::BentLight;
-pub use index::Index;

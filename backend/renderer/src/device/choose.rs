@@ -1,7 +1,8 @@
 //! Which device: asked for, or the best there is.
 
 use super::{CpuDevice, Device, DeviceError};
-use protocol::{DeviceChoice, DeviceInfo, FilterChoice};
+use crate::cache_size::slots_within;
+use protocol::{AdapterWish, DeviceChoice, DeviceInfo, FilterChoice};
 
 /// A device, and what to say of it.
 #[derive(Debug)]
@@ -13,12 +14,13 @@ pub struct ChosenDevice {
 }
 
 /// Opens the device of choice, by default a GPU where there is one that is no driver in software, with a brick cache of at
-/// most `cache_bytes` and at most `slots_needed` bricks.
+/// most `cache_bytes` and at most `slots_needed` bricks. A GPU that the display file names is taken whatever it is.
 ///
 /// # Errors
-/// A GPU was asked for and there is none, or its memory does not hold the cache.
+/// A GPU was asked for and there is none, or none of that name, or its memory does not hold the cache.
 pub fn open_device(
     choice: DeviceChoice,
+    adapter: &AdapterWish,
     filter: FilterChoice,
     cache_bytes: u64,
     slots_needed: u64,
@@ -33,56 +35,56 @@ pub fn open_device(
         };
         Ok(ChosenDevice { device: Device::Cpu(Box::new(CpuDevice::new(slots))), info })
     };
-    match (choice, open_gpu(filter, cache_bytes, slots_needed)) {
+    let gpu = || open_gpu(adapter, filter, cache_bytes, slots_needed);
+    match (choice, &adapter.name) {
         (DeviceChoice::Cpu, _) => cpu("it was asked for"),
-        (DeviceChoice::Auto, None) => cpu("this program was built without its gpu feature"),
-        (DeviceChoice::Gpu, None) => Err(DeviceError(
-            "this program was built without its gpu feature; build it with that feature, or take --device cpu".into(),
-        )),
-        (DeviceChoice::Auto, Some(open)) => match software_gpu() {
+        (DeviceChoice::Auto, None) => match software_gpu(adapter) {
             Some(name) => cpu(&format!("the only adapter, {name}, draws on this processor, too, and slower")),
-            None => open().or_else(|error| cpu(&error.0)),
+            None => gpu().or_else(|error| cpu(&error.0)),
         },
-        (DeviceChoice::Gpu, Some(open)) => open().map_err(|error| {
-            DeviceError(format!("{error}; take --device cpu, or install a Vulkan driver"))
-        }),
+        (_, Some(_)) => gpu().map_err(|error| DeviceError(format!("{error}, or take --device cpu"))),
+        (DeviceChoice::Gpu, None) => {
+            gpu().map_err(|error| DeviceError(format!("{error}; take --device cpu, or {INSTEAD}")))
+        }
     }
 }
 
-/// Slots for the bricks that fit, at least the nine that show a root and its children, and a blank one.
-pub(crate) fn slots_within(cache_bytes: u64, brick_bytes: u64, slots_needed: u64) -> u32 {
-    slots_needed.min(cache_bytes / brick_bytes).clamp(9, 1 << 20) as u32 + 1
-}
+/// What else helps where there is no GPU.
+const INSTEAD: &str =
+    if cfg!(feature = "gpu") { "install a Vulkan driver" } else { "build it with that feature" };
 
 /// Bytes of a brick in the CPU device's cache.
 const CPU_BRICK_BYTES: u64 = 2 * bricks::BRICK_VOXELS as u64;
 
-type OpenGpu = Box<dyn FnOnce() -> Result<ChosenDevice, DeviceError>>;
-
 #[cfg(feature = "gpu")]
-fn open_gpu(filter: FilterChoice, cache_bytes: u64, slots_needed: u64) -> Option<OpenGpu> {
-    Some(Box::new(move || {
-        // A power of two, the larger one where the cache allows it.
-        let brick_bytes = super::gpu::brick_bytes()?;
-        let slots = slots_within(cache_bytes, brick_bytes, slots_needed).next_power_of_two();
-        let most = slots_within(cache_bytes, brick_bytes, u64::MAX).max(16);
-        let device = super::gpu::GpuDevice::open(filter, if slots > most { slots / 2 } else { slots })?;
-        let info = device.info();
-        Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })
-    }))
+fn open_gpu(
+    adapter: &AdapterWish,
+    filter: FilterChoice,
+    cache_bytes: u64,
+    slots_needed: u64,
+) -> Result<ChosenDevice, DeviceError> {
+    let (context, why) = super::gpu::context(adapter)?;
+    // A power of two, the larger one where the cache allows it.
+    let brick_bytes = context.brick_bytes();
+    let slots = slots_within(cache_bytes, brick_bytes, slots_needed).next_power_of_two();
+    let most = slots_within(cache_bytes, brick_bytes, u64::MAX).max(16);
+    let device = super::gpu::GpuDevice::new(context, filter, if slots > most { slots / 2 } else { slots })?;
+    let info = device.info(&why);
+    Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })
 }
 
 #[cfg(feature = "gpu")]
-fn software_gpu() -> Option<String> {
-    super::gpu::software_adapter()
+fn software_gpu(adapter: &AdapterWish) -> Option<String> {
+    let (context, _) = super::gpu::context(adapter).ok()?;
+    context.software_name().map(str::to_owned)
 }
 
 #[cfg(not(feature = "gpu"))]
-fn software_gpu() -> Option<String> {
+fn software_gpu(_: &AdapterWish) -> Option<String> {
     None
 }
 
 #[cfg(not(feature = "gpu"))]
-fn open_gpu(_: FilterChoice, _: u64, _: u64) -> Option<OpenGpu> {
-    None
+fn open_gpu(_: &AdapterWish, _: FilterChoice, _: u64, _: u64) -> Result<ChosenDevice, DeviceError> {
+    Err(DeviceError("this program was built without its gpu feature".into()))
 }

@@ -31,9 +31,6 @@ pub enum OutputError {
         /// How many numbers there are.
         numbers: usize,
     },
-    /// Two pictures that were to be compared differ in size.
-    #[error("pictures of {0} x {1} and {2} x {3} pixels cannot be compared; give two of one size")]
-    SizesDiffer(u32, u32, u32, u32),
 }
 
 impl OutputError {

@@ -7,7 +7,6 @@ mod exr;
 mod eye;
 mod picture;
 mod png;
-mod psnr;
 mod srgb;
 
 pub use atomic::{can_write_into, write_atomically};
@@ -17,5 +16,4 @@ pub use exr::write_exr;
 pub use eye::{EyePlan, EyeView, ScreenRaster};
 pub use picture::{Picture, PictureRef};
 pub use png::{encode_png, write_png};
-pub use psnr::ImageDifference;
 pub use srgb::srgb_code;

@@ -47,7 +47,7 @@ impl Renderer {
         let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
         let bricks: u64 = (0..=shape.finest_depth()).map(level).sum();
         let ChosenDevice { device, info } =
-            open_device(options.device, options.filter, options.cache_bytes, bricks)?;
+            open_device(options.device, &options.adapter, options.filter, options.cache_bytes, bricks)?;
         let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
         let renderer = Self {
             options: options.clone(),

@@ -35,6 +35,7 @@ pub(super) fn display() -> Display {
         observer_in_display: DVec3::new(0.0, 0.0, 1.2),
         eta: 1.0,
         projectors: vec![projector(-0.2), projector(0.2)],
+        adapters: Vec::new(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::header::{Frame, ImageFile, cause_of, damaged};
 use super::rle;
+use super::syntax::{BIG_ENDIAN, is_plain};
 use bricks::volume::VolumeError;
 use dicom_core::DicomValue;
 use dicom_dictionary_std::{tags, uids};
@@ -20,11 +21,6 @@ const EXPLICIT_STARTS: [&[u8]; 2] =
 const IMPLICIT_STARTS: [&[u8]; 1] = [&[0xe0, 0x7f, 0x10, 0]];
 const LENGTH_BYTES: usize = 4;
 
-/// Whether frames lie in files of this transfer syntax as they are, lowest byte first.
-pub(super) fn is_plain(syntax: &str) -> bool {
-    matches!(syntax, uids::IMPLICIT_VR_LITTLE_ENDIAN | uids::EXPLICIT_VR_LITTLE_ENDIAN)
-}
-
 /// Whether the frames can be unpacked.
 pub(super) fn check(file: &ImageFile) -> Result<(), VolumeError> {
     let syntax = TransferSyntaxRegistry.get(&file.transfer_syntax);
@@ -39,9 +35,6 @@ pub(super) fn check(file: &ImageFile) -> Result<(), VolumeError> {
     );
     Err(VolumeError::unsupported(&file.path, what))
 }
-
-/// Highest byte first, which the standard has since retired.
-pub(super) const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
 
 /// The crate swaps the bytes of pairs, which is all of a number of 16 bits but not of 32.
 fn check_bytes(file: &ImageFile) -> Result<(), VolumeError> {

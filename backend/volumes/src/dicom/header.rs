@@ -1,8 +1,9 @@
 //! What the header of a DICOM file says of its frames; the pixels are not read.
 
 use super::attributes::{FrameAttributes, integer, item, number, numbers, text, time, vector};
+use super::lengths;
 use super::pixels::PixelFormat;
-use super::{decode, lengths};
+use super::syntax::{MAGIC, PREAMBLE_BYTES, is_plain};
 use bricks::volume::{MAX_EDGE_VOXELS, VolumeError};
 use dicom_core::Tag;
 use dicom_dictionary_std::tags;
@@ -15,9 +16,6 @@ use std::sync::Arc;
 
 /// Float pixel data, the first of the elements with pixels: reading a header ends before it.
 const FIRST_PIXELS: Tag = Tag(0x7FE0, 0x0008);
-/// What a Part 10 file starts with after its preamble of so many bytes; old files lack the preamble.
-pub(super) const MAGIC: &[u8] = b"DICM";
-pub(super) const PREAMBLE_BYTES: usize = 128;
 /// None of the packings makes fewer bytes of so many: deflate, the best of them, has 1032.
 const LARGEST_RATIO: u64 = 1032;
 /// The tags that may tell images at the same place apart, in the order that they sort by.
@@ -188,7 +186,7 @@ fn image_file(
 fn check_length(file: &ImageFile) -> Result<(), VolumeError> {
     let pixels = u64::from(file.rows) * u64::from(file.columns) * u64::from(file.frames);
     let promised = pixels.saturating_mul(u64::from(file.pixels.allocated)) / 8;
-    let ratio = if decode::is_plain(&file.transfer_syntax) { 1 } else { LARGEST_RATIO };
+    let ratio = if is_plain(&file.transfer_syntax) { 1 } else { LARGEST_RATIO };
     if promised <= file.length.saturating_mul(ratio) && u64::from(file.frames) <= file.length {
         return Ok(());
     }

@@ -3,8 +3,7 @@
 //! The parser takes memory for an element before it reads the element, and a damaged length can be 4 GiB: so the
 //! lengths are looked at first, without reading values.
 
-use super::decode::BIG_ENDIAN;
-use super::header::{MAGIC, PREAMBLE_BYTES};
+use super::syntax::{BIG_ENDIAN, MAGIC, PREAMBLE_BYTES};
 use bricks::volume::VolumeError;
 use dicom_dictionary_std::uids;
 use flate2::read::DeflateDecoder;

@@ -8,6 +8,7 @@ mod pixels;
 mod rle;
 mod scan;
 mod stack;
+mod syntax;
 #[cfg(test)]
 mod tests;
 mod volume;

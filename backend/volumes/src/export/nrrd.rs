@@ -1,7 +1,7 @@
 //! NRRD files, with the voxels in them.
 
 use super::grid;
-use super::numbers::Rounding;
+use super::rounding::Rounding;
 use super::{ExportError, Part};
 use bricks::BrickSource;
 use bricks::temporary::temporary_in;

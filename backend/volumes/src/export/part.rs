@@ -1,7 +1,7 @@
 //! The voxels of a part of a level, put together from bricks.
 
 use super::ExportError;
-use super::numbers::Rounding;
+use super::rounding::Rounding;
 use bricks::volume::Samples;
 use bricks::{Brick, BrickSource, NodeKey, OVERLAP, OWN_EDGE};
 use glam::UVec3;

@@ -4,8 +4,10 @@ use super::*;
 use crate::{ImportOptions, import};
 use crate::{Selection, open};
 use bricks::store::Store;
+use bricks::volume::Element;
 use bricks::volume::{Samples, Space, VolumeFrame, VolumeInfo};
 use bricks::{BRICK_VOXELS, Brick, BrickError, Codes, NodeKey, NodeSummary, OctreeShape};
+use glam::UVec3;
 use glam::{DMat3, DVec3};
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! OME-Zarr 0.5 folders: one image, its levels as Zarr v3 arrays in packed chunks.
 
 use super::grid;
-use super::numbers::Rounding;
+use super::rounding::Rounding;
 use super::{ExportError, Part};
 use bricks::BrickSource;
 use bricks::temporary::temporary_folder_in;

@@ -5,8 +5,9 @@ mod place;
 
 use super::Selection;
 use super::choice::{Several, choose};
-use super::file::{FileLayout, Packing};
+use super::file::FileLayout;
 use super::header_text::{HeaderText, Line};
+use super::packing::Packing;
 use super::shape::{Axis, Shape};
 use bricks::volume::{ByteOrder, Element, VolumeError};
 use std::path::Path;

@@ -2,8 +2,8 @@
 
 use super::super::data_files::{DataFiles, Numbered};
 use super::super::data_stream::Start;
-use super::super::file::Packing;
 use super::super::header_text::HeaderText;
+use super::super::packing::Packing;
 use bricks::volume::VolumeError;
 use std::path::Path;
 

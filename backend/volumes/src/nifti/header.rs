@@ -1,6 +1,6 @@
 //! The header of a NIfTI file: its bytes as numbers, whichever version and byte order.
 
-use super::place::reader;
+use super::unpacked::reader;
 use bricks::volume::{ByteOrder, VolumeError};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};

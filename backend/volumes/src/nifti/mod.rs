@@ -3,6 +3,7 @@
 mod frame;
 mod header;
 mod place;
+mod unpacked;
 
 use super::Selection;
 use super::choice::{Several, choose};

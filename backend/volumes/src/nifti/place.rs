@@ -1,15 +1,11 @@
 //! The files of a NIfTI volume.
 
 use super::super::data_files::DataFiles;
-use super::super::file::Packing;
+use super::super::packing::Packing;
 use super::header::Header;
+use super::unpacked::is_gzip;
 use bricks::volume::VolumeError;
-use flate2::read::MultiGzDecoder;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
-
-const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// The header's file of a pair, whichever of the two was named; any other path as it is.
 pub(super) fn header_path(path: &Path) -> Result<PathBuf, VolumeError> {
@@ -36,19 +32,6 @@ pub(super) fn voxels(header: &Header) -> Result<(DataFiles, Packing), VolumeErro
     // The first voxels may look like a packed file's start, so the name tells.
     let packing = if ends(&path, ".gz") { Packing::Gzip } else { Packing::Plain };
     Ok((DataFiles::One(path), packing))
-}
-
-/// The file's bytes, unpacked.
-pub(super) fn reader(path: &Path) -> Result<Box<dyn Read>, VolumeError> {
-    let is_gzip = is_gzip(path)?;
-    let file = File::open(path).map_err(VolumeError::open(path))?;
-    Ok(if is_gzip { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) })
-}
-
-fn is_gzip(path: &Path) -> Result<bool, VolumeError> {
-    let mut start = [0; 2];
-    let mut file = File::open(path).map_err(VolumeError::open(path))?;
-    Ok(file.read_exact(&mut start).is_ok() && start == GZIP_MAGIC)
 }
 
 fn ends(path: &Path, ending: &str) -> bool {

@@ -1,21 +1,19 @@
 //! NRRD headers (.nrrd with the voxels inside, .nhdr with one file of voxels beside it or several).
 
 mod axes;
+mod data_file;
 mod frame;
 mod place;
 
 use super::Selection;
-use super::file::{FileLayout, Packing};
+use super::file::FileLayout;
 use super::header_text::{HeaderText, Line};
+use super::packing::Packing;
 use super::shape::Shape;
 use axes::Axes;
 use bricks::volume::{ByteOrder, Element, VolumeError};
+use data_file::{DATA_FILE, is_list};
 use std::path::Path;
-
-/// Names of the field that says where the voxels are.
-const DATA_FILE: [&str; 2] = ["data file", "datafile"];
-/// The value of that field, before the names of several files on the lines that follow.
-const LIST: &str = "LIST";
 
 /// Reads the header. Lengths are millimetres unless `space units` or `units` say otherwise.
 pub(super) fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, VolumeError> {
@@ -52,16 +50,15 @@ fn line(number: usize, text: &str) -> Line {
     match text.split_once(": ") {
         // A pair of key and value has no meaning that the format knows of.
         Some((key, _)) if key.contains(":=") => Line::Ignored,
-        Some((key, value)) if is_list(key, value) => Line::List(key.trim().into(), value.into()),
+        Some((key, value)) if has_list(key, value) => Line::List(key.trim().into(), value.into()),
         Some((key, value)) => Line::Field(key.trim().into(), value.into()),
         None if text.contains(":=") => Line::Ignored,
         None => Line::Wrong,
     }
 }
 
-fn is_list(key: &str, value: &str) -> bool {
-    let is_data_file = DATA_FILE.contains(&key.trim().to_ascii_lowercase().as_str());
-    is_data_file && value.split_whitespace().next() == Some(LIST)
+fn has_list(key: &str, value: &str) -> bool {
+    DATA_FILE.contains(&key.trim().to_ascii_lowercase().as_str()) && is_list(value)
 }
 
 fn element(path: &Path, header: &HeaderText) -> Result<Element, VolumeError> {

@@ -2,9 +2,9 @@
 
 use super::super::data_files::{DataFiles, Numbered};
 use super::super::data_stream::Start;
-use super::super::file::Packing;
 use super::super::header_text::HeaderText;
-use super::{DATA_FILE, LIST};
+use super::super::packing::Packing;
+use super::data_file::{DATA_FILE, LIST, is_list};
 use bricks::volume::VolumeError;
 use std::path::Path;
 
@@ -27,10 +27,6 @@ pub(super) fn files(path: &Path, header: &HeaderText, sizes: &[i64]) -> Result<D
     };
     files.check_count(sizes, file_axes).map_err(|what| header.wrong(what))?;
     Ok(files)
-}
-
-fn is_list(value: &str) -> bool {
-    value.split_whitespace().next() == Some(LIST)
 }
 
 /// `name%03d.raw first last step`, and how many axes a file has where that follows.

@@ -1,6 +1,6 @@
 //! The bands and enhancers in a scene file.
 
-use super::Checked;
+use crate::scene::error::Checked;
 use crate::scene::file::{BandTable, EnhancerKind, EnhancerTable, Limits, Number, Triple};
 use crate::scene::text::SceneText;
 use crate::scene::{Anchor, Band, SceneEnhancer};

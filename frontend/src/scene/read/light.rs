@@ -1,6 +1,6 @@
 //! The light and the quality in a scene file.
 
-use super::Checked;
+use crate::scene::error::Checked;
 use crate::scene::file::{DetailKind, LightTable, QualityTable};
 use crate::scene::text::SceneText;
 use ::optics::{Detail, Light, Quality};

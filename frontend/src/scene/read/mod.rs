@@ -6,6 +6,8 @@ mod motion;
 mod optics;
 mod volume;
 
+use super::contents::tool_at_rest;
+use super::error::Checked;
 use super::file::{DisplayTable, FramesTable, SceneFile, ToolTable};
 use super::text::SceneText;
 use super::{Look, Scene, SceneEnhancer, SceneError, VolumeSource, builtin};
@@ -14,8 +16,6 @@ use glam::DVec3;
 use motion::Changeable;
 use protocol::Tool;
 use std::path::Path;
-
-type Checked<T> = Result<T, SceneError>;
 
 /// Reads a scene file; its volume must be there.
 pub(super) fn scene_from_file(path: &Path) -> Checked<Scene> {
@@ -83,7 +83,7 @@ impl SceneText {
     }
 
     fn tool(&self, table: &ToolTable) -> Checked<Tool> {
-        let rest = crate::scene::tool_at_rest(table.kind);
+        let rest = tool_at_rest(table.kind);
         let tip = self.optional_point(&table.tip_m)?;
         let axis = table.axis.as_ref().map(|axis| self.direction(axis)).transpose()?;
         Ok(Tool {

@@ -1,7 +1,7 @@
 //! The keyframes of a scene file.
 
-use super::Checked;
 use crate::scene::edits::Edits;
+use crate::scene::error::Checked;
 use crate::scene::file::KeyframeTable;
 use crate::scene::look::DataLook;
 use crate::scene::motion::Direction;

@@ -1,6 +1,6 @@
 //! The look in a scene file.
 
-use super::Checked;
+use crate::scene::error::Checked;
 use crate::scene::file::{MimdaTable, OpticsTable, Points, SceneFile};
 use crate::scene::look::DataLook;
 use crate::scene::text::SceneText;

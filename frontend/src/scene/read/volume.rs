@@ -1,10 +1,11 @@
 //! Which volume a scene file names, and where it puts it.
 
-use super::Checked;
+use crate::scene::error::Checked;
 use crate::scene::file::{Lengths, PlacementTable, VolumeTable, Voxels};
+use crate::scene::names::PROCEDURAL_PREFIX;
 use crate::scene::placement::rotation_from_deg;
 use crate::scene::text::SceneText;
-use crate::scene::volume::{LARGEST_EDGE, PROCEDURAL};
+use crate::scene::volume::LARGEST_EDGE;
 use crate::scene::{Placement, Size, VolumeAxes, VolumeAxis, VolumeSource};
 use glam::{DVec3, UVec3};
 use std::ops::Range;
@@ -17,7 +18,7 @@ const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 impl SceneText {
     pub(super) fn volume(&self, table: &VolumeTable, folder: &Path) -> Checked<VolumeSource> {
         let source = table.source.get_ref();
-        let Some(name) = source.strip_prefix(PROCEDURAL) else {
+        let Some(name) = source.strip_prefix(PROCEDURAL_PREFIX) else {
             return match &table.size {
                 Some(size) => Err(self.wrong(size.span(), "a store has its own size; remove this line")),
                 None => Ok(VolumeSource::Store(folder.join(source))),

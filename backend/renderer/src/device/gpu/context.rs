@@ -1,13 +1,16 @@
-//! The adapter and its queue, one for the whole process.
+//! An adapter and its queue, opened once for the whole process.
 
+use super::adapters;
 use super::pipeline_cache::PipelineCache;
 use crate::device::DeviceError;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, TryLockError};
+use protocol::AdapterWish;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
-/// What all GPU devices of a process share. Software Vulkan drivers have crashed with several at work at once, so
-/// there is one, and work on it takes turns.
+/// What all GPU devices of a process share that draw with one adapter. Software Vulkan drivers have crashed with several at
+/// work at once, so there is one context for an adapter, and work on it takes turns.
 #[derive(Debug)]
-pub(super) struct Context {
+pub(in crate::device) struct Context {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     pub(super) name: String,
@@ -24,44 +27,22 @@ pub(super) struct Context {
 /// Storage buffers of the kernel that uses everything.
 const MOST_STORAGE_BUFFERS: u32 = 12;
 
-static CONTEXT: OnceLock<Result<Arc<Context>, DeviceError>> = OnceLock::new();
+type Opened = Result<Arc<Context>, DeviceError>;
 
-/// The process's context, made on first use.
-pub(super) fn context() -> Result<Arc<Context>, DeviceError> {
-    CONTEXT.get_or_init(|| pollster::block_on(Context::open()).map(Arc::new)).clone()
-}
+/// The process's contexts by the places of their adapters.
+static CONTEXTS: Mutex<BTreeMap<usize, Opened>> = Mutex::new(BTreeMap::new());
 
-/// The adapter that `--device gpu` would take.
-///
-/// # Errors
-/// There is none, or it cannot be opened.
-pub fn adapter_name() -> Result<String, DeviceError> {
-    Ok(context()?.name.clone())
-}
-
-/// The name of the adapter that `--device gpu` would take, where that is a driver in software.
-pub(in crate::device) fn software_adapter() -> Option<String> {
-    context().ok().filter(|context| context.is_software).map(|context| context.name.clone())
-}
-
-/// Bytes of a brick in the cache of `--device gpu`.
-pub(in crate::device) fn brick_bytes() -> Result<u64, DeviceError> {
-    Ok(context()?.brick_bytes())
+/// The context of the adapter that a wish leads to, made on first use, and why it is that one.
+pub(in crate::device) fn context(wish: &AdapterWish) -> Result<(Arc<Context>, String), DeviceError> {
+    let chosen = adapters::choose(wish)?;
+    let mut contexts = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let open = || pollster::block_on(Context::open(adapters::adapter(chosen.index))).map(Arc::new);
+    let context = contexts.entry(chosen.index).or_insert_with(open).clone()?;
+    Ok((context, chosen.why))
 }
 
 impl Context {
-    async fn open() -> Result<Self, DeviceError> {
-        let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
-        wanted.backends = wgpu::Backends::PRIMARY;
-        let instance = wgpu::Instance::new(wanted);
-        let options = wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..Default::default()
-        };
-        let adapter = instance
-            .request_adapter(&options)
-            .await
-            .map_err(|_| DeviceError("no Vulkan driver offers an adapter".into()))?;
+    async fn open(adapter: &wgpu::Adapter) -> Result<Self, DeviceError> {
         let info = adapter.get_info();
         let name = format!("gpu: {}, {:?}", info.name, info.backend);
         let features = adapter.features()
@@ -103,15 +84,20 @@ impl Context {
         })
     }
 
+    /// Its adapter's name, where that is a driver in software.
+    pub(in crate::device) fn software_name(&self) -> Option<&str> {
+        self.is_software.then_some(&self.name)
+    }
+
     /// Bytes of a brick in the atlas.
-    pub(super) fn brick_bytes(&self) -> u64 {
+    pub(in crate::device) fn brick_bytes(&self) -> u64 {
         let sample = if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 };
         sample * bricks::BRICK_VOXELS as u64
     }
 
     /// Waits for this thread's turn on the queue.
     pub(super) fn turn(&self) -> MutexGuard<'_, ()> {
-        self.turn.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+        self.turn.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The same, where no other thread has it.

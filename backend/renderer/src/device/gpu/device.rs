@@ -1,7 +1,7 @@
 //! A back-end's share of the GPU: its atlas, buffers and kernels.
 
 use super::atlas::Atlas;
-use super::context::{Context, context};
+use super::context::Context;
 use super::feedback::FrameFeedback;
 use super::kernels::Kernels;
 use super::precision::{filter_error, is_precise};
@@ -58,12 +58,15 @@ pub struct GpuDevice {
 }
 
 impl GpuDevice {
-    /// Opens the process's adapter with a cache of about `slots` bricks.
+    /// A device of an adapter with a cache of about `slots` bricks.
     ///
     /// # Errors
-    /// No adapter, or no memory.
-    pub fn open(filter: FilterChoice, slots: u32) -> Result<Self, DeviceError> {
-        let context = context()?;
+    /// No memory, or no such filter.
+    pub(in crate::device) fn new(
+        context: Arc<Context>,
+        filter: FilterChoice,
+        slots: u32,
+    ) -> Result<Self, DeviceError> {
         let turn = context.turn();
         let atlas = Atlas::new(&context, slots)?;
         let sampler = context.device.create_sampler(&wgpu::SamplerDescriptor {
@@ -106,8 +109,8 @@ impl GpuDevice {
         })
     }
 
-    /// What to say of it.
-    pub fn info(&self) -> DeviceInfo {
+    /// What to say of it, and why it draws with this adapter.
+    pub(in crate::device) fn info(&self, why: &str) -> DeviceInfo {
         let filter = match self.filter {
             Filter::Hardware => "hardware",
             Filter::Exact => "exact",
@@ -118,7 +121,7 @@ impl GpuDevice {
         };
         DeviceInfo {
             adapter: self.context.name.clone(),
-            reason: format!("a driver offers it; {measured}"),
+            reason: format!("{why}; {measured}"),
             filter: filter.into(),
             cache_bytes: u64::from(self.atlas.count()) * self.context.brick_bytes(),
         }

@@ -1,5 +1,6 @@
 //! The wgpu device. The only folder that names wgpu.
 
+mod adapters;
 mod atlas;
 mod cache_file;
 mod context;
@@ -12,6 +13,5 @@ mod readback;
 mod storage;
 mod view;
 
-pub use context::adapter_name;
-pub(super) use context::{brick_bytes, software_adapter};
+pub(super) use context::context;
 pub use device::GpuDevice;

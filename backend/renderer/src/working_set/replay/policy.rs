@@ -1,6 +1,6 @@
 //! What a replay tries: a cache, a disk, and what is fetched first.
 
-use crate::device::slots_within;
+use crate::cache_size::slots_within;
 use crate::working_set::{SAMPLE_BYTES, WorkingSet};
 use bricks::{NodeKey, OctreeShape};
 use std::cmp::Reverse;

@@ -47,7 +47,7 @@ pub fn number(view: DebugView, value: f64) -> String {
 }
 
 /// Writes the picture of the key.
-pub(super) fn write(view: DebugView, out: &Path) -> Result<(), OutputError> {
+pub(crate) fn write_legend(view: DebugView, out: &Path) -> Result<(), OutputError> {
     write_png(&out.join(LEGEND), picture(view).view()?)
 }
 

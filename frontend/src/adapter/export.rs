@@ -1,12 +1,12 @@
 //! Exporting from a store.
 
 use crate::FrontendError;
-use crate::cli::ExportArgs;
 use crate::progress::Progress;
 use bricks::store::Store;
 use glam::UVec3;
 use serde::Serialize;
 use std::cell::RefCell;
+use std::path::Path;
 use volumes::export::ExportOptions;
 
 /// What an export did.
@@ -25,20 +25,18 @@ pub struct ExportSummary {
 }
 
 /// Writes a level of a store, a part of one, or all levels.
-pub fn export(args: &ExportArgs, progress: Progress) -> Result<ExportSummary, FrontendError> {
-    let store = Store::open(&args.store).map_err(|e| FrontendError::Volume(e.to_string()))?;
-    let options = ExportOptions {
-        level: args.level,
-        low: args.low,
-        size: args.size,
-        element: args.element,
-        is_packed: args.compress,
-    };
+pub fn export(
+    store: &Path,
+    output: &Path,
+    options: &ExportOptions,
+    progress: Progress,
+) -> Result<ExportSummary, FrontendError> {
+    let store = Store::open(store).map_err(|e| FrontendError::Volume(e.to_string()))?;
     let progress = RefCell::new(progress);
     let show = |done: u64, total: u64| {
         progress.borrow_mut().set(done as f64 / total.max(1) as f64, "planes");
     };
-    let report = volumes::export::export(&store, &args.output, &options, &show)
+    let report = volumes::export::export(&store, output, options, &show)
         .map_err(|e| FrontendError::Volume(e.to_string()))?;
     Ok(ExportSummary {
         levels: report.levels,

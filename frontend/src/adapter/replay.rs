@@ -1,6 +1,6 @@
 //! Traces and their volumes, for replays.
 
-use super::open_volume;
+use super::volume::open_volume;
 use crate::FrontendError;
 use bricks::BrickSource;
 use bricks::store::Store;

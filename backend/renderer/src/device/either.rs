@@ -1,0 +1,110 @@
+//! A device of either kind, with its brick cache.
+
+use super::{CastJob, CastOutcome, CpuDevice, DeviceError, FeedbackTag, TaggedFeedback};
+use layout::NodeRecord;
+use shaders::tables::Tables;
+
+/// A device with its brick cache.
+#[derive(Debug)]
+pub enum Device {
+    /// The twin, on all cores.
+    Cpu(Box<CpuDevice>),
+    /// A wgpu device.
+    #[cfg(feature = "gpu")]
+    Gpu(Box<super::gpu::GpuDevice>),
+}
+
+/// The same call on whichever device there is.
+macro_rules! on_device {
+    ($device:expr, $found:ident => $call:expr) => {
+        match $device {
+            Device::Cpu($found) => $call,
+            #[cfg(feature = "gpu")]
+            Device::Gpu($found) => $call,
+        }
+    };
+}
+
+impl Device {
+    /// Runs this kernel in place of those that are composed; false on a device that has none to replace.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn substitute_kernel(&mut self, wgsl: &str) -> bool {
+        let Self::Gpu(device) = self else { return false };
+        device.substitute_kernel(wgsl);
+        true
+    }
+
+    /// Slots of the brick cache.
+    pub fn slots(&self) -> u32 {
+        on_device!(self, device => device.slots())
+    }
+
+    /// Puts a brick's 32³ samples into a slot.
+    pub fn write_brick(&mut self, slot: u32, samples: &[u16]) {
+        on_device!(self, device => device.write_brick(slot, samples));
+    }
+
+    /// Replaces the spatial index, and which cells of each slot show anything.
+    pub fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
+        on_device!(self, device => device.write_index(nodes, cells));
+    }
+
+    /// Replaces the transfer functions' tables.
+    pub fn write_tables(&mut self, tables: Tables) {
+        on_device!(self, device => device.write_tables(tables));
+    }
+
+    /// From now on the casts that gather for the frame ([`Gather::Frame`]) add to an empty table. An index that is
+    /// written meanwhile empties it again: places mean other nodes then.
+    pub fn clear_feedback(&mut self) {
+        on_device!(self, device => device.clear_feedback());
+    }
+
+    /// The frame's table is complete: starts it on its way to the host, with the tag, and waits for nothing. Of the tables
+    /// that nobody takes only the latest few are kept.
+    pub fn end_feedback(&mut self, tag: FeedbackTag) {
+        on_device!(self, device => device.end_feedback(tag));
+    }
+
+    /// Whether any table is under way.
+    pub fn has_feedback_under_way(&self) -> bool {
+        on_device!(self, device => device.has_feedback_under_way())
+    }
+
+    /// The oldest table that is under way; None where there is none, or it has not arrived. It never waits.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn take_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
+        on_device!(self, device => device.take_feedback())
+    }
+
+    /// The same, but waits for it; None where none is under way.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn wait_feedback(&mut self) -> Result<Option<TaggedFeedback>, DeviceError> {
+        on_device!(self, device => device.wait_feedback())
+    }
+
+    /// Casts the rays of some views; their colours stay on the device, a picture per view. It returns when they
+    /// are, or when it has been asked to leave off.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
+        on_device!(self, device => device.cast(job))
+    }
+
+    /// The colours of the view last cast into this picture (see [`CastJob::first_picture`]): 4 numbers per pixel, rows
+    /// from the top.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    ///
+    /// # Panics
+    /// Where nothing was cast into it yet.
+    pub fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
+        on_device!(self, device => device.picture(index))
+    }
+}

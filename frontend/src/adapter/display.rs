@@ -1,0 +1,19 @@
+//! Displays by their names.
+
+use crate::FrontendError;
+use display_config::Display;
+
+/// The displays that come with the program: name, and a line about each.
+pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
+    let about = |name: &str| {
+        let display = load_display(name)?;
+        let (count, (w, h)) = (display.projectors.len(), (display.width_m, display.height_m));
+        Ok((name.to_owned(), format!("{count} projectors on a screen of {w:.2} × {h:.2} m")))
+    };
+    display_config::presets().iter().map(|(name, _)| about(name)).collect()
+}
+
+/// A preset by its name, or the display in a file.
+pub fn load_display(name_or_path: &str) -> Result<Display, FrontendError> {
+    Display::load(name_or_path).map_err(|e| FrontendError::Display(e.to_string()))
+}

@@ -1,0 +1,21 @@
+//! Where the commands meet what they drive: displays, volumes, importers, exporters and back-ends.
+
+mod backends;
+mod display;
+mod export;
+mod import;
+mod levels;
+mod replay;
+mod store;
+mod trace;
+mod volume;
+
+pub use backends::{BackendOptions, Backends};
+pub use display::{load_display, preset_displays};
+pub use export::{ExportSummary, export};
+pub use import::{ImportRequest, ImportSummary, RawRequest, Skipped, import};
+pub use levels::LevelSummary;
+pub use replay::{ReplayRow, Traces};
+pub use store::{StoreSummary, VerifySummary, store_summary, verify};
+pub use trace::prepare_traces;
+pub use volume::{open_volume, volume_facts};

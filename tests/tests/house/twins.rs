@@ -1,0 +1,58 @@
+//! Kernels and their twins lie under one name.
+
+use crate::assert_none;
+use crate::sources::sources;
+use std::collections::BTreeSet;
+
+/// WGSL modules whose twin has another stem, or none, with the reason.
+const ODD_TWINS: [(&str, Option<&str>, &str); 17] = [
+    ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
+    ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
+    ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),
+    ("enhance/none", Some("shaders/src/twin/enhance/chain.rs"), "a chain without links"),
+    ("gradient/blended", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
+    ("gradient/none", Some("shaders/src/twin/gradient/detail.rs"), "a constant in the twin"),
+    ("gradient/own", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
+    ("gradient/toward_parent", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
+    ("layout", Some("shaders/layout/src/lib.rs"), "the host's structs are used beyond the twin"),
+    ("levels/no_weights", Some("shaders/src/twin/levels/weights.rs"), "a constant in the twin"),
+    ("levels/one", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its ancestors"),
+    ("levels/two", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its grandparent"),
+    ("material/one", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
+    ("material/table", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
+    ("report", Some("shaders/src/twin/scene.rs"), "the twin's feedback belongs to its scene"),
+    (
+        "sample/exact",
+        Some("shaders/src/twin/sample.rs"),
+        "the twin has one way to sample: there is no choice to name",
+    ),
+    ("sample/hardware", None, "the texture unit does it; its precision is measured instead"),
+];
+
+/// WGSL modules without a twin, and exceptions that no longer hold.
+fn wrong_twins(paths: &BTreeSet<&str>) -> Vec<String> {
+    let odd = |stem: &str| ODD_TWINS.iter().find(|(name, ..)| *name == stem);
+    let stem = |path: &str| path.strip_prefix("shaders/wgsl/")?.strip_suffix(".wgsl").map(str::to_owned);
+    let stems: BTreeSet<String> = paths.iter().filter_map(|path| stem(path)).collect();
+    let twin = |stem: &str| match odd(stem) {
+        Some((_, twin, _)) => twin.map(str::to_owned),
+        None => Some(format!("shaders/src/twin/{stem}.rs")),
+    };
+    let has_twin = |stem: &&String| twin(stem).is_none_or(|twin| paths.contains(twin.as_str()));
+    let alone = stems.iter().filter(|stem| !has_twin(stem)).map(|stem| format!("{stem}.wgsl has no twin"));
+    let stale = ODD_TWINS.iter().filter(|(name, ..)| !stems.contains(*name));
+    alone.chain(stale.map(|(name, ..)| format!("{name} is an exception for nothing"))).collect()
+}
+
+#[test]
+fn twins_share_a_stem() {
+    let sources = sources();
+    let paths: BTreeSet<&str> = sources.iter().map(|s| s.path.as_str()).collect();
+    assert_none(&wrong_twins(&paths));
+    let mut spoiled = paths.clone();
+    spoiled.remove("shaders/src/twin/cast.rs");
+    assert_eq!(wrong_twins(&spoiled), ["cast.wgsl has no twin"]);
+    let mut spoiled = paths;
+    spoiled.remove("shaders/wgsl/sample/hardware.wgsl");
+    assert_eq!(wrong_twins(&spoiled), ["sample/hardware is an exception for nothing"]);
+}
