@@ -17,6 +17,7 @@ pub mod program;
 pub mod random;
 pub mod random_scene;
 pub mod remembered;
+pub mod results;
 pub mod scenes;
 pub mod techniques;
 pub mod twin_scene;
