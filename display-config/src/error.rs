@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RayError {
     /// A coordinate or η is NaN or infinite, or so extreme that the ray's coefficients are.
-    #[error("a coordinate or η is not finite; give ordinary numbers of metres")]
+    #[error("a coordinate or η is infinite or not a number; give ordinary numbers of metres")]
     NotFinite,
     /// Ez = 0.
     #[error(
@@ -46,7 +46,7 @@ pub enum Clip {
     #[error("no single ray of the projector passes through the point")]
     NoImage,
     /// A coordinate of the point is NaN or infinite.
-    #[error("a coordinate of the point is not finite")]
+    #[error("a coordinate of the point is infinite or not a number")]
     NotFinite,
 }
 
@@ -67,7 +67,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a display cannot be had. Each is one sentence that says where, what, and what to do.
+/// Why a display cannot be read. Each is one sentence that says where, what, and what to do.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message beside each variant says what its fields are")]
 pub enum ConfigError {
@@ -90,7 +90,7 @@ pub enum ConfigError {
     #[error("{place} cannot have this value ({message}); give what it expects")]
     WrongType { place: Place, message: String },
     /// NaN or infinity.
-    #[error("{place} has a number that is not finite; give an ordinary number")]
+    #[error("{place} has an infinite number or NaN; give an ordinary number")]
     NotFinite { place: Place },
     /// A number outside its range.
     #[error("{place} is {value}; give {expected}")]

@@ -97,8 +97,8 @@ pub fn importance_table(importance: &Curve<f64>) -> Vec<ImportanceEntry> {
         .collect()
 }
 
-/// How many table cells below each node change a picture: cells with any extinction, and those for which `acts` tells that
-/// something else does. So cells a to b together change nothing where the counts at a and b + 1 are equal.
+/// How many table cells below each node change a picture: cells with any extinction, and those for which `acts` is true.
+/// So cells a to b together change nothing if the counts at a and b + 1 are equal.
 pub fn occupancy(optics: &[OpticsEntry], acts: impl Fn(usize) -> bool) -> Vec<u32> {
     let has_extinction = |a: &OpticsEntry, b: &OpticsEntry| {
         let grows = b.integral[3] > a.integral[3] || b.integral_rest[3] != a.integral_rest[3];

@@ -1,4 +1,4 @@
-//! Each way a display file can be wrong, and that it is told in one sentence.
+//! Each way a display file can be wrong; each gets one sentence.
 
 use super::*;
 use proptest::prelude::*;
@@ -179,12 +179,12 @@ fn numbers_outside_their_range_are_refused() {
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
     for (from, to, start) in [
-        ("1.6", "inf", "line 2: `screen_width_m` has a number that is not finite"),
-        ("eta = 1", "eta = nan", "line 7: `eta` has a number that is not finite"),
-        ("[0.0, 0.0, 3.0]", "[nan, 0.0, 3.0]", "line 6: `observer_m` has a number that is not finite"),
-        ("[-1.0, 0.0", "[-inf, 0.0", "line 11: `centre_m` has a number that is not finite"),
-        ("[-0.8, -0.45, 1.6", "[nan, -0.45, 1.6", "line 14: `screen_rect_m` has a number that is not finite"),
-        ("[[-0.8, 0.45]", "[[inf, 0.45]", "line 22: `corners_m` has a number that is not finite"),
+        ("1.6", "inf", "line 2: `screen_width_m` has an infinite number or NaN"),
+        ("eta = 1", "eta = nan", "line 7: `eta` has an infinite number or NaN"),
+        ("[0.0, 0.0, 3.0]", "[nan, 0.0, 3.0]", "line 6: `observer_m` has an infinite number or NaN"),
+        ("[-1.0, 0.0", "[-inf, 0.0", "line 11: `centre_m` has an infinite number or NaN"),
+        ("[-0.8, -0.45, 1.6", "[nan, -0.45, 1.6", "line 14: `screen_rect_m` has an infinite number or NaN"),
+        ("[[-0.8, 0.45]", "[[inf, 0.45]", "line 22: `corners_m` has an infinite number or NaN"),
     ] {
         let message = message(from, to);
         assert!(message.contains(start), "{message}");

@@ -1,4 +1,4 @@
-//! What rays tell of a node.
+//! What rays report of a node.
 
 use bytemuck::{Pod, Zeroable};
 

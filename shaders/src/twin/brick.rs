@@ -122,7 +122,7 @@ fn add_whole<F: Real, K: Kernel>(
     K::Composite::composite(scene, front, light, sample)
 }
 
-/// Adds one step, cut into parts.
+/// Adds one step, split into parts.
 #[inline(always)]
 fn add_parts<F: Real, K: Kernel>(
     scene: &Scene<F>,
@@ -202,7 +202,7 @@ fn add_parts_here<F: Real, K: Kernel>(
     }
 }
 
-/// Adds a pair of steps. Yields what was gathered, and the number of parts that each step was cut into.
+/// Adds a pair of steps. Returns what was gathered, and the number of parts that each step was split into.
 #[inline(always)]
 pub(super) fn add_pair<F: Real, K: Kernel>(
     scene: &Scene<F>,

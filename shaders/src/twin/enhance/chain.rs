@@ -12,13 +12,13 @@ use crate::twin::{Real, Scene, vector::Vec3};
 /// An enhancer's state along one ray.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkState<F> {
-    /// What it has made of the ray's direction.
+    /// What it made of the ray's direction.
     pub weights: [F; 4],
-    /// Where on the ray its law is not smooth; far where there is no such place.
+    /// Where on the ray its law is not smooth; far away if nowhere.
     pub breaks: [F; 3],
 }
 
-/// Where a segment lies that enhancers look at.
+/// Where the segment lies that enhancers change.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<F> {
     /// Middle of the segment, metres, display frame.
@@ -41,14 +41,14 @@ pub(super) trait Hooks {
         [F::ZERO; 4]
     }
 
-    /// Where its law is not smooth on a straight way; far where there is no such place.
+    /// Where on a straight ray its law is not smooth; far away if nowhere.
     #[inline(always)]
     fn breaks<F: Real>(_: &Constants<F>, _view: Vec3<F>, _: &Ray<F>) -> [F; 3] {
         [far(); 3]
     }
 
-    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 where it does not look
-    /// at gradients.
+    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 if it does not read
+    /// gradients.
     #[inline(always)]
     fn spread<F: Real>(_: &Constants<F>, _: &LinkState<F>, _t: F) -> F {
         F::ZERO

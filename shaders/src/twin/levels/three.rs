@@ -1,5 +1,5 @@
-//! Samples of the node that a ray is in, of its parent and of its grandparent. Kernels of one and of two levels are told
-//! by this twin, too: it then looks at no ancestor, or at the parent alone.
+//! Samples of the node that a ray is in, of its parent and of its grandparent. This is also the twin of kernels with
+//! one level and with two: it then reads no ancestor, or only the parent.
 
 use super::{Level, weights::Weights};
 use crate::compose::Levels;
