@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// Why a frame could not be drawn.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum RenderError {
-    /// The root's brick could not be had: any other is drawn from its parent.
+    /// The root's brick could not be read: any other is drawn from its parent.
     #[error(transparent)]
     Brick(#[from] BrickError),
     /// The device failed.
@@ -47,16 +47,16 @@ pub enum RenderError {
         /// What is wrong with its rays.
         why: String,
     },
-    /// The optical model is no optical model.
+    /// The optical model is invalid.
     #[error(transparent)]
     Optics(#[from] shaders::optics::OpticsError),
-    /// The light is no light.
+    /// The light is invalid.
     #[error("the light's {0}")]
     Light(shaders::optics::OutOfBounds),
-    /// The quality is no quality.
+    /// The quality is invalid.
     #[error("the quality's {0}")]
     Quality(shaders::optics::OutOfBounds),
-    /// The frame's clock is no clock.
+    /// The frame's clock is invalid.
     #[error("the frame's {what} is {seconds} s; give a finite number{}", if *.what == "fade" { " of at least 0" } else { "" })]
     Clock {
         /// `time` or `fade`.
@@ -69,7 +69,7 @@ pub enum RenderError {
     Trace(String),
 }
 
-/// What a renderer tells while it draws.
+/// What a renderer reports while it draws.
 #[derive(Clone, Debug)]
 pub enum RenderEvent {
     /// `done` of `total` rays of the frame are final.
@@ -98,7 +98,7 @@ impl Renderer {
     /// Opens the device; the volume is already open.
     ///
     /// # Errors
-    /// The device cannot be had.
+    /// The device cannot be opened.
     pub fn new(setup: &Setup, source: Arc<dyn BrickSource>) -> Result<(Self, DeviceInfo), RenderError> {
         let shape = source.shape();
         let bricks: u64 =
@@ -155,7 +155,7 @@ impl Renderer {
     }
 
     /// The frame without enhancers that the volume is out of reach of; None where there are none such. So tools cost
-    /// nothing while nobody holds them to the volume.
+    /// nothing while they are held away from the volume.
     fn in_reach(&self, frame: &FrameState) -> Option<FrameState> {
         let corners = self.residency.shape().corners(NodeKey::ROOT);
         let corners = corners.map(|corner| frame.display_from_volume.transform_point3(corner));

@@ -12,7 +12,7 @@ pub struct ChosenDevice {
     pub info: DeviceInfo,
 }
 
-/// Opens the device of choice, by default a GPU where there is one that is no driver in software, with a brick cache of at
+/// Opens the device of choice, by default a hardware GPU if there is one, with a brick cache of at
 /// most `cache_bytes` and at most `slots_needed` bricks.
 ///
 /// # Errors

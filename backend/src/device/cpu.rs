@@ -16,7 +16,7 @@ pub struct CpuDevice {
     cells: Vec<u32>,
     tables: Tables,
     pixels: Vec<f32>,
-    /// What the casts of this frame have told.
+    /// What the casts of this frame have reported.
     frame_feedback: Vec<FeedbackCell>,
     /// The tables of earlier frames, which are there at once.
     tables_of_frames: UnderWay<Vec<FeedbackEntry>>,

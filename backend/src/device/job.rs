@@ -70,7 +70,7 @@ pub struct CastJob<'a> {
     pub tiles: &'a [u32],
     /// Where its feedback goes.
     pub gather: Gather,
-    /// Whether samples and missing tiles are told; told only where every pixel is cast. A GPU is waited for if so.
+    /// Whether to report sample counts and missing tiles (full-resolution casts only; makes a GPU cast blocking).
     pub counts: bool,
 }
 
@@ -82,7 +82,7 @@ impl CastJob<'_> {
         self.tiles.iter().map(|&tile| self.grid.rays(tile, width, height)).sum()
     }
 
-    /// Whether samples and missing tiles are told.
+    /// Whether to report sample counts and missing tiles.
     pub(super) fn tells_counts(&self) -> bool {
         self.counts && self.grid.stride == 1
     }

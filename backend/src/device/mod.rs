@@ -78,8 +78,8 @@ impl Device {
         on_device!(self, device => device.begin_feedback());
     }
 
-    /// The frame's table is complete: starts it on its way to the host, and waits for nothing. Of the tables that nobody
-    /// takes only the latest few are kept.
+    /// The frame's table is complete: starts it on its way to the host, and waits for nothing. Of the tables not taken
+    /// only the latest few are kept.
     pub fn end_feedback(&mut self) {
         on_device!(self, device => device.end_feedback());
     }

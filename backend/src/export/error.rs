@@ -10,8 +10,8 @@ pub enum ExportError {
     /// A brick of the store is damaged.
     #[error(transparent)]
     Brick(#[from] BrickError),
-    /// The name tells no format.
-    #[error("cannot tell what {} is to be: give a name that ends in .nrrd or .zarr", path.display())]
+    /// The name implies no format.
+    #[error("the name {} implies no format: give one that ends in .nrrd or .zarr", path.display())]
     Name {
         /// The file or folder that was to be.
         path: PathBuf,

@@ -146,7 +146,7 @@ fn blend(picture: PictureRef<'_>, (x0, x1, share): (usize, usize, f64), y: usize
     std::array::from_fn(|i| lerp(f64::from(left[i]), f64::from(right[i]), share))
 }
 
-/// Exact at share 0, also where `b` is not finite.
+/// Exact at share 0, even if `b` is infinite or NaN.
 fn lerp(a: f64, b: f64, share: f64) -> f64 {
     if share == 0.0 { a } else { a + (b - a) * share }
 }

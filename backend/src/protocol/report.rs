@@ -1,4 +1,4 @@
-//! What a back-end tells of one frame.
+//! What a back-end reports of one frame.
 
 use serde::{Deserialize, Serialize};
 

@@ -10,7 +10,7 @@ use shaders::optics::Light;
 pub struct Course {
     /// The way itself; pieces give their t along it.
     pub way: Ray,
-    /// The light's answer for who looks along it.
+    /// The light's answer for a viewer looking along it.
     pub shading: Option<Shading>,
     /// The t at which the chain's laws are not smooth, in rising order.
     pub breaks: Vec<f64>,

@@ -22,7 +22,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Errors of pairs (found, true) of colour and opacity; None where there is no pair. A NaN is an error of NaN.
+    /// Errors of pairs (found, true) of colour and opacity; None if there is no pair. A NaN is an error of NaN.
     pub fn of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Option<Self> {
         let (mut squares, mut worst, mut lit) = (0.0, Vec::new(), 0);
         for (found, truth) in pairs {

@@ -11,7 +11,7 @@
 //! γ = 0 is plain emission and absorption. A *piece* is a part of the ray on which the data value is one cubic of t; a
 //! *span* is a part of a piece on which all curves of the optics are linear in the scalar. So optical depth is known
 //! in closed form on a span, and only colour is integrated numerically. Where a chain of enhancers acts, depth depends
-//! on place and gradient too: such a span is cut wherever a law of the chain is not smooth, and integrated as a
+//! on place and gradient too: such a span is cut at every place where a law of the chain is not smooth, and integrated as a
 //! differential equation. Where a refraction index bends light, t is the length of the bent way, which is laid as chords;
 //! enhancers still know the direction in which the ray left the eye, and the light sees the direction of the chord.
 //!
@@ -34,7 +34,7 @@
 //! | `corners`, `level`, `ladder` | its samples blended with those of the two nodes above |
 //! | `analytic` | the field of a closed formula |
 //! | `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
-//! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
+//! | `enhancer`, `enhanced` | a chain of enhancers along one ray, and a span on which it acts |
 //! | `setting`, `course`, `passage` | what rays of a frame, a straight way and a piece have of it |
 //! | `quadrature`, `rise`, `accumulator` | the integration |
 //! | `refraction` | bent ways, and the light along them |

@@ -83,7 +83,7 @@ impl<'a, E: Emitter> Rise<'a, E> {
         let allowed = (self.tolerance * turnover).max(ROUNDING * twice.rgb.max_element().max(1.0));
         self.steps.set(self.steps.get() + 1);
         let is_spent = max_depth == 0 || self.steps.get() > MOST_STEPS;
-        // Written so that what is not a number ends here too.
+        // Written so that NaN ends here too.
         let wants_more = error > allowed;
         if !wants_more || is_spent || middle <= a || middle >= b {
             return State { error: state.error + error, ..twice };

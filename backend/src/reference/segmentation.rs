@@ -19,7 +19,7 @@ pub struct Segmentation {
 pub enum SegmentationError {
     /// A boundary is not a number, or lies before the one ahead of it.
     #[error(
-        "segment boundary {index} is not finite, or lies before the one ahead of it; sort the boundaries"
+        "segment boundary {index} is infinite or NaN, or lies before the previous one; sort the boundaries"
     )]
     NotRising {
         /// Which boundary, from 0.

@@ -12,7 +12,7 @@ use glam::DVec3;
 use shaders::optics::OpticsError;
 use std::sync::Arc;
 
-/// What a scene with refraction answers to who asks for segments of it.
+/// The error for segments of a scene with refraction.
 const BENT_SEGMENTS: &str =
     "segments are parts of a straight ray; take the refraction out of the scene, or ask for the whole ray";
 
@@ -24,7 +24,7 @@ pub enum ReferenceError {
     Optics(#[from] OpticsError),
     /// The volume's placement has no inverse.
     #[error(
-        "the volume's placement in the display frame flattens it or is not finite; give it three independent axes"
+        "the volume's placement in the display frame flattens it or has a non-finite number; give it three independent axes"
     )]
     Placement,
     /// The tolerance is not a positive number.

@@ -33,7 +33,7 @@ impl Damage {
         self.known.get(&node)
     }
 
-    /// Notes what the frame misses of some nodes that its rays ask for; tells whether it is anything.
+    /// Notes what the frame misses of some nodes that its rays ask for; returns whether it misses any.
     pub(super) fn note_missed(&mut self, nodes: &[NodeKey]) -> bool {
         let unreadable: Vec<NodeKey> =
             nodes.iter().copied().filter(|node| self.known.contains_key(node)).collect();

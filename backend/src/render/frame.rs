@@ -19,7 +19,7 @@ const COARSE_STRIDE: u32 = 16;
 /// Cells are kept with a margin of one voxel for half a pair of steps.
 const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;
 
-/// Damaged bricks that a report tells of one by one.
+/// How many damaged bricks a report lists one by one.
 pub(super) const MOST_DAMAGES: usize = 16;
 
 /// A frame being drawn.
@@ -65,7 +65,7 @@ pub(super) fn draw(
 /// What a frame, which has been checked, is drawn with.
 pub(super) struct Setting {
     pub(super) views: Vec<ProjectorView>,
-    /// Blending apart, which the working set tells.
+    /// Except for blending, which the working set decides.
     pub(super) needs: Needs,
     pub(super) tables: Tables,
 }
@@ -248,7 +248,7 @@ fn shortfall(without_room: usize, residency: &Residency) -> String {
     full.into_iter().chain(damages(residency)).collect::<Vec<_>>().join("; ")
 }
 
-/// The same of a live frame, by what rays of the frame before told, if it showed the same.
+/// The same of a live frame, by what rays of the frame before reported, if it showed the same.
 pub(super) fn live_shortfall(short: usize, is_told: bool, upkeep: &Upkeep, residency: &Residency) -> String {
     let Upkeep { in_flight, fading, .. } = upkeep;
     let root = residency.set.cut.node(0);
@@ -261,7 +261,7 @@ pub(super) fn live_shortfall(short: usize, is_told: bool, upkeep: &Upkeep, resid
     } else if *fading > 0 {
         Some(format!("the detail of {fading} nodes is coming or going"))
     } else {
-        (!is_told).then(|| "rays have not told yet what this frame lacks".to_owned())
+        (!is_told).then(|| "rays have not yet reported what this frame lacks".to_owned())
     };
     first.into_iter().chain(damages(residency)).collect::<Vec<_>>().join("; ")
 }

@@ -49,13 +49,13 @@ pub(super) struct Live {
     ahead_s: f64,
     /// Of each feedback table under way: the nodes of the index that its frame was cast with.
     tables: VecDeque<Vec<NodeKey>>,
-    /// What the latest table told.
+    /// What the latest table reported.
     met: Vec<Told>,
     /// Whether that was the table of the frame before.
     is_fresh: bool,
 }
 
-/// What rays told of a leaf.
+/// What rays reported of a leaf.
 #[derive(Clone, Copy, Debug)]
 struct Told {
     key: NodeKey,
@@ -105,7 +105,7 @@ fn live_weights(renderer: &Renderer, rules: &FrameRules) -> Vec<[f32; 8]> {
 }
 
 impl Live {
-    /// From the root alone: what complete frames left is no restricted cut, and tables of earlier frames are of no use.
+    /// From the root alone: complete frames may leave an unrestricted cut, and tables of earlier frames are useless.
     fn start(renderer: &mut Renderer) -> Result<Self, RenderError> {
         renderer.residency.set.restart();
         renderer.recording.forget();
@@ -174,7 +174,7 @@ impl Live {
         Ok(())
     }
 
-    /// Waits for what rays of the latest frames told: none will follow.
+    /// Waits for what rays of the latest frames report: none will follow.
     pub(super) fn take_last_feedback(&mut self, renderer: &mut Renderer) -> Result<(), RenderError> {
         while let Some(table) = renderer.device.wait_feedback()? {
             self.learn(renderer, &table)?;
@@ -194,7 +194,7 @@ impl Live {
         Ok(())
     }
 
-    /// Casts all views on what is shown; rays tell of all of them in one table.
+    /// Casts all views on what is shown; rays of all of them report in one table.
     fn cast(
         &mut self,
         renderer: &mut Renderer,

@@ -14,7 +14,7 @@ pub(super) struct Recording {
     /// Where, and of what; None where no trace is wanted.
     wanted: Option<(PathBuf, TraceHeader)>,
     writer: Option<TraceWriter>,
-    /// Frames that rays have not told of yet: with a GPU that takes a few frames.
+    /// Frames whose rays have not reported yet: with a GPU that takes a few frames.
     frames: VecDeque<FrameState>,
 }
 
@@ -46,7 +46,7 @@ impl Recording {
         Ok(())
     }
 
-    /// The rays of the oldest frame on its way have told what they sampled.
+    /// The rays of the oldest frame on its way have reported what they sampled.
     pub(super) fn told(&mut self, sampled: impl Iterator<Item = (NodeKey, u32)>) -> Result<(), RenderError> {
         if let (Some(writer), Some(frame)) = (&mut self.writer, self.frames.pop_front()) {
             writer.frame(&frame, sampled)?;

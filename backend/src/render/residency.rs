@@ -36,9 +36,9 @@ pub(super) struct Residency {
     index: Vec<NodeRecord>,
     /// Whether any node of it blends with its parent.
     pub(super) blends: bool,
-    /// Whether that was another one before it was last told.
+    /// Whether that has changed since the device last got it.
     pub(super) has_changed: bool,
-    /// Whether the cut is another one than the device's index tells.
+    /// Whether the cut differs from the device's index.
     is_index_stale: bool,
     pub(super) damage: Damage,
     /// Bricks asked for in the current frame, resident or not.
@@ -187,14 +187,14 @@ impl Residency {
         self.set.cut.walk().filter(|&place| self.set.cut.lacks(place)).collect()
     }
 
-    /// Tells the visible cells of all resident bricks anew: the transfer functions may have changed.
+    /// Recomputes the visible cells of all resident bricks: the transfer functions may have changed.
     pub(super) fn refresh_cells(&mut self, rules: &FrameRules) {
         for place in self.set.cut.walk().collect::<Vec<_>>() {
             self.refresh_cells_of(place, rules, false);
         }
     }
 
-    /// Tells the visible cells of one brick, which blends with its parent or does not.
+    /// Recomputes the visible cells of one brick, which blends with its parent or does not.
     fn refresh_cells_of(&mut self, place: u32, rules: &FrameRules, blends: bool) {
         let Some(brick) = self.set.cut.node(place).brick else { return };
         let slot = brick.slot as usize;
@@ -229,7 +229,7 @@ impl Residency {
         self.damage.of(self.set.cut.node(place).key)
     }
 
-    /// Frees slots until `needed` are free; tells whether that worked.
+    /// Frees slots until `needed` are free; returns whether that worked.
     fn make_room(&mut self, needed: usize, protect: u64) -> bool {
         while self.set.slots.free() < needed {
             let Some(&oldest) = self.set.cut.collapsible(protect).first() else { return false };

@@ -22,11 +22,11 @@ const BRICKS_AT_ONCE: usize = 128;
 /// So much may always be taken.
 const LEAST_MEMORY_BYTES: u64 = 64 << 20;
 
-/// Builds a store from a volume. `progress` is told (done, total) in slabs; a volume with values that are not finite is
+/// Builds a store from a volume. `progress` gets (done, total) in slabs; a volume with non-finite values is
 /// read twice. The file appears under its name only when it is complete.
 ///
 /// # Errors
-/// What reading the volume or writing beside `out` came upon, or that it was told to stop; no half-written file is left.
+/// Any error of reading the volume or writing beside `out`, or a request to stop; no half-written file is left.
 pub fn build(
     reader: &mut dyn VolumeReader,
     out: &Path,
@@ -197,7 +197,7 @@ impl Building {
     }
 }
 
-/// What is left of the memory for the levels' slabs, after the slabs being read and what tells of the tiles.
+/// What is left of the memory for the levels' slabs, after the slabs being read and the tiles' descriptions.
 fn memory_for_rings(
     info: &VolumeInfo,
     shape: OctreeShape,

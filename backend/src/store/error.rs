@@ -33,12 +33,12 @@ pub enum StoreError {
         path: PathBuf,
     },
     /// Something else has the store's name.
-    #[error("{} is there already and is no lightloom store: choose another name, or remove it first", path.display())]
+    #[error("{} exists already and is not a lightloom store: choose another name, or remove it first", path.display())]
     Occupied {
         /// What is there.
         path: PathBuf,
     },
-    /// The build was told to stop.
+    /// The build was asked to stop.
     #[error("stopped: nothing was written to {}; the same command starts again from the beginning", path.display())]
     Interrupted {
         /// The store that was to be.

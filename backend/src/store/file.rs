@@ -37,7 +37,7 @@ impl Store {
     /// Opens a store.
     ///
     /// # Errors
-    /// A missing file, a file that is no store or of another version, a damaged header.
+    /// A missing file, a file that is not a store or of another version, a damaged header.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let file = File::open(path).map_err(StoreError::open(path))?;
         let length = file.metadata().map_err(StoreError::open(path))?.len();
@@ -169,7 +169,7 @@ impl Store {
         self.table.find(node, &self.rules, &*self.file)
     }
 
-    /// The entry that tells of a node; one above it loses its extent, as all of the node's samples are equal.
+    /// The entry that covers a node; one above it loses its extent, as all of the node's samples are equal.
     fn entry_of(&self, node: NodeKey) -> Result<Entry, BrickError> {
         if !self.shape.contains(node) {
             let path = self.path.display();
@@ -212,7 +212,7 @@ impl Store {
         ))
     }
 
-    /// Reads and decodes what an entry tells of.
+    /// Reads and decodes what an entry points to.
     pub(super) fn brick_of(&self, node: NodeKey, entry: &Entry) -> Result<Brick, BrickError> {
         let extent = &entry.extent;
         let bytes = self.read(extent.offset, extent.bytes(), node)?;

@@ -65,7 +65,7 @@ impl Level {
         depths().map(level).collect()
     }
 
-    /// Bytes that telling of a level's tiles takes, whatever is in them.
+    /// Bytes that the descriptions of a level's tiles take, whatever the tiles hold.
     pub fn tile_bytes(dims: UVec3) -> u64 {
         let tiles = [dims.x, dims.y].map(|n| u64::from(n).div_ceil(TILE as u64));
         let count = tiles[0].saturating_mul(tiles[1]).saturating_mul(u64::from(kept(dims)));

@@ -6,7 +6,7 @@ use super::{BRICK_VOXELS, Brick, Codes};
 const EXACT_INTEGER: f32 = 16_777_216.0;
 /// Added to a number from 0 to 65535, it leaves the nearest integer in the low bits of an f32.
 const ROUNDER: f32 = 8_388_608.0;
-/// Below this step its inverse is no f32.
+/// Below this step its inverse overflows f32.
 const SMALLEST_INVERTIBLE: f32 = 1e-30;
 /// Numbers compared side by side.
 const LANES: usize = 16;

@@ -57,7 +57,7 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// Bytes that telling of a tile takes.
+    /// Bytes that the description of a tile takes.
     pub const TILE_BYTES: u64 = size_of::<Tile>() as u64;
 
     /// Bytes that a ring of a level takes at most.

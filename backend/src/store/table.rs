@@ -22,11 +22,11 @@ pub(super) enum Found {
     Entry(Entry),
     /// An entry above it stands for it: all of its samples equal this one's `low`.
     Within(Entry),
-    /// It cannot be told, as the entry at this place is no good. The last one above it that is, where there is one.
+    /// Unknown, as the entry at this place is bad. Holds the last good one above it, if there is one.
     Lost { place: u64, fault: Fault, above: Option<Entry> },
 }
 
-/// Why an entry cannot be had.
+/// Why an entry cannot be read.
 #[derive(Debug)]
 pub(super) enum Fault {
     /// Its checksum differs, or its numbers make no sense.

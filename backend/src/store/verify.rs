@@ -34,7 +34,7 @@ impl Verification {
     }
 }
 
-/// Reads and checks all of a store. `progress` is told (done, total) in bricks.
+/// Reads and checks all of a store. `progress` gets (done, total) in bricks.
 ///
 /// # Errors
 /// A file that cannot be opened as a store at all.
@@ -43,7 +43,7 @@ pub fn verify(path: &Path, progress: &dyn Fn(u64, u64)) -> Result<Verification, 
 }
 
 impl Store {
-    /// Reads and checks all of it: header, table, every brick and what lies between. `progress` is told (done, total)
+    /// Reads and checks all of it: header, table, every brick and what lies between. `progress` gets (done, total)
     /// in bricks. A store of format version 1 has no checksums: of its bricks only damage that keeps them from being
     /// read is found.
     pub fn verify(&self, progress: &dyn Fn(u64, u64)) -> Verification {
@@ -75,7 +75,7 @@ fn check_header_bytes(store: &Store, found: &mut Verification) {
     }
 }
 
-/// An entry of the table, and the node that it is of, where that can be told.
+/// An entry of the table, and its node if that is known.
 struct Listed {
     place: u64,
     node: Option<NodeKey>,
@@ -96,7 +96,7 @@ fn dense_nodes(store: &Store, found: &mut Verification) -> Vec<Listed> {
 }
 
 /// All nodes of the tree. Where no entry is damaged, children must lie where their parents say, and table and bricks
-/// must fill the file without gaps; otherwise what a damaged entry leads to cannot be told from what nothing leads to.
+/// must fill the file without gaps; otherwise data that a damaged entry points to look like data that nothing points to.
 fn tree_nodes(store: &Store, found: &mut Verification) -> Vec<Listed> {
     let count = store.table.count();
     let mut keys: Vec<Option<NodeKey>> = vec![None; count as usize];

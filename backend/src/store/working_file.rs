@@ -71,7 +71,7 @@ fn working_name(name: &OsStr) -> OsString {
     working
 }
 
-/// Takes a file for this process. Where a file system knows no locks, nobody else is kept from it.
+/// Takes a file for this process. On a file system without locks, other processes are not kept from it.
 fn lock(file: &File) -> io::Result<()> {
     match file.try_lock() {
         Ok(()) => Ok(()),

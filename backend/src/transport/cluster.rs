@@ -1,7 +1,7 @@
 //! Back-ends as ranks of an MPI job: rank 0 is the front-end, rank i + 1 is back-end i.
 //!
 //! The first message between two ranks is an introduction: role (1 byte), process number (4 bytes, little-endian),
-//! host name (the rest). It tells who claims to be what before anybody waits for anything, and whose process to look
+//! host name (the rest). It says which rank claims to be what before anything waits, and whose process to look
 //! for later.
 
 use super::launch::{HOW_TO_LAUNCH, fail};
@@ -78,7 +78,7 @@ fn two_frontends(rank: usize) -> String {
     format!("ranks 0 and {rank} are both a front-end; one is enough: `{HOW_TO_LAUNCH}`")
 }
 
-/// Tells rank 0, which says the sentence and ends the job; says it itself if that does not come to pass.
+/// Sends the sentence to rank 0, which prints it and ends the job; prints it itself if that does not happen.
 fn second_frontend(messenger: &mut Messenger, rank: usize) -> LinkError {
     let told = messenger.post(FRONTEND_RANK, introduction(IS_FRONTEND));
     let since = Instant::now();
@@ -102,7 +102,7 @@ fn await_introduction(messenger: &mut Messenger, rank: usize) -> Result<(u8, Pee
         if let Some(bytes) = messenger.poll(rank).map_err(LinkError::Launch)? {
             return read_introduction(rank, &bytes).ok_or_else(|| {
                 LinkError::Launch(format!(
-                    "rank {rank} is no lightloom program; start the job with `{HOW_TO_LAUNCH}`"
+                    "rank {rank} does not run lightloom; start the job with `{HOW_TO_LAUNCH}`"
                 ))
             });
         }

@@ -39,7 +39,7 @@ pub fn under_mpi() -> bool {
     ranks_in(|name| std::env::var(name).ok()).is_some_and(|ranks| ranks > 1)
 }
 
-/// The number of ranks by an environment; None where no launcher is at work. PMIx tells a process its rank alone:
+/// The number of ranks by an environment; None without a launcher. PMIx gives a process only its rank:
 /// the number is then Slurm's, or counts as several.
 fn ranks_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
     let number = |name| variable(name).and_then(|text| text.parse().ok());

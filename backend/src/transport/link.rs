@@ -21,7 +21,7 @@ pub enum LinkError {
     /// The front-end is gone.
     #[error("the front-end ended: {0}")]
     FrontendEnded(String),
-    /// What came from a back-end is no message.
+    /// What came from a back-end is not a message.
     #[error("back-end {backend} cannot be understood: {error}")]
     Garbled {
         /// Which, from 0.
@@ -57,7 +57,7 @@ pub trait Link {
     /// Notes what the run is doing ("drawing frame 3"), for the sentence said when the launcher ends it.
     fn set_activity(&mut self, activity: &str);
 
-    /// Takes leave of back-ends that were told to quit.
+    /// Waits for back-ends that were asked to quit.
     fn finish(self: Box<Self>) -> Result<(), LinkError>;
 }
 

@@ -9,7 +9,7 @@
 //! | `mpi` | bytes between ranks, the only file that calls MPI |
 //! | `roster`, `watchdog`, `process` | who takes part, and who is still there |
 //! | `launch` | how this process was started, and how it ends when a run cannot go on |
-//! | `log` | what a process tells beside its messages |
+//! | `log` | what a process logs beside its messages |
 
 #[cfg(feature = "mpi")]
 pub mod cluster;

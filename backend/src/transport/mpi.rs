@@ -68,7 +68,7 @@ impl Messenger {
         self.receiving.len()
     }
 
-    /// Posts `bytes` to rank `to`; [`Messenger::is_sending`] tells when they are gone.
+    /// Posts `bytes` to rank `to`; [`Messenger::is_sending`] says when they are gone.
     pub fn post(&mut self, to: usize, bytes: Arc<[u8]>) -> Result<(), String> {
         let mut request = MaybeUninit::uninit();
         // SAFETY: the bytes live in `self.sending` until the request is complete, and beyond if it never is.

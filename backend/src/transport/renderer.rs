@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Opens the volume and the device that `setup` names.
 ///
 /// # Errors
-/// One sentence: the volume cannot be opened, or the device cannot be had.
+/// One sentence: the volume or the device cannot be opened.
 pub fn open_renderer(setup: Setup) -> Result<Opened, String> {
     let source = open_volume(&setup.volume)?;
     let (renderer, info) = Renderer::new(&setup, source).map_err(|error| error.to_string())?;

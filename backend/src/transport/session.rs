@@ -23,7 +23,7 @@ impl Default for Limits {
     }
 }
 
-/// What a back-end tells while a frame is drawn.
+/// What a back-end reports while a frame is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SessionEvent {
     /// Which, from 0.
@@ -32,7 +32,7 @@ pub struct SessionEvent {
     pub kind: EventKind,
 }
 
-/// The two things a back-end tells.
+/// The two things a back-end reports.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventKind {
     /// `done` of `total` rays of its part of the frame are final.
@@ -113,7 +113,7 @@ pub enum SessionError {
     },
 }
 
-/// What a message means to the one who waits for an answer of each back-end.
+/// What a message means while the session waits for an answer from each back-end.
 enum Answer<T> {
     Given(T),
     Pending,
@@ -186,7 +186,7 @@ impl Session {
                 FromBackend::Progress { done, total } => EventKind::Progress { done, total },
                 FromBackend::Image(image) => EventKind::Image(image),
                 FromBackend::Done(report) if report.frame == frame.index => return Answer::Given(*report),
-                FromBackend::Done(_) => return Answer::Misfit("it drew another frame than it was told to"),
+                FromBackend::Done(_) => return Answer::Misfit("it drew another frame than the one it was asked for"),
                 _ => return Answer::Misfit("it answered a frame with something else than pictures"),
             };
             on_event(SessionEvent { backend, kind });
@@ -196,7 +196,7 @@ impl Session {
         Ok(reports)
     }
 
-    /// Tells the back-ends that the front-end is alive. Call it now and then in long work between frames.
+    /// Shows the back-ends that the front-end is alive. Call it now and then in long work between frames.
     pub fn keep_alive(&mut self) -> Result<(), SessionError> {
         if self.last_alive.elapsed() < ALIVE_INTERVAL {
             return Ok(());

@@ -245,7 +245,7 @@ fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
     let full = end(FromBackend::Failed("the disk is full".to_owned()));
     assert_eq!(full, Err("back-end 1 failed while finishing: the disk is full".to_owned()));
     assert!(end(FromBackend::Ready(device())).is_err_and(|error| error.contains("does not fit")));
-    // Without traces nobody waits for answers, which this script would not give.
+    // Without traces nothing waits for answers, which this script would not give.
     started(ready()).unwrap().finish().unwrap();
 }
 

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 const LOOK_INTERVAL: Duration = Duration::from_millis(250);
 
 /// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; who
-/// stays a little can be told from who died first.
+/// stays a little differs from the one that died first.
 const STAY: Duration = Duration::from_millis(700);
 
 /// How long the front-end looks for a dead back-end after that signal. Short: the launcher sends the signal because it
@@ -43,7 +43,7 @@ pub fn guard_frontend(roster: Arc<Mutex<Roster>>) -> Result<(), String> {
             if since.elapsed() > LOOK_FOR_DEAD {
                 let activity = &roster.activity;
                 break format!(
-                    "the launcher ended the run (SIGTERM) while {activity}: it was told to, or a back-end on another \
+                    "the launcher ended the run (SIGTERM) while {activity}: it was asked to, or a back-end on another \
                      host ended; see what the launcher and that host say"
                 );
             }

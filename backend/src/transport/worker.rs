@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 
 /// Something that draws frames.
 pub trait Draw {
-    /// Draws one frame and gives each finished picture to `sink`. Tell `sink` of the progress often: at least once
-    /// per second tells the front-end that this back-end is alive. An error is one sentence, and ends the run.
+    /// Draws one frame and gives each finished picture to `sink`. Report progress to `sink` at least once per second:
+    /// that shows the front-end that this back-end is alive. An error is one sentence, and ends the run.
     fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(DrawEvent)) -> Result<FrameReport, String>;
 
     /// No frame follows: completes what it writes beside the pictures. An error is one sentence, and fails the run.
@@ -39,7 +39,7 @@ pub enum DrawEvent {
 /// An opened renderer and what it draws with.
 pub type Opened = (Box<dyn Draw>, DeviceInfo);
 
-/// Why a back-end stopped before it was told to.
+/// Why a back-end stopped before it was asked to.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WorkerError {
     /// The front-end cannot be reached.
@@ -48,7 +48,7 @@ pub enum WorkerError {
     /// The front-end has said nothing for too long.
     #[error("the front-end has said nothing for {0} s, so this back-end ends; look there for the cause")]
     FrontendSilent(u64),
-    /// It could not go on, and has told the front-end so, which shows the sentence.
+    /// It could not go on, and said so to the front-end, which shows the sentence.
     #[error("{0}")]
     Failed(String),
 }
@@ -137,7 +137,7 @@ fn draw_frame(
     }
 }
 
-/// Tells the front-end why this back-end ends, and gives it time to say so.
+/// Sends the front-end the reason why this back-end ends, and gives it time to print it.
 fn fail(link: &mut dyn WorkerLink, sentence: String) -> Result<(), WorkerError> {
     link.send(FromBackend::Failed(sentence.clone()))?;
     let since = Instant::now();

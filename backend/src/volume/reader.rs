@@ -76,7 +76,7 @@ impl std::fmt::Debug for dyn VolumeReader {
     }
 }
 
-/// What a user says beside the path: which volume of those in it, and what the files themselves do not tell.
+/// What a user says beside the path: which volume of those in it, and what the files themselves do not say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
     /// A file without header holds this.

@@ -27,13 +27,13 @@ pub struct CutNode {
     /// Its share of its own samples, its parent having the rest: t of the spatiotemporal blend.
     pub shown: f32,
     /// As a leaf: how far it lets finer neighbours show themselves at shared corners. 0 where they must blend down to
-    /// it, 1 where nobody sees a border.
+    /// it, 1 where no viewer sees a border.
     pub permits: f32,
     /// What becomes of its children.
     pub family: Family,
     /// Whether its children are to go, to make room for others.
     pub is_leaving: bool,
-    /// What rays told of it.
+    /// What rays reported of it.
     pub met: Meeting,
 }
 
@@ -153,7 +153,7 @@ impl Cut {
         }
     }
 
-    /// Makes a leaf an inner node with eight leaves, and tells the place of the first.
+    /// Makes a leaf an inner node with eight leaves, and returns the place of the first.
     pub fn split(&mut self, place: u32, summary: impl Fn(NodeKey) -> Option<NodeSummary>) -> u32 {
         let parent = *self.node(place);
         assert!(parent.first_child.is_none(), "only a leaf is split");

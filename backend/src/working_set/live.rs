@@ -1,7 +1,7 @@
-//! The live working set: what rays met in, what to load out, a little every frame.
+//! The live working set: what rays met goes in, what to load comes out, a little every frame.
 //!
 //! Pure: it knows no device, no file and no clock of its own. Each frame is one [`WorkingSet::update`], after which
-//! [`WorkingSet::wanted`] tells which bricks to fetch, most needed first; what became of them comes back through
+//! [`WorkingSet::wanted`] lists which bricks to fetch, most needed first; what became of them comes back through
 //! [`WorkingSet::arrived`] and [`WorkingSet::failed`], and [`WorkingSet::show`] moves what rays meet.
 
 use super::presence::{Seen, Tick, advance, refresh, refresh_deficits};
@@ -16,10 +16,10 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::time::Duration;
 
-/// Rays that met a node within this many seconds still count, for views that move. What nobody sees any more should not
-/// take room for longer, and a node that few rays meet should not come and go with each of them.
+/// Rays that met a node within this many seconds still count, for views that move. What is no longer
+/// seen should not take room for longer, and a node that few rays meet should not come and go with each of them.
 const MEMORY_S: f64 = 0.1;
-/// Rays of this many frames count, however long they take: a device tells what rays met some frames later.
+/// Rays of this many frames count, however long they take: a device reports what rays met some frames later.
 const MEMORY_FRAMES: usize = 5;
 
 /// What is asked of an update besides the rules of the frame.
@@ -53,7 +53,7 @@ pub struct Met {
 pub enum Arrival {
     /// It belongs into this slot.
     Slot(u32),
-    /// Nobody wants it any more.
+    /// It is no longer wanted.
     Unwanted,
 }
 
@@ -172,8 +172,8 @@ impl WorkingSet {
         Arrival::Slot(slot)
     }
 
-    /// Notes that a brick could not be read: its family is not asked for until it is worth another try. Tells whether it is
-    /// the brick's first failure.
+    /// Notes that a brick could not be read: its family is not asked for until it is worth another try. Returns whether this
+    /// is the brick's first failure.
     pub fn failed(&mut self, key: NodeKey, kind: BrickErrorKind) -> bool {
         self.retry.failed(key, kind, self.now_s)
     }
@@ -214,7 +214,7 @@ impl WorkingSet {
         self.moving = advance(&mut self.cut, moment.rules.shape, &order, &tick, is_lost);
     }
 
-    /// Whether the detail below a node is known not to be had now.
+    /// Whether the detail below a node is known to be unreadable for now.
     pub fn is_lost(&self, key: NodeKey) -> bool {
         !self.retry.may_ask_below(key, self.now_s)
     }
@@ -282,7 +282,7 @@ impl WorkingSet {
         key.parent().map_or_else(alone, |parent| !self.is_lost(parent))
     }
 
-    /// Gives up families that are on their way and that nobody wants any more, fine ones first.
+    /// Gives up families that are on their way and no longer wanted, fine ones first.
     fn drop_unwanted(&mut self, moment: &Moment, order: &[u32]) {
         let seen = self.seen();
         for &place in order.iter().rev() {

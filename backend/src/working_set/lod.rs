@@ -5,7 +5,7 @@ use crate::store::{NodeKey, OWN_EDGE, OctreeShape};
 use display_config::Display;
 use glam::{DAffine3, DVec3};
 
-/// The level of detail a picture asks for. It depends on where a node floats, never on who looks: so every
+/// The level of detail a picture asks for. It depends on where a node floats, never on the viewer: so every
 /// projector of every back-end converges to the same cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LodRule {

@@ -1,4 +1,4 @@
-//! When to ask again for a brick that could not be had.
+//! When to ask again for a brick that could not be read.
 
 use crate::store::{BrickErrorKind, NodeKey};
 use std::collections::HashMap;
@@ -31,7 +31,7 @@ impl Retry {
         Self::default()
     }
 
-    /// Notes a failed read; tells whether it is the brick's first, which is the one to say in the log.
+    /// Notes a failed read; returns whether it is the brick's first, which is the one to log.
     pub fn failed(&mut self, key: NodeKey, kind: BrickErrorKind, now_s: f64) -> bool {
         self.forget_old(now_s);
         let before = self.failed.get(&key);
@@ -83,7 +83,7 @@ impl Retry {
         };
     }
 
-    /// What nobody has asked for since long after its wait was over is as good as new.
+    /// A brick not asked for since long after its wait was over counts as new.
     fn forget_old(&mut self, now_s: f64) {
         self.failed.retain(|_, failure| failure.again_s + 2.0 * LONGEST_WAIT_S >= now_s);
         self.families.retain(|_, again_s| *again_s + 2.0 * LONGEST_WAIT_S >= now_s);

@@ -5,8 +5,8 @@ use super::{Family, neighbours};
 use crate::store::NodeKey;
 use std::collections::{BTreeMap, HashSet};
 
-/// By how many levels a family that rays see must be less needed than another that takes its room. Without it, two that
-/// are equally needed would change places for ever.
+/// How many levels less needed a visible family must be than the one that takes its room. Without this margin, two that
+/// are equally needed would swap places for ever.
 const MARGIN: f64 = 0.25;
 
 /// How needed a family is: priority, when it was last met, rays, key. Nothing in it is NaN.
@@ -30,7 +30,7 @@ impl PartialOrd for Ordered {
     }
 }
 
-/// So many nodes may wait for room at a time: more would only fade what may be wanted again.
+/// How many nodes may wait for room at a time: more would only fade what may be wanted again.
 const MOST_WAITING: usize = 16;
 
 /// The room that is left in one update.
@@ -83,7 +83,7 @@ impl<'a> Room<'a> {
     }
 
     /// The splits that splitting `place` takes, itself last, when there is room for all their bricks, which is then taken.
-    /// Gives up what is less needed where that helps. Empty where there is no room now.
+    /// Gives up what is less needed if that helps. Empty if there is no room now.
     pub(super) fn make(&mut self, set: &mut WorkingSet, place: u32, urgency: f64) -> Vec<u32> {
         let splits = set.cut.splits_for(self.moment.rules.shape, place);
         let needed: i64 = splits.iter().map(|&split| self.bricks_below(set, split)).sum();
@@ -98,7 +98,7 @@ impl<'a> Room<'a> {
         if self.owed > self.free {
             self.give_up(set, urgency, &kept);
         }
-        // Who waits is served before those that need it less.
+        // Whatever waits is served before those that need room less.
         if self.owed > self.free || self.waiting > 0 {
             self.waiting += 1;
             return Vec::new();
@@ -144,8 +144,8 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// Gives up families that are less needed, until all that is owed is free: at once where nobody sees them; others
-    /// begin to fade, and make room in a later frame.
+    /// Gives up families that are less needed, until all that is owed is free: unseen ones at once; others begin to fade,
+    /// and make room in a later frame.
     fn give_up(&mut self, set: &mut WorkingSet, urgency: f64, kept: &HashSet<u32>) {
         let mut victims = self.victims.take().unwrap_or_else(|| self.all_victims(set));
         let mut passed = BTreeMap::new();

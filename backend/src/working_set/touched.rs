@@ -23,7 +23,7 @@ pub struct Touched {
 }
 
 impl Touched {
-    /// Takes in the feedback of one cast, and tells what it asks for: the largest deficit first, then the most rays;
+    /// Takes in the feedback of one cast, and returns what it asks for: the largest deficit first, then the most rays;
     /// the key breaks ties, so that the order never depends on the arena's history.
     pub fn take_in(&mut self, cut: &mut Cut, feedback: &[FeedbackEntry], cast: u64) -> Vec<Wanted> {
         let mut wanted = Vec::new();

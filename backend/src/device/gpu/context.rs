@@ -16,7 +16,7 @@ pub(super) struct Context {
     pub(super) atlas_format: wgpu::TextureFormat,
     /// Whether the texture unit can interpolate `atlas_format` at all.
     pub(super) has_filter: bool,
-    /// What the driver compiled before; None where it does not tell, or the user does not want it kept.
+    /// What the driver compiled before; None if it does not hand it out, or the user does not want it kept.
     pub(super) pipelines: Option<PipelineCache>,
     turn: Mutex<()>,
 }

@@ -25,7 +25,7 @@ pub(super) struct FrameFeedback {
 struct TableCopy {
     buffer: wgpu::Buffer,
     places: usize,
-    /// Told once, when the copy can be read or has failed.
+    /// Gets one message, when the copy can be read or has failed.
     told: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 

@@ -38,7 +38,7 @@ impl PipelineCache {
     }
 
     /// Writes what the driver has compiled, where it is not what the file holds. A file that cannot be written costs the
-    /// next run time, and is no error.
+    /// next run time, and is not an error.
     pub(super) fn keep(&self) {
         let Some(blob) = self.cache.get_data() else { return };
         let checksum = crc32fast::hash(&blob);

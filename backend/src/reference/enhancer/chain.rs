@@ -1,4 +1,4 @@
-//! A chain of enhancers, told of one ray.
+//! A chain of enhancers, prepared for one ray.
 
 use super::band_picker::Picker;
 use super::clip_plane::Clip;
@@ -25,7 +25,7 @@ pub enum Zone {
 /// The zones of all links; those that a chain lacks are idle.
 pub type Zones = [Zone; MOST_ENHANCERS];
 
-/// A sample as the chain is told it.
+/// A sample as the chain gets it.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     /// Metres, display frame.
@@ -110,7 +110,7 @@ impl Chain {
         shares
     }
 
-    /// Importance over a band of the medium after the chain, `told` before it.
+    /// Importance over a band of the medium after the chain, with `told` before it.
     pub fn importance(&self, told: Linear<f64>, shares: &[Linear<f64>; MOST_ENHANCERS]) -> Linear<f64> {
         self.links.iter().zip(shares).fold(told, |told, (link, share)| match link {
             Link::Picker(picker, _) => picker.importance_on(told, *share),

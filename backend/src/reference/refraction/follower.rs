@@ -34,7 +34,7 @@ pub type Take<'t> = &'t mut dyn FnMut(Ray, f64) -> Result<ControlFlow<()>, Brick
 /// How a way ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// As it should: outside, after the longest way, or where nobody wanted to see more.
+    /// As it should: outside, after the longest way, or when no more light was wanted.
     Followed,
     /// The steps became too small or too many.
     Lost,

@@ -20,7 +20,7 @@ pub(super) const MAGIC: &[u8] = b"DICM";
 pub(super) const PREAMBLE_BYTES: usize = 128;
 /// None of the packings makes fewer bytes of so many: deflate, the best of them, has 1032.
 const LARGEST_RATIO: u64 = 1032;
-/// The tags that may tell images at the same place apart, in the order that they sort by.
+/// The tags that may distinguish images at the same place, in the order that they sort by.
 pub(super) const MOMENT_NAMES: [&str; 5] =
     ["TemporalPosition", "AcquisitionTime", "TriggerTime", "EchoTime", "InstanceNumber"];
 
@@ -68,7 +68,7 @@ pub(super) struct Frame {
     pub pose: Option<Pose>,
     /// From column to column and from row to row, mm.
     pub spacing_mm: Option<[f64; 2]>,
-    /// From slice to slice, mm, where positions do not tell it.
+    /// From slice to slice, mm, if positions do not give it.
     pub slice_spacing_mm: Option<f64>,
     /// Value = slope × number + intercept.
     pub scaling: (f64, f64),

@@ -142,7 +142,7 @@ fn ambiguous(path: &Path, what: &str, all: &[Series]) -> VolumeError {
     VolumeError::unsupported(path, what)
 }
 
-/// Enough of the end of a UID to tell series apart.
+/// Enough of the end of a UID to distinguish series.
 const SHOWN_UID_CHARS: usize = 12;
 
 fn describe(number: usize, series: &Series) -> String {

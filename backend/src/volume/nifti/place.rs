@@ -33,7 +33,7 @@ pub(super) fn voxels(header: &Header) -> Result<(DataFiles, Packing), VolumeErro
     }
     let beside = [".img", ".img.gz", ".IMG"].map(|ending| with_ending(&header.path, ending));
     let path = beside.iter().find(|path| path.exists()).unwrap_or(&beside[0]).clone();
-    // The first voxels may look like a packed file's start, so the name tells.
+    // The first voxels may look like the start of a packed file, so the name decides.
     let packing = if ends(&path, ".gz") { Packing::Gzip } else { Packing::Plain };
     Ok((DataFiles::One(path), packing))
 }

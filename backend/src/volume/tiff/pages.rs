@@ -59,7 +59,7 @@ pub(super) struct TiffFile {
     pub pages: Vec<usize>,
     decoder: Decoder<Relabelled>,
     length: u64,
-    /// Where the pages lie if not the list of pages tells it: one after the other from this byte.
+    /// Where the pages lie without a list of pages: one after the other from this byte.
     contiguous: Option<u64>,
 }
 

@@ -12,7 +12,7 @@ pub(super) struct Image {
     pub folder: PathBuf,
     /// Finest first; at least one.
     pub levels: Vec<Level>,
-    /// None where the array's number of dimensions has to tell.
+    /// None if it has to follow from the array's number of dimensions.
     pub axes: Option<Axes>,
     /// Names of the channels, where they have any.
     pub channels: Vec<String>,
@@ -85,7 +85,7 @@ impl Image {
 
 fn level(folder: &Path, dataset: &Value, whole: Option<&Placement>) -> Result<Level, VolumeError> {
     let path = dataset["path"].as_str().unwrap_or_default().trim_matches('/').to_owned();
-    // A path that leads out of the folder would show files that nobody asked for.
+    // A path that leads out of the folder would expose other files.
     let is_inside = Path::new(&path).components().all(|part| matches!(part, Component::Normal(_)));
     if !is_inside {
         return Err(VolumeError::header(folder, format!("the path `{path}` of a level leads out of it")));

@@ -173,7 +173,7 @@ impl<'a> Replay<'a> {
     }
 }
 
-/// What a feedback table would tell of a deficit, where it is one.
+/// What a feedback table would hold for a deficit, if it is one.
 fn as_told(deficit: f32) -> f64 {
     f64::from(deficit_from_code(code_from_deficit(deficit)).unwrap_or(0.0).max(0.0))
 }

@@ -1,4 +1,4 @@
-//! What rays would have told of a cut.
+//! What rays would have reported of a cut.
 
 use super::Demand;
 use crate::store::{NodeKey, OctreeShape};
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 pub struct Seen {
     /// Its place in the cut.
     pub place: u32,
-    /// Levels it is too coarse by; at most 0 where no finer level exists.
+    /// How many levels too coarse it is; at most 0 if there is no finer level.
     pub deficit: f32,
     /// Rays that sampled it, at least 1.
     pub rays: u32,
@@ -20,7 +20,7 @@ pub struct Seen {
 /// say so, in the order of `leaves`. A leaf is seen where it overlaps a demanded node:
 /// - one that holds demanded nodes gets all their rays, since it would have been sampled in their place;
 /// - a demanded node above several leaves shares its rays out among them, as their cross-sections go, but at least one
-///   to each: nothing tells which of them the rays met.
+///   to each: nothing shows which of them the rays met.
 ///
 /// So the rays of a demanded node that lies over fewer leaves than it has rays are as many afterwards as before.
 /// `leaves` are those that rays could meet: the caller leaves out what is empty by the transfer functions.
@@ -57,7 +57,7 @@ pub fn feedback_on(
     seen.map(|(&(key, place), rays)| Seen { place, deficit: deficit(rule, shape, key), rays }).collect()
 }
 
-/// As the index tells it to rays.
+/// As rays read it from the index.
 fn deficit(rule: &LodRule, shape: &OctreeShape, key: NodeKey) -> f32 {
     let deficit = rule.deficit(shape, key);
     (if key.depth == shape.finest_depth() { deficit.min(0.0) } else { deficit }) as f32

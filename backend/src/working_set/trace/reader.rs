@@ -135,7 +135,7 @@ fn node(shape: &OctreeShape, (depth, x, y, z, rays): NodeNumbers) -> Result<(Nod
     shape.contains(key).then_some((key, rays)).ok_or_else(|| format!("the volume has no node {key}"))
 }
 
-/// Every line is its own document, so of the place of an error only the column tells anything.
+/// Every line is its own document, so only the column of an error's place means anything.
 fn parsed<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string().replace(" at line 1 column ", " at column "))
 }

@@ -181,7 +181,7 @@ fn a_trace_comes_back_as_it_was_written() {
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let text = std::fs::read_to_string(&path).unwrap();
-    assert_eq!(text.matches("\"optics\"").count(), 2, "optics are told once");
+    assert_eq!(text.matches("\"optics\"").count(), 2, "optics are written once");
 }
 
 #[test]
