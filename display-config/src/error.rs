@@ -11,7 +11,7 @@ pub enum RayError {
     NotFinite,
     /// Ez = 0.
     #[error(
-        "the projector's centre lies in the screen plane; move it behind (z < 0) or before the screen (z > 0)"
+        "the projector's centre lies in the screen plane; move it behind the screen (z < 0) or in front of it (z > 0)"
     )]
     ProjectorInScreenPlane,
     /// Vz ≤ 0.
@@ -104,11 +104,11 @@ pub enum ConfigError {
     )]
     NoProjectors { place: Place },
     /// Both ways of listing projectors at once.
-    #[error("{place} stands beside [[projector]] entries; keep one of the two")]
+    #[error("{place} and [[projector]] entries exclude each other; keep one of the two")]
     TwoLists { place: Place },
     /// Ez = 0.
     #[error(
-        "{place} puts a projector in the screen plane (z = 0); move it behind (z < 0) or before the screen (z > 0)"
+        "{place} puts a projector in the screen plane (z = 0); move it behind the screen (z < 0) or in front of it (z > 0)"
     )]
     ProjectorInScreenPlane { place: Place },
     /// No or several placements of a raster.
@@ -118,7 +118,7 @@ pub enum ConfigError {
     Placement { place: Place, count: usize },
     /// A raster that falls on a line, on a point, or across the horizon.
     #[error(
-        "{place} is singular: the raster does not fall on the screen as a quadrilateral of some area; measure it again"
+        "{place} is singular: the raster has no area on the screen; measure it again"
     )]
     SingularRaster { place: Place },
     /// Two projectors of one name.

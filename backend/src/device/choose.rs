@@ -40,7 +40,7 @@ pub fn open_device(
             "this program was built without its gpu feature; build it with that feature, or take --device cpu".into(),
         )),
         (DeviceChoice::Auto, Some(open)) => match software_gpu() {
-            Some(name) => cpu(&format!("the only adapter, {name}, draws on this processor, too, and slower")),
+            Some(name) => cpu(&format!("the only adapter, {name}, draws on this processor, too, but more slowly")),
             None => open().or_else(|error| cpu(&error.0)),
         },
         (DeviceChoice::Gpu, Some(open)) => open().map_err(|error| {

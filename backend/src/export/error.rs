@@ -17,7 +17,7 @@ pub enum ExportError {
         path: PathBuf,
     },
     /// Something is there already.
-    #[error("{} is there already and is not replaced: give another name or remove it", path.display())]
+    #[error("{} is there already and will not be replaced: give another name or remove it", path.display())]
     Exists {
         /// What is there.
         path: PathBuf,

@@ -35,7 +35,7 @@ const BYTES_PER_PIXEL: usize = 4 * size_of::<f32>();
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WireError {
     /// It does not start like a message.
-    #[error("these {0} bytes are no lightloom message; is every rank a lightloom program?")]
+    #[error("these {0} bytes are not a lightloom message; is every rank a lightloom program?")]
     Foreign(usize),
     /// The other end is another version.
     #[error(
@@ -163,7 +163,7 @@ fn decode_body<M: DeserializeOwned>(body: &[u8]) -> Result<M, WireError> {
         Ok(message)
     } else {
         Err(WireError::Damaged(format!(
-            "its body has {} bytes, and {used} of them mean something",
+            "its body has {} bytes, of which {used} mean something",
             body.len()
         )))
     }
@@ -206,7 +206,7 @@ fn numbers_of(pixels: &[u8]) -> Vec<f32> {
 
 fn take_pixels(image: &mut ProjectorImage, pixels: &[u8]) -> Result<(), WireError> {
     if !image.rgba.is_empty() {
-        return Err(WireError::Damaged("a picture's numbers stand in its body".to_owned()));
+        return Err(WireError::Damaged("the numbers of a picture must be in its body".to_owned()));
     }
     if pixel_bytes_of_raster(image) != Some(pixels.len()) {
         let (width, height) = (image.width, image.height);

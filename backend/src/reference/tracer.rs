@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// The error for segments of a scene with refraction.
 const BENT_SEGMENTS: &str =
-    "segments are parts of a straight ray; take the refraction out of the scene, or ask for the whole ray";
+    "segments are parts of a straight ray; remove the refraction from the scene, or ask for the whole ray";
 
 /// Why a frame has no reference picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

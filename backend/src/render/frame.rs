@@ -253,7 +253,7 @@ pub(super) fn live_shortfall(short: usize, is_told: bool, upkeep: &Upkeep, resid
     let Upkeep { in_flight, fading, .. } = upkeep;
     let root = residency.set.cut.node(0);
     let first = if root.brick.is_none() && root.is_visible {
-        Some("the volume's coarsest brick has not come yet".to_owned())
+        Some("the volume's coarsest brick has not arrived yet".to_owned())
     } else if short > 0 {
         Some(format!(
             "{short} nodes are shown coarser than the display resolves, {in_flight} bricks are on their way"
@@ -269,9 +269,9 @@ pub(super) fn live_shortfall(short: usize, is_told: bool, upkeep: &Upkeep, resid
 fn damages(residency: &Residency) -> Option<String> {
     let first = residency.damage.sentences(1).pop()?;
     Some(match residency.damage.missed() {
-        1 => format!("a brick cannot be read, and what is coarser is shown in its place: {first}"),
+        1 => format!("a brick cannot be read, and coarser data are shown instead: {first}"),
         bricks => format!(
-            "{bricks} bricks cannot be read, and what is coarser is shown in their place; the first of them: {first}"
+            "{bricks} bricks cannot be read, and coarser data are shown instead; the first of them: {first}"
         ),
     })
 }

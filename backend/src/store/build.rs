@@ -78,7 +78,7 @@ impl Building {
         let shape = OctreeShape::new(info.dims);
         let table = NodeTable::new(shape).ok_or_else(|| StoreError::Input {
             input: info.name.clone(),
-            what: format!("{} voxels make more bricks than can be counted", info.dims),
+            what: format!("{} voxels make too many bricks to count", info.dims),
         })?;
         let count = usize::from(shape.finest_depth()) + 1;
         let header = Header {
@@ -208,7 +208,7 @@ fn memory_for_rings(
     let least = slabs.saturating_add(tiles);
     if least > options.memory_bytes.max(LEAST_MEMORY_BYTES) {
         let (least, given) = (least >> 20, options.memory_bytes >> 20);
-        let what = format!("slabs of {} need {least} MiB of memory, and {given} MiB are given", info.dims);
+        let what = format!("slabs of {} need {least} MiB of memory, but only {given} MiB are allowed", info.dims);
         return Err(StoreError::Input { input: info.name.clone(), what });
     }
     Ok(options.memory_bytes.saturating_sub(least))

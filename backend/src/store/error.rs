@@ -45,7 +45,7 @@ pub enum StoreError {
         path: PathBuf,
     },
     /// A store of another version of the format.
-    #[error("{} is a store of format version {found}, and this program reads versions 1 to {VERSION}: import the volume again", path.display())]
+    #[error("{} has store format version {found}, but this program reads versions 1 to {VERSION}: import the volume again", path.display())]
     Version {
         /// The store.
         path: PathBuf,

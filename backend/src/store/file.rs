@@ -310,17 +310,17 @@ fn decoded(plain: &[u8], bits: CodeBits) -> Codes {
 fn check_header(header: &Header) -> Result<(), String> {
     let (dims, range) = (header.dims, header.value_range);
     if dims.min_element() == 0 || dims.max_element() > MAX_EDGE_VOXELS {
-        return Err(format!("the dimensions are {dims}, and each must be from 1 to {MAX_EDGE_VOXELS}"));
+        return Err(format!("the dimensions are {dims}, but each must be from 1 to {MAX_EDGE_VOXELS}"));
     }
     if !header.frame.is_sound() {
         return Err(format!(
-            "the voxel size is {} m, and each edge must be positive",
+            "the voxel size is {} m, but each edge must be positive",
             header.frame.voxel_size_m()
         ));
     }
     let is_error = |error: f64| error.is_finite() && error >= 0.0;
     if !header.levels.iter().all(|level| is_error(level.rms) && is_error(level.max)) {
-        return Err("the errors of its levels are no numbers that make sense".into());
+        return Err("the errors of its levels make no sense".into());
     }
     // Beyond f32 lies no stored value.
     let is_value = |value: f64| value.abs() <= f64::from(f32::MAX);

@@ -100,7 +100,7 @@ impl Ring {
                 let start = place * self.width * self.height + y * TILE * self.width + x * TILE * rows;
                 &bytemuck::cast_slice(map)[start..start + rows * TILE.min(self.width - x * TILE)]
             }
-            Tile::Empty => panic!("a tile is read that has no numbers of its own"),
+            Tile::Empty => panic!("read a tile that has no numbers of its own"),
         }
     }
 

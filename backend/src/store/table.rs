@@ -56,7 +56,7 @@ impl Table {
         match bytes.and_then(|bytes| bytes.checked_add(header.table_offset)) {
             Some(end) if end <= file_bytes => Ok(Table::Dense { nodes, start: header.table_offset }),
             _ => Err(format!(
-                "it has {file_bytes} bytes, and the table of {} nodes does not fit",
+                "it has {file_bytes} bytes, but the table of {} nodes does not fit",
                 header.nodes
             )),
         }
@@ -68,7 +68,7 @@ impl Table {
         let end = count.checked_mul(ENTRY_BYTES as u64).and_then(|bytes| bytes.checked_add(start));
         if start < header.length() || end != Some(file_bytes) {
             return Err(format!(
-                "it has {file_bytes} bytes, and the table of {count} nodes does not end there"
+                "it has {file_bytes} bytes, but the table of {count} nodes does not end there"
             ));
         }
         if count == 0 || NodeTable::new(shape).is_none_or(|nodes| nodes.nodes() < count) {

@@ -71,7 +71,7 @@ impl Store {
 fn check_header_bytes(store: &Store, found: &mut Verification) {
     let mut bytes = vec![0; store.header.length() as usize];
     if store.file.read_at(0, &mut bytes).is_err() || bytes != store.header.to_bytes() {
-        found.note("the header has bytes that mean nothing".into());
+        found.note("the header has meaningless bytes".into());
     }
 }
 
@@ -136,7 +136,7 @@ fn pass_on(
     // The table lets no entry pass whose children lie outside it.
     for (octant, slot) in octants.zip(&mut keys[entry.first_child as usize..]) {
         if slot.is_some() {
-            found.note(format!("entry {place} of the table has a child that another has too"));
+            found.note(format!("entry {place} of the table shares a child with another entry"));
         }
         *slot = node.map(|node| node.child(octant));
     }

@@ -29,7 +29,7 @@ impl WorkingFile {
             target.with_file_name(working_name(target.file_name().ok_or(io::ErrorKind::InvalidInput)?));
         for _ in 0..ATTEMPTS {
             if std::fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-                let what = format!("{} is in the way, and no file", path.display());
+                let what = format!("{} is in the way, and is not a file", path.display());
                 return Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
             }
             let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
@@ -76,11 +76,11 @@ fn lock(file: &File) -> io::Result<()> {
     match file.try_lock() {
         Ok(()) => Ok(()),
         Err(TryLockError::WouldBlock) => {
-            let what = "another program is writing it: wait for that, or choose another name";
+            let what = "another program is writing it: wait until it is done, or choose another name";
             Err(io::Error::new(io::ErrorKind::ResourceBusy, what))
         }
         Err(TryLockError::Error(error)) => {
-            tracing::warn!(%error, "files cannot be locked here: see that no other program writes the same store");
+            tracing::warn!(%error, "files cannot be locked here: make sure that no other program writes the same store");
             Ok(())
         }
     }

@@ -52,7 +52,7 @@ pub enum SessionError {
     /// There is not one setup for each back-end.
     #[error(
         "there are {setups} back-ends to set up and {backends} were started; start as many back-ends as the \
-         display is assigned to, or assign it anew"
+         display is assigned to, or assign it again"
     )]
     Count {
         /// Setups given.
@@ -159,7 +159,7 @@ impl Session {
         }
         session.devices = session.gather(limits.opening, |_, message| match message {
             FromBackend::Ready(info) => Answer::Given(info),
-            _ => Answer::Misfit("it answered the setup with something else than ready"),
+            _ => Answer::Misfit("it answered the setup with something other than ready"),
         })?;
         session.set_activity("waiting for the next frame".to_owned());
         Ok(session)
@@ -187,7 +187,7 @@ impl Session {
                 FromBackend::Image(image) => EventKind::Image(image),
                 FromBackend::Done(report) if report.frame == frame.index => return Answer::Given(*report),
                 FromBackend::Done(_) => return Answer::Misfit("it drew another frame than the one it was asked for"),
-                _ => return Answer::Misfit("it answered a frame with something else than pictures"),
+                _ => return Answer::Misfit("it answered a frame with something other than pictures"),
             };
             on_event(SessionEvent { backend, kind });
             Answer::Pending
@@ -212,7 +212,7 @@ impl Session {
             self.link.broadcast(&FromFrontend::Finish).map_err(|error| self.lost(error))?;
             self.gather(self.limits.drawing, |_, message| match message {
                 FromBackend::Finished => Answer::Given(()),
-                _ => Answer::Misfit("it answered the end with something else than its own"),
+                _ => Answer::Misfit("it answered the end with something other than its own"),
             })?;
         }
         self.link.broadcast(&FromFrontend::Quit).map_err(|error| self.lost(error))?;

@@ -152,7 +152,7 @@ fn a_display_without_projectors_is_refused() {
     let zero = message_of(&format!("{HEAD}{LINE}"), "count = 3", "count = 0");
     assert_eq!(zero, "two.toml, line 10: `count` is 0; give a number of projectors from 1 to 65536");
     let both = Display::from_toml(&format!("{HEAD}{LINE}{PROJECTORS}"), "two.toml").unwrap_err().to_string();
-    assert!(both.starts_with("two.toml, line 9: `projector_line` stands beside"), "{both}");
+    assert!(both.starts_with("two.toml, line 9: `projector_line` and [[projector]]"), "{both}");
 }
 
 #[test]

@@ -40,7 +40,7 @@ impl<'a> Bench<'a> {
         Self { study, truth }
     }
 
-    /// Measures settings, in their order; `show` is told how many are done. Those of one filter and one depth of samples
+    /// Measures settings, in their order; `show` gets how many are done. Those of one filter and one depth of samples
     /// share a renderer, which goes from coarse levels to fine ones: it never shows finer ones than it is asked for then.
     pub(super) fn measure(
         &self,

@@ -21,7 +21,7 @@ const LEVEL_SCALES: [f64; 5] = [4.0, 2.0, 1.0, 0.5, 0.0];
 pub struct Offer {
     /// Interpolations that the device has.
     pub filters: Vec<FilterChoice>,
-    /// Bits per sample that the volume can be had in: as it is stored, and fewer.
+    /// Bits per sample at which the volume is available: as it is stored, and fewer.
     pub bits: Vec<u8>,
     /// Whether everything is tried at the finest level: levels then hide nothing of what steps err.
     pub is_finest: bool,

@@ -1,4 +1,4 @@
-//! How a study is told to stop, and tells how far it is.
+//! How a study is stopped, and reports how far it is.
 
 use super::AccuracyError;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ pub struct Watch {
 pub(super) type News = (f64, String);
 
 impl Watch {
-    /// A watch that `stop` ends, and that tells whoever holds the other end of `news`.
+    /// A watch that `stop` ends, and that reports to the other end of `news`.
     pub(super) fn new(stop: Arc<AtomicBool>, news: Sender<News>) -> Self {
         Self { stop, news }
     }

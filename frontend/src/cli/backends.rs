@@ -1,4 +1,4 @@
-//! The arguments that say with what pictures are drawn.
+//! The arguments that choose what draws the pictures.
 
 use backend::protocol::{DeviceChoice, FilterChoice};
 use clap::{Args, ValueEnum};
@@ -23,7 +23,7 @@ pub struct BackendArgs {
 /// See [`DeviceChoice`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DeviceArg {
-    /// The GPU, or the CPU where there is no Vulkan driver but one in software.
+    /// A hardware GPU if there is one, the CPU otherwise.
     Auto,
     /// The GPU or nothing.
     Gpu,

@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::report::units;
 use crate::session::{self, ExportSummary};
 
-/// Writes voxels of a store for other programs, and tells about it.
+/// Writes voxels of a store for other programs, and reports on it.
 pub(super) fn export(args: &ExportArgs) -> Result<(), FrontendError> {
     let summary = session::export(args, Progress::new(!args.quiet && !args.json))?;
     if args.json {
@@ -16,7 +16,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), FrontendError> {
     }
     if !args.quiet {
         if summary.has_lost_directions {
-            warn("OME-Zarr keeps no directions: the axes are now the volume's own; NRRD keeps them");
+            warn("OME-Zarr cannot store directions, so the axes are the volume's own; NRRD stores them");
         }
         say(&text(args, &summary));
     }

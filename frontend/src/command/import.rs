@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::report::units;
 use crate::session::{self, ImportSummary};
 
-/// Makes a store and tells about it.
+/// Makes a store and reports on it.
 pub(super) fn import(args: &ImportArgs) -> Result<(), FrontendError> {
     let summary = session::import(args, Progress::new(!args.quiet && !args.json))?;
     if args.json {
@@ -46,7 +46,7 @@ fn text(args: &ImportArgs, summary: &ImportSummary) -> String {
     }
     if summary.non_finite > 0 {
         text += &format!(
-            "; {} voxels were not finite numbers and were replaced",
+            "; {} non-finite voxels were replaced",
             units::count(summary.non_finite)
         );
     }

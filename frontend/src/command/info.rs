@@ -7,7 +7,7 @@ use crate::cli::InfoArgs;
 use crate::report::units;
 use crate::session::{self, StoreSummary};
 
-/// Tells what a store holds.
+/// Prints what a store holds.
 pub(super) fn info(args: &InfoArgs) -> Result<(), FrontendError> {
     let summary = session::store_summary(&args.store)?;
     if args.json {

@@ -30,7 +30,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
     }
 }
 
-/// Prints on standard output. Unlike `println!` it does not panic where nobody reads it any more.
+/// Prints on standard output. Unlike `println!` it does not panic if the reader is gone.
 fn say(text: &str) {
     let mut out = std::io::stdout().lock();
     // Whoever closed standard output does not want the rest.

@@ -49,7 +49,7 @@ fn header(gallery: &Gallery, devices: &[DeviceInfo]) -> String {
     );
     let adapters: Vec<&str> = devices.iter().map(|device| device.adapter.as_str()).collect();
     format!(
-        "<header><h1>Techniques of illustration</h1><p>{}</p><p>Drawn by {}; seconds are those of all projectors.</p></header>",
+        "<header><h1>Illustrative techniques</h1><p>{}</p><p>Drawn by {}; seconds are those of all projectors.</p></header>",
         escape(&setting),
         escape(&adapters.join(", "))
     )

@@ -1,4 +1,4 @@
-//! What a run tells of itself, as JSON for programs and as a page for people.
+//! What a run reports of itself, as JSON for programs and as a page for people.
 
 pub mod accuracy;
 mod frame;
@@ -51,7 +51,7 @@ pub struct Report {
     pub frames: Vec<FrameSummary>,
     /// All frames added up.
     pub total: Totals,
-    /// Peak memory of this process, bytes; None where the system does not tell.
+    /// Peak memory of this process, bytes; None if the system does not say.
     pub peak_memory_bytes: Option<u64>,
     /// Wall-clock milliseconds of the whole run.
     pub wall_ms: f64,
@@ -100,7 +100,7 @@ pub struct DisplaySummary {
 pub struct DebugSummary {
     /// Which one.
     pub view: DebugView,
-    /// What its colours tell.
+    /// What its colours show.
     pub shows: &'static str,
     /// The values at the ends of its scale.
     pub scale: (f64, f64),

@@ -32,7 +32,7 @@ pub(super) fn page(report: &Report, out: &Path) -> Result<String, OutputError> {
 fn header(report: &Report) -> String {
     let (display, total) = (&report.display, &report.total);
     let about = format!(
-        "on {}, {} projectors of together {} pixels, {:.2} × {:.2} m",
+        "on {}, {} projectors with {} pixels in total, {:.2} × {:.2} m",
         display.name,
         display.projectors,
         units::count(display.pixels),
@@ -81,7 +81,7 @@ fn damages(total: &Totals) -> String {
         return String::new();
     }
     let rows: String = total.damaged.iter().map(|one| format!("<li>{}</li>", escape(one))).collect();
-    format!("<h2>Damaged bricks</h2><p>Their parents are shown in their place.</p><ul>{rows}</ul>")
+    format!("<h2>Damaged bricks</h2><p>Their parents are shown instead.</p><ul>{rows}</ul>")
 }
 
 /// The colours of the debug view; nothing where the pictures are shown.
@@ -91,7 +91,7 @@ fn key(report: &Report, out: &Path) -> Result<String, OutputError> {
     let numbers = numbers.join(", ");
     let image = embedded_image(&out.join(debug.legend), &format!("colours of {numbers}"), None)?;
     Ok(format!(
-        "<h2>In place of the pictures</h2><figure class=\"key\">{image}\
+        "<h2>Instead of the pictures</h2><figure class=\"key\">{image}\
          <figcaption><b>{}</b>; from left to right: {}</figcaption></figure>",
         escape(debug.shows),
         escape(&numbers)
@@ -121,7 +121,7 @@ fn sheet(report: &Report, out: &Path) -> Result<String, OutputError> {
     let frame = report.frames.first().map_or(0, |frame| frame.index);
     let caption = format!("Frame {frame}, row by row from projector 0");
     Ok(format!(
-        "<h2>What projectors show</h2><figure>{image}<figcaption>{}</figcaption></figure>",
+        "<h2>What the projectors show</h2><figure>{image}<figcaption>{}</figcaption></figure>",
         escape(&caption)
     ))
 }
@@ -158,7 +158,7 @@ fn scene_facts(report: &Report) -> String {
         ("values", format!("{low} to {high}")),
         ("longest edge in the display", format!("{:.3} m", scene.longest_m)),
         ("step", format!("{} voxels", quality.step_voxels)),
-        ("a ray ends where less shines through than", format!("{:.2e}", quality.termination)),
+        ("a ray ends when less than this can be added", format!("{:.2e}", quality.termination)),
         ("voxel size per display resolution", format!("{}", quality.lod_scale)),
     ])
 }
@@ -204,7 +204,7 @@ fn numbers(report: &Report) -> String {
         row(name, one.total_ms, &Totals::of([one]))
     });
     format!(
-        "<h2>Time per stage, added up over back-ends</h2>{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
+        "<h2>Time per stage, summed over back-ends</h2>{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
         stage_bar(&report.total.stages),
         table(&HEADS, &frames),
         upkeep::section(&report.frames),

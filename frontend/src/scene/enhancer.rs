@@ -8,7 +8,7 @@ use shaders::optics::{Enhancer, Trapezoid, TrapezoidError};
 /// What an enhancer goes with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
-    /// The volume's centre, wherever it is in a frame.
+    /// The volume's centre in each frame.
     Volume,
     /// A fixed point of the display frame, metres.
     Point(DVec3),

@@ -92,7 +92,7 @@ impl Scene {
     /// which data values they show means anything. The scene's own volume need not be there.
     ///
     /// # Errors
-    /// A file that is no scene, or one whose look depends on the volume.
+    /// A file that is not a scene, or one whose look depends on the volume.
     pub fn visibility_in_file(path: &Path) -> Result<Vec<Optics>, SceneError> {
         let scene = read::scene_without_volume(path)?;
         let Look::InDataUnits(look) = &scene.look else {
@@ -102,7 +102,7 @@ impl Scene {
         scene.edits.times().map(shown).collect()
     }
 
-    /// How a back-end is told of the volume.
+    /// The volume, as back-ends are to open it.
     pub fn volume_ref(&self) -> VolumeRef {
         match &self.volume {
             VolumeSource::Store(path) => VolumeRef::Store(path.clone()),

@@ -38,7 +38,7 @@ pub struct ImportSummary {
     pub max_error: f64,
     /// Errors of all levels, the finest first.
     pub level_errors: Vec<LevelSummary>,
-    /// Voxels that were not finite, and were replaced.
+    /// Non-finite voxels, which were replaced.
     pub non_finite: u64,
     /// Time it took, milliseconds.
     pub total_ms: f64,
@@ -131,7 +131,7 @@ fn selection(args: &ImportArgs) -> Result<Selection, FrontendError> {
 fn raw_layout(args: &ImportArgs) -> Result<Option<RawLayout>, FrontendError> {
     let (Some(dims), Some(element)) = (args.raw.dims, &args.raw.element) else { return Ok(None) };
     let unknown = || {
-        FrontendError::Volume(format!("`{element}` is no voxel type; give uint8, int16, float or the like"))
+        FrontendError::Volume(format!("`{element}` is not a voxel type; give uint8, int16, float or the like"))
     };
     Ok(Some(RawLayout {
         dims,

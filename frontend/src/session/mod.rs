@@ -151,7 +151,7 @@ pub fn assignment(display: &Display, backends: u32) -> Result<Vec<Vec<u32>>, Fro
     display.assign(backends as usize).map_err(|e| FrontendError::Display(e.to_string()))
 }
 
-/// What each of `backends` back-ends is told before the first frame; `traces` is the folder for their traces.
+/// The setup of each of `backends` back-ends, sent before the first frame; `traces` is the folder for their traces.
 pub fn setups(
     args: &BackendArgs,
     volume: &VolumeRef,

@@ -58,7 +58,7 @@ pub struct VerifySummary {
     pub damages: Vec<String>,
 }
 
-/// Opens a store and tells what it holds.
+/// Opens a store and describes what it holds.
 pub fn store_summary(path: &Path) -> Result<StoreSummary, FrontendError> {
     let store = Store::open(path).map_err(sentence)?;
     let (shape, bytes) = (store.shape(), store.file_bytes());

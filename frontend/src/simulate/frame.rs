@@ -17,7 +17,7 @@ const WAITING_PICTURES: usize = 2;
 const MOST_WRITERS: usize = 4;
 
 impl Job {
-    /// Draws a frame into its folder and gives its account. `show` is told the part that is done, 0 to 1.
+    /// Draws a frame into its folder and returns its account. `show` gets the part that is done, 0 to 1.
     pub(super) fn draw(
         &self,
         source: &mut dyn FrameSource,
@@ -93,7 +93,7 @@ fn write_all(receive: &Mutex<Receiver<ProjectorImage>>, pictures: &FramePictures
     }
 }
 
-/// The part of all back-ends' rays that is final, as far as they have told.
+/// The part of all back-ends' rays that is final, as far as they have reported.
 fn part_done(parts: &mut Vec<(u64, u64)>, backend: usize, done: u64, total: u64) -> f64 {
     if parts.len() <= backend {
         parts.resize(backend + 1, (0, 0));

@@ -1,4 +1,4 @@
-//! A run: frames are drawn, their pictures become files, and a report tells how it went.
+//! A run: frames are drawn, their pictures become files, and a report says how it went.
 
 mod eyes;
 mod frame;

@@ -21,7 +21,7 @@ pub enum Event {
 
 /// Something that draws frames: back-ends in this process or elsewhere, or a fake in tests.
 pub trait FrameSource {
-    /// Draws a frame, telling `on_event` of each picture once. The reports are one per back-end, in their order.
+    /// Draws a frame, passing each picture to `on_event` once. Returns one report per back-end, in their order.
     fn render(
         &mut self,
         frame: &FrameState,

@@ -71,7 +71,7 @@ impl Context {
         let limits = adapter.limits();
         if limits.max_storage_buffers_per_shader_stage < MOST_STORAGE_BUFFERS {
             return Err(DeviceError(format!(
-                "{name} binds {} storage buffers at a time and kernels need up to {MOST_STORAGE_BUFFERS}; take --device cpu",
+                "{name} binds {} storage buffers at a time, but kernels need up to {MOST_STORAGE_BUFFERS}; take --device cpu",
                 limits.max_storage_buffers_per_shader_stage
             )));
         }

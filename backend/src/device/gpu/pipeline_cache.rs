@@ -66,7 +66,7 @@ fn create(device: &wgpu::Device, blob: Option<Vec<u8>>) -> Option<(wgpu::Pipelin
     match (pollster::block_on(scope.pop()), blob) {
         (None, blob) => Some((cache, blob.map_or(0, |blob| crc32fast::hash(&blob)))),
         (Some(why), Some(_)) => {
-            tracing::debug!("the compiled kernels of the last run are not taken: {why}");
+            tracing::debug!("the compiled kernels of the last run are ignored: {why}");
             create(device, None)
         }
         (Some(why), None) => {

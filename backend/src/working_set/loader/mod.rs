@@ -198,5 +198,5 @@ impl Drop for Seat {
 }
 
 fn lost() -> BrickError {
-    BrickError::unavailable("a loader thread ended before its time; start the program again")
+    BrickError::unavailable("a loader thread ended early; start the program again")
 }

@@ -117,7 +117,7 @@ fn header(text: &str) -> Result<TraceHeader, String> {
     match found {
         None => Err(format!("the file does not begin with the header of a {FORMAT}")),
         Some(Opening { version, .. }) if version != VERSION => {
-            Err(format!("it is of version {version}, and this program reads version {VERSION}"))
+            Err(format!("it has version {version}, but this program reads version {VERSION}"))
         }
         Some(_) => {
             let HeaderLine { header, .. } = parsed(text)?;

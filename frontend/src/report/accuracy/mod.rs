@@ -96,12 +96,12 @@ impl AccuracyReport {
         if least < 100.0 * truth.tolerance {
             let times = least / truth.tolerance;
             notes.push(format!(
-                "the most exact setting errs by only {times:.0} times the reference's tolerance"
+                "the most exact setting is off by only {times:.0} times the reference's tolerance"
             ));
         }
         if truth.rays < 1000 {
             notes.push(format!(
-                "{} rays are too few for the 99.9 %, which is the largest error then",
+                "{} rays are too few for a 99.9th percentile, which then is the largest error",
                 truth.rays
             ));
         }

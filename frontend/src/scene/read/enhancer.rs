@@ -15,7 +15,7 @@ use toml::Spanned;
 const FACING: Ramp = Ramp { low: 0.8, high: 0.98 };
 /// One minus the cosine of the angle to a clip plane's normal: the same angles.
 const CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
-/// Of the rescaled gradient: homogeneous tissue is no edge.
+/// Of the rescaled gradient: homogeneous tissue is not an edge.
 const EDGES: Ramp = Ramp { low: 0.2, high: 0.8 };
 /// The scalar's change over a voxel that counts as the strongest edge, parts of the domain.
 const GRADIENT_MOST: f64 = 0.1;
@@ -90,7 +90,7 @@ impl SceneText {
         for table in tables {
             let name = table.name.get_ref();
             if bands.iter().any(|band| band.name == *name) {
-                let message = format!("there is a band `{name}` already; give each band its own name");
+                let message = format!("another band is already called `{name}`; give each band its own name");
                 return Err(self.wrong(table.name.span(), message));
             }
             let values = Trapezoid::new(*table.corners.get_ref());
@@ -148,7 +148,7 @@ impl SceneText {
             return Err(self.wrong(carried.span(), message));
         }
         match table.given().find(|(name, _)| OF_THE_TOOL.contains(name)) {
-            Some((_, span)) => Err(self.wrong(span, "the tool that carries it says this; remove this line")),
+            Some((_, span)) => Err(self.wrong(span, "the tool that carries it decides this; remove this line")),
             None => Ok(()),
         }
     }

@@ -11,7 +11,7 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-/// Of a volume, metres or times its own: what f32 tells apart from nothing and from everything.
+/// Of a volume, metres or times its own: sizes that f32 distinguishes from nothing and from everything.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 impl SceneText {
