@@ -119,7 +119,7 @@ impl Renderer {
         Ok((renderer, info))
     }
 
-    /// Runs this WGSL (entry point `cast_tile`, bindings as composed) in place of the composed kernels, whatever a frame
+    /// Runs this WGSL (entry point `cast_tile`, bindings as composed) instead of the composed kernels, whatever a frame
     /// needs: for benchmarks that measure what composition costs. False on a device that runs no WGSL.
     #[cfg(feature = "gpu")]
     #[doc(hidden)]
@@ -127,7 +127,7 @@ impl Renderer {
         self.device.substitute_kernel(wgsl)
     }
 
-    /// Draws one frame, picture by picture: until nothing is missing, or with what there is, as its pace says.
+    /// Draws one frame, picture by picture: until nothing is missing, or with what is there, depending on its pace.
     ///
     /// # Errors
     /// The root's brick or the device fails, or the frame does not fit the display.
@@ -154,7 +154,7 @@ impl Renderer {
         }
     }
 
-    /// The frame without enhancers that the volume is out of reach of; None where there are none such. So tools cost
+    /// The frame without enhancers that cannot reach the volume; None if all can. So tools cost
     /// nothing while they are held away from the volume.
     fn in_reach(&self, frame: &FrameState) -> Option<FrameState> {
         let corners = self.residency.shape().corners(NodeKey::ROOT);

@@ -30,7 +30,7 @@ impl Homography {
     }
 
     /// The map of a raster of `pixels` onto four points: the images of its top left corner and on, clockwise in the
-    /// raster (Heckbert 1989, square to quadrilateral). None where three of the points lie on a line.
+    /// raster (Heckbert 1989, square to quadrilateral). None if three of the points lie on a line.
     pub fn of_corners(pixels: DVec2, corners: [DVec2; 4]) -> Option<Self> {
         let [p0, p1, p2, p3] = corners;
         let (to_p1, to_p3, skew) = (p1 - p2, p3 - p2, p0 - p1 + p2 - p3);

@@ -10,7 +10,7 @@ const SAMPLES: u32 = 33;
 
 impl Display {
     /// The x interval, metres, from which the whole screen is lit at a distance from it: an eye there lies,
-    /// for every screen point, between the outermost beams through it. None where there is no such place.
+    /// for every screen point, between the outermost beams through it. None if there is no such place.
     pub fn viewing_zone(&self, distance_m: f64) -> Option<(f64, f64)> {
         zone_of(DVec2::new(self.width_m, self.height_m), &Beams::new(self), distance_m)
     }

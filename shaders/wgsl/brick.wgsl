@@ -15,7 +15,7 @@ fn pairs_across(brick: Brick, middle: vec3<f32>, length: f32) -> f32 {
     return clamp(ceil(min(way.x, min(way.y, way.z)) / length), 1.0, 1e6);
 }
 
-// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something. A cell
+// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something. A cell
 // is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points of a pair
 // are asked as leave none of it farther than a voxel.
 fn pairs_unseen(brick: Brick, t: f32, length: f32) -> f32 {

@@ -91,13 +91,13 @@ impl CastJob<'_> {
 /// What a cast found.
 #[derive(Clone, Debug, Default)]
 pub struct CastOutcome {
-    /// One per place of the index; empty where the frame's table has it.
+    /// One per place of the index; empty if the frame's table has it.
     pub feedback: Vec<FeedbackEntry>,
-    /// Tiles of which a ray met a node that is too coarse; empty where it was not asked for.
+    /// Tiles of which a ray met a node that is too coarse; empty if it was not asked for.
     pub missing_tiles: Vec<u32>,
     /// Rays cast.
     pub rays: u64,
-    /// Samples taken; 0 where it was not asked for.
+    /// Samples taken; 0 if it was not asked for.
     pub samples: u64,
 }
 

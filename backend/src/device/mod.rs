@@ -44,7 +44,7 @@ macro_rules! on_device {
 }
 
 impl Device {
-    /// Runs this kernel in place of those that are composed; false on a device that has none to replace.
+    /// Runs this kernel instead of those that are composed; false on a device that has none to replace.
     #[cfg(feature = "gpu")]
     pub(crate) fn substitute_kernel(&mut self, wgsl: &str) -> bool {
         let Self::Gpu(device) = self else { return false };
@@ -84,7 +84,7 @@ impl Device {
         on_device!(self, device => device.end_feedback());
     }
 
-    /// The oldest table that is under way, one entry per place of the index that its frame was cast with; None where
+    /// The oldest table that is under way, one entry per place of the index that its frame was cast with; None if
     /// there is none, or it has not arrived. It never waits.
     ///
     /// # Errors
@@ -93,7 +93,7 @@ impl Device {
         on_device!(self, device => device.take_feedback())
     }
 
-    /// The same, but waits for it; None where none is under way.
+    /// The same, but waits for it; None if none is under way.
     ///
     /// # Errors
     /// The device stopped answering.

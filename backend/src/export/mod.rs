@@ -28,7 +28,7 @@ pub struct ExportOptions {
     /// Voxels of the part along x, y, z; None reaches to the level's end.
     pub size: Option<UVec3>,
     /// The type of the numbers, to which they are rounded; None is the smallest that keeps them all as they are in the
-    /// store: f32, or integers of up to 32 bits where there are no others.
+    /// store: f32, or integers of up to 32 bits.
     pub element: Option<Element>,
     /// Whether an NRRD file is packed with gzip; OME-Zarr is always packed.
     pub is_packed: bool,

@@ -40,7 +40,7 @@ fn has_integers(brick: &Brick) -> bool {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounding {
     pub element: Element,
-    /// Smallest and largest number; None where all fit.
+    /// Smallest and largest number; None if all fit.
     range: Option<(f64, f64)>,
 }
 
@@ -60,7 +60,7 @@ impl Rounding {
     }
 }
 
-/// Smallest and largest number of an integer type. The largest of 64 bits are no f64: the next lower ones stand for
+/// Smallest and largest number of an integer type. The largest of 64 bits is not an f64: the next lower ones stand for
 /// them, since what is compared is f64.
 fn range(element: Element) -> Option<(f64, f64)> {
     Some(match element {

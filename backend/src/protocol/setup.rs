@@ -64,7 +64,7 @@ pub struct Setup {
     pub filter: FilterChoice,
     /// Size of the brick cache, bytes.
     pub cache_bytes: u64,
-    /// Where the working set's trace of live frames is to be written; None where none is wanted.
+    /// Where the working set's trace of live frames is to be written; None if none is wanted.
     pub trace: Option<PathBuf>,
 }
 

@@ -51,7 +51,7 @@ impl fmt::Display for Errors {
     }
 }
 
-/// The larger of two errors; NaN where either is.
+/// The larger of two errors; NaN if either is.
 fn largest_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

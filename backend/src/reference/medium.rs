@@ -18,7 +18,7 @@ pub struct Band {
     pub extinction: Linear<f64>,
     /// Colour, linear RGB.
     pub colour: Linear<DVec3>,
-    /// Importance as the chain leaves it; 0 where the medium has none.
+    /// Importance as the chain leaves it; 0 if the medium has none.
     pub importance: Linear<f64>,
     /// Importance as the chain of enhancers gets it: the scene's own, 1 if none is accumulated.
     pub told: Linear<f64>,

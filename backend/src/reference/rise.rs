@@ -51,7 +51,7 @@ pub trait Emitter {
 /// A span on which importance does not fall: dA = −A p + (1 − A) τ, dC = −C p + (1 − A) e, with p = dP/dx.
 pub struct Rise<'a, E> {
     emitter: &'a E,
-    /// How importance erases; None where it does not.
+    /// How importance erases; None if it does not.
     erasure: Option<Erasure>,
     /// Error allowed per unit of what is added or erased. Errors are erased and covered as the light itself is, so the
     /// sum never exceeds a small multiple of it.

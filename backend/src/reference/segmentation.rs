@@ -62,7 +62,7 @@ impl<'a> Segment<'a> {
         Self { light: light.without_importance(), ends: None, is_opaque: false }
     }
 
-    /// Its light, and the data values at its start and end; None where it met nothing.
+    /// Its light, and the data values at its start and end; None if it met nothing.
     pub fn seen(&self) -> Option<(Radiance, (f64, f64))> {
         self.ends.map(|ends| (self.light.radiance(), ends))
     }

@@ -22,7 +22,7 @@ pub struct Setting {
     pub integrator: Integrator,
     /// The optics, without enhancers.
     pub medium: Medium,
-    /// What bends light; None where it goes straight.
+    /// What bends light; None if it goes straight.
     pub index: Option<Index>,
     /// What shades.
     pub light: Option<Light>,
@@ -38,7 +38,7 @@ pub struct Setting {
 pub struct View<'a> {
     /// What other rays share.
     pub setting: &'a Setting,
-    /// None where no enhancer changes the medium.
+    /// None if no enhancer changes the medium.
     medium: Option<Medium>,
     chain: Chain,
 }

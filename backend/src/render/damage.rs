@@ -28,7 +28,7 @@ impl Damage {
         self.known.remove(&node);
     }
 
-    /// Why a node's brick cannot be read; None where nothing is known against it.
+    /// Why a node's brick cannot be read; None if nothing is known against it.
     pub(super) fn of(&self, node: NodeKey) -> Option<&BrickError> {
         self.known.get(&node)
     }

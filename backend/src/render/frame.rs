@@ -238,7 +238,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// Why a frame is not complete; empty where it is.
+/// Why a frame is not complete; empty if it is.
 fn shortfall(without_room: usize, residency: &Residency) -> String {
     let full = (without_room > 0).then(|| {
         format!(

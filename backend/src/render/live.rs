@@ -1,4 +1,4 @@
-//! One live frame: it shows what there is, and asks for what later frames will show.
+//! One live frame: it shows what is there, and asks for what later frames will show.
 
 use super::frame::Setting;
 use super::residency::milliseconds;

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// It begins with the first live frame and gets its name at the end.
 #[derive(Debug)]
 pub(super) struct Recording {
-    /// Where, and of what; None where no trace is wanted.
+    /// Where, and of what; None if no trace is wanted.
     wanted: Option<(PathBuf, TraceHeader)>,
     writer: Option<TraceWriter>,
     /// Frames whose rays have not reported yet: with a GPU that takes a few frames.

@@ -9,9 +9,9 @@
 //! | 8..16 | low, step, f32 each |
 //! | 16..20 | deviation step, f32 |
 //! | 20..32 | lengths of cells, codes and deviations in bytes, u32 each; 0 for what is all zero |
-//! | 32..40 | offset of the extent in the file, u64; 0 where it is empty |
+//! | 32..40 | offset of the extent in the file, u64; 0 if it is empty |
 //! | 40..48 | checksum of the cells; checksum of codes and deviations, u32 each |
-//! | 48..56 | place of the first child in the table, u64; 0 where there is none |
+//! | 48..56 | place of the first child in the table, u64; 0 if there is none |
 //! | 56 | children that are in the table, bit 0 = x, y, z low |
 //! | 57..60 | zero |
 //! | 60..64 | checksum of the entry's first 60 bytes |
@@ -96,7 +96,7 @@ impl Entry {
         bytes
     }
 
-    /// None where the checksum differs.
+    /// None if the checksum differs.
     pub fn from_bytes(bytes: &[u8; ENTRY_BYTES]) -> Option<Self> {
         if checksum(&bytes[..ENTRY_CHECKSUM_AT]) != u32_at(bytes, ENTRY_CHECKSUM_AT) {
             return None;

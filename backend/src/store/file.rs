@@ -120,7 +120,7 @@ impl Store {
         })
     }
 
-    /// Errors of the levels against the source, the finest first; empty where an older program built the store.
+    /// Errors of the levels against the source, the finest first; empty if an older program built the store.
     pub fn level_errors(&self) -> &[LevelError] {
         &self.header.levels
     }
@@ -140,7 +140,7 @@ impl Store {
         self.header.codec
     }
 
-    /// Bytes that a node's brick takes in the file: what reading it costs; 0 where all samples are equal.
+    /// Bytes that a node's brick takes in the file: what reading it costs; 0 if all samples are equal.
     pub fn stored_bytes(&self, node: NodeKey) -> u64 {
         match self.find(node) {
             Found::Entry(entry) => entry.extent.bytes(),

@@ -57,7 +57,7 @@ fn clear(row: &mut SpreadRow, tile: usize) {
     rings.into_iter().chain(&mut row.deviation).for_each(|ring| ring.clear(tile));
 }
 
-/// The value of the up to eight fine tiles under a coarse tile; NaN where it is not the same.
+/// The value of the up to eight fine tiles under a coarse tile; NaN if it is not the same.
 fn fine_uniform(fine: &Level, tile_x: usize, tile_y: usize, z: u32) -> f32 {
     let [across, down] = fine.tiles();
     let value = fine.uniform(z, 2 * tile_x, 2 * tile_y);

@@ -25,7 +25,7 @@ pub(super) struct Level {
     /// None at the finest level, whose voxels are the source's own.
     pub spread: Option<Spread>,
     tiles: [usize; 2],
-    /// Of every kept slab, of each tile, x fastest: the value of all its voxels, or NaN where they differ.
+    /// Of every kept slab, of each tile, x fastest: the value of all its voxels, or NaN if they differ.
     uniform: Vec<f32>,
 }
 
@@ -93,7 +93,7 @@ impl Level {
         self.means.place(z) * self.tiles[0] * self.tiles[1]
     }
 
-    /// The value of all voxels of a tile; NaN where they differ.
+    /// The value of all voxels of a tile; NaN if they differ.
     pub fn uniform(&self, z: u32, tile_x: usize, tile_y: usize) -> f32 {
         self.uniform[self.uniform_start(z) + tile_y * self.tiles[0] + tile_x]
     }

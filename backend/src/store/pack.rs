@@ -103,7 +103,7 @@ fn plain(codes: &Codes) -> Cow<'_, [u8]> {
     }
 }
 
-/// The standard deviations of a coarse node, in place of its samples; None where they are not kept or all zero.
+/// The standard deviations of a coarse node, instead of its samples; None if they are not kept or all zero.
 fn deviation(level: &Level, node: NodeKey, samples: &mut Vec<f32>) -> Option<Deviation> {
     let deviation = level.spread.as_ref()?.deviation.as_ref()?;
     level.samples(node, deviation, |_| 0.0, samples);

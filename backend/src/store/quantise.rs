@@ -76,7 +76,7 @@ pub(super) fn quantise_within(samples: &[f32], (low, high): (f32, f32), bits: Co
     Brick::new(codes, low, step)
 }
 
-/// Smallest and largest of some finite samples; infinite where there is none.
+/// Smallest and largest of some finite samples; infinite if there is none.
 pub(super) fn range(samples: &[f32]) -> (f32, f32) {
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
     let larger = |a: f32, b: f32| if a > b { a } else { b };
@@ -92,7 +92,7 @@ pub(super) fn range(samples: &[f32]) -> (f32, f32) {
     (lows, high.iter().chain(rest).copied().fold(f32::NEG_INFINITY, larger))
 }
 
-/// Step for a range: 1 where that is exact, else the range over the codes, rounded down so that no code exceeds `high`.
+/// Step for a range: 1 if that is exact, else the range over the codes, rounded down so that no code exceeds `high`.
 fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     if low == high {
         return 0.0;

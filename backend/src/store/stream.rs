@@ -15,7 +15,7 @@ pub(super) struct CleanSlab {
     pub replaced: u64,
 }
 
-/// Hands every slab of a volume, in order, to `take` until it fails; reads ahead meanwhile. False where `stop` ended it.
+/// Hands every slab of a volume, in order, to `take` until it fails; reads ahead meanwhile. False if `stop` ended it.
 ///
 /// NaN becomes the smallest finite value of the volume; infinities, and what is beyond f32, the smallest and the
 /// largest. To know these, the first slab that has such a voxel makes the rest of the volume be read twice.

@@ -6,7 +6,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How often a file is opened anew that another process renamed between opening and locking.
+/// How often to open a file again that another process renamed between opening and locking.
 const ATTEMPTS: usize = 10;
 /// With what is put around them, longer names exceed the 255 bytes of most file systems.
 const LONGEST_NAME_BYTES: usize = 240;

@@ -208,7 +208,7 @@ impl Link for ClusterLink {
         }
         self.messenger.end();
         has_parted.store(true, Ordering::SeqCst);
-        // Back-ends that are gone from now on are no loss.
+        // Losing a back-end no longer matters from here on.
         *self.roster() = Roster { activity: "working on what was drawn".to_owned(), ..Roster::default() };
         Ok(())
     }

@@ -56,7 +56,7 @@ fn rank_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
 
 static SAID: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, who reads it, is gone, and
+/// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, which reads it, is gone, and
 /// writes the line at once, so that lines of several ranks do not mix.
 pub(super) fn say(program: &str, sentence: &str) {
     let _ = std::io::stderr().write_all(format!("{program}: {sentence}\n").as_bytes());

@@ -7,7 +7,7 @@ use std::time::Duration;
 /// Why a message did not travel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
-    /// Nothing came in the time allowed; the link is as good as before.
+    /// Nothing came in the time allowed; the link still works.
     #[error("no message came in time")]
     Silent,
     /// A back-end is gone.

@@ -54,7 +54,7 @@ impl Roster {
         (0..self.backends.len()).filter(|&backend| self.backends[backend].is_gone()).collect()
     }
 
-    /// One sentence that names those who are gone.
+    /// One sentence that names those that are gone.
     pub fn obituary(&self, gone: &[usize]) -> String {
         let names: Vec<String> = gone.iter().map(|&backend| self.name(backend)).collect();
         format!("{} ended while {}: {WHAT_TO_DO}", names.join(" and "), self.activity)

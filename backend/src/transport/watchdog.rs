@@ -13,8 +13,8 @@ use std::time::{Duration, Instant};
 /// How often the front-end's process is looked for.
 const LOOK_INTERVAL: Duration = Duration::from_millis(250);
 
-/// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; who
-/// stays a little differs from the one that died first.
+/// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; one that
+/// stays a little can then be distinguished from the one that died first.
 const STAY: Duration = Duration::from_millis(700);
 
 /// How long the front-end looks for a dead back-end after that signal. Short: the launcher sends the signal because it

@@ -46,7 +46,7 @@ pub(super) struct FileLayout {
 pub(super) struct FileVolume {
     info: VolumeInfo,
     shape: Shape,
-    /// None where the numbers come in the order of this machine.
+    /// None if the numbers come in the order of this machine.
     byte_order: Option<ByteOrder>,
     stream: DataStream,
     /// Bytes of voxels in each file.

@@ -39,7 +39,7 @@ pub struct Moment<'a> {
     pub most_in_flight: usize,
 }
 
-/// A leaf that rays of the last frame met, on whatever view.
+/// A leaf that rays of the last frame met, in any view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {
     /// Which node.

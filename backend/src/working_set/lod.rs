@@ -111,7 +111,7 @@ impl MeasuredRule {
         self.wanted_at_screen_m + self.slope * z_m
     }
 
-    /// The least and the largest distance between the screen plane and the node's region, metres; the least is 0 where
+    /// The least and the largest distance between the screen plane and the node's region, metres; the least is 0 if
     /// the screen cuts it.
     fn depths_m(&self, shape: &OctreeShape, node: NodeKey) -> (f64, f64) {
         let (low, high) = shape.region(node);

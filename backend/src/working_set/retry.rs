@@ -63,7 +63,7 @@ impl Retry {
         self.families.is_empty() || self.families.get(&key).is_none_or(|&again_s| again_s <= now_s)
     }
 
-    /// When the first of the waits after `now_s` is over; None where nothing will change by waiting.
+    /// When the first of the waits after `now_s` is over; None if nothing will change by waiting.
     pub fn next(&self, now_s: f64) -> Option<f64> {
         let waits = self.failed.values().map(|failure| failure.again_s);
         waits.filter(|&at| at > now_s && at.is_finite()).min_by(f64::total_cmp)

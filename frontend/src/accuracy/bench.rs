@@ -25,7 +25,7 @@ pub struct Measured {
     pub samples_per_ray: f64,
     /// Errors of linear colour and opacity, both from 0 to 1.
     pub errors: Errors,
-    /// Why pictures are not complete; empty where they are.
+    /// Why pictures are not complete; empty if they are.
     pub shortfall: String,
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 
-/// What somebody who works keeps an eye on. It may be asked from many threads at once.
+/// What long work checks and reports to. It may be asked from many threads at once.
 #[derive(Clone)]
 pub struct Watch {
     stop: Arc<AtomicBool>,

@@ -35,7 +35,7 @@ pub struct Subject {
     pub outer: Trapezoid,
     /// Importance over s: else, the inner band's.
     pub importance: Curve<f64>,
-    /// Refraction index over s: else, 1 where nothing is seen and that of thin glass from there on.
+    /// Refraction index over s: else, 1 if nothing is seen and that of thin glass from there on.
     pub refraction: Curve<f64>,
     /// Materials over s: else, matt outside and glossy inside.
     pub materials: Curve<Material>,

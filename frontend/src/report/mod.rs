@@ -43,7 +43,7 @@ pub struct Report {
     pub display: DisplaySummary,
     /// What each back-end drew with.
     pub backends: Vec<DeviceInfo>,
-    /// What is shown in place of the pictures.
+    /// What is shown instead of the pictures.
     pub debug_view: Option<DebugSummary>,
     /// The eyes.
     pub eyes: Vec<EyeSummary>,

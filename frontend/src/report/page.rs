@@ -75,7 +75,7 @@ fn notes(report: &Report) -> String {
     format!("{notes}{}", damages(&report.total))
 }
 
-/// The bricks that could not be read; nothing where all could.
+/// The bricks that could not be read; nothing if all could.
 fn damages(total: &Totals) -> String {
     if total.damaged.is_empty() {
         return String::new();
@@ -84,7 +84,7 @@ fn damages(total: &Totals) -> String {
     format!("<h2>Damaged bricks</h2><p>Their parents are shown instead.</p><ul>{rows}</ul>")
 }
 
-/// The colours of the debug view; nothing where the pictures are shown.
+/// The colours of the debug view; nothing if the pictures are shown.
 fn key(report: &Report, out: &Path) -> Result<String, OutputError> {
     let Some(debug) = &report.debug_view else { return Ok(String::new()) };
     let numbers: Vec<String> = marks(debug.view).into_iter().map(|value| number(debug.view, value)).collect();

@@ -5,7 +5,7 @@ use super::{FrameSummary, units};
 use backend::protocol::{FrameReport, Upkeep};
 
 /// The back-ends of one frame together: counts add up, the largest deficit is that of all, and the mean is over the rays
-/// of all. None where no back-end drew a live frame.
+/// of all. None if no back-end drew a live frame.
 pub(super) fn together<'a>(reports: impl IntoIterator<Item = &'a FrameReport>) -> Option<Upkeep> {
     let mut sum: Option<Upkeep> = None;
     let (mut rays, mut levels) = (0.0, 0.0);
@@ -29,7 +29,7 @@ pub(super) fn together<'a>(reports: impl IntoIterator<Item = &'a FrameReport>) -
     sum
 }
 
-/// A row for each live frame; nothing where there is none.
+/// A row for each live frame; nothing if there is none.
 pub(super) fn section(frames: &[FrameSummary]) -> String {
     let rows: Vec<Vec<String>> =
         frames.iter().filter_map(|frame| Some(row(frame, &frame.total.upkeep?))).collect();

@@ -93,7 +93,7 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
     }
 }
 
-/// Procedural fields are smooth: their shells and vessels need a light that answers to gentle slopes, whatever the
+/// Procedural fields are smooth: their shells and vessels need a light that responds to gentle slopes, whatever the
 /// number of voxels that a slope is spread over.
 fn default_light(volume: &VolumeSource) -> Light {
     match volume {

@@ -29,7 +29,7 @@ impl SceneText {
         range.contains(&value).then_some(value).ok_or_else(|| self.wrong(number.span(), message()))
     }
 
-    /// The number, or `otherwise` where there is none.
+    /// The number, or `otherwise` if there is none.
     pub fn within_or(
         &self,
         number: &Option<Number>,

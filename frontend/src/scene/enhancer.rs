@@ -26,7 +26,7 @@ pub struct SceneEnhancer {
 }
 
 impl SceneEnhancer {
-    /// Where it is in a frame, bands still over data values. A band-picker picks `picked` where there is one.
+    /// Where it is in a frame, bands still over data values. A band-picker picks `picked` if there is one.
     pub(super) fn placed(
         &self,
         volume_centre: DVec3,

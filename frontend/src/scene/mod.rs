@@ -43,7 +43,7 @@ pub struct Scene {
     pub name: String,
     /// Which volume.
     pub volume: VolumeSource,
-    /// Edge lengths of a voxel, metres, in place of what the volume says of itself; its axes' directions stay.
+    /// Edge lengths of a voxel, metres, instead of what the volume says of itself; its axes' directions stay.
     pub voxel_size_m: Option<DVec3>,
     /// Where the volume floats.
     pub placement: Placement,
@@ -57,11 +57,11 @@ pub struct Scene {
     pub light: Option<Light>,
     /// How closely the continuous model is followed.
     pub quality: Quality,
-    /// η in place of the display's.
+    /// η instead of the display's.
     pub eta: Option<f64>,
-    /// The virtual observer in place of the display's, metres.
+    /// The virtual observer instead of the display's, metres.
     pub observer_m: Option<DVec3>,
-    /// The tool at rest, where there is one.
+    /// The tool at rest, if there is one.
     pub tool: Option<Tool>,
     /// What moves.
     pub motion: Motion,

@@ -52,7 +52,7 @@ impl<T: Tween> Track<T> {
         self.keys.push((time_s, value));
     }
 
-    /// The value at a time; None where there are no keys.
+    /// The value at a time; None if there are no keys.
     pub fn at(&self, time_s: f64) -> Option<T> {
         let after = self.keys.partition_point(|key| key.0 <= time_s);
         match (after.checked_sub(1).and_then(|i| self.keys.get(i)), self.keys.get(after)) {

@@ -47,7 +47,7 @@ pub fn load_display(name_or_path: &str) -> Result<Display, FrontendError> {
 
 /// What an eye sees of a display, before any picture is drawn.
 pub struct EyeOptics {
-    /// (projector, weight) pairs at a screen point, metres; they add to 1 where there are any.
+    /// (projector, weight) pairs at a screen point, metres; they add to 1 if there are any.
     pub weights: Box<dyn Fn(DVec2) -> Vec<(usize, f64)>>,
     /// Where the eye is outside the viewing zone: a sentence that says so.
     pub warning: Option<String>,
@@ -60,7 +60,7 @@ pub fn eye_optics(display: &Display, eye_m: DVec3) -> Result<EyeOptics, Frontend
     Ok(EyeOptics { weights: Box::new(move |screen| model.weights(screen)), warning })
 }
 
-/// A map from screen metres to a projector's pixel coordinates; None where the raster is singular.
+/// A map from screen metres to a projector's pixel coordinates; None if the raster is singular.
 pub fn pixel_from_screen(
     display: &Display,
     projector: usize,
@@ -85,7 +85,7 @@ pub struct Backends {
 }
 
 impl Backends {
-    /// Finds the back-ends that a launcher started, or starts `asked` of them (1 where it is None) in this process.
+    /// Finds the back-ends that a launcher started, or starts `asked` of them (1 if it is None) in this process.
     pub fn connect(asked: Option<u32>) -> Result<Self, FrontendError> {
         let link = match launch().map_err(FrontendError::Backend)? {
             Launch::OneProcess => Box::new(

@@ -65,7 +65,7 @@ pub struct ReplayRow {
 }
 
 impl Traces {
-    /// Reads traces and opens their volumes, or the store `moved` in place of all of them.
+    /// Reads traces and opens their volumes, or the store `moved` instead of all of them.
     pub fn open(paths: &[PathBuf], moved: Option<&Path>) -> Result<Self, FrontendError> {
         let traces = paths.iter().map(|path| Trace::open(path, moved)).collect::<Result<_, _>>()?;
         Ok(Self { traces })

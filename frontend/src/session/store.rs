@@ -39,7 +39,7 @@ pub struct StoreSummary {
     pub bits_per_voxel: f64,
     /// Whether coarse levels keep standard deviations.
     pub has_deviation: bool,
-    /// Errors against the source, the finest level first; empty where an older program built the store.
+    /// Errors against the source, the finest level first; empty if an older program built the store.
     pub level_errors: Vec<LevelSummary>,
 }
 

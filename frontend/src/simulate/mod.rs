@@ -65,7 +65,7 @@ impl Job {
         Ok(summaries)
     }
 
-    /// What is shown in place of the pictures, the same in all frames.
+    /// What is shown instead of the pictures, the same in all frames.
     pub fn debug_view(&self) -> Option<DebugView> {
         self.frames.first()?.debug
     }

@@ -39,7 +39,7 @@ impl<F: Real> Brick<'_, F> {
 }
 
 impl<F: Real> Brick<'_, F> {
-    /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something.
+    /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something.
     /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
     /// of a pair are asked as leave none of it farther than a voxel.
     #[inline(always)]

@@ -18,7 +18,7 @@ const OWNER_BYTES_AT: usize = CHECKSUM_AT + size_of::<u32>();
 const OWNER_AT: usize = OWNER_BYTES_AT + size_of::<u32>();
 
 /// A driver never forgets a kernel that it was given, nor what earlier versions of this program composed: a file
-/// beyond this size is given up, and begun anew.
+/// beyond this size is dropped, and started again.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Where one driver's kernels are kept.
@@ -28,7 +28,7 @@ pub(super) struct CacheFile {
     owner: String,
 }
 
-/// The user's folder of compiled kernels, by environment variables; None where there is none, or LIGHTLOOM_NO_CACHE is
+/// The user's folder of compiled kernels, by environment variables; None if there is none, or LIGHTLOOM_NO_CACHE is
 /// set to anything but 0.
 pub(super) fn folder(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let set = |name: &str| variable(name).filter(|value| !value.is_empty());

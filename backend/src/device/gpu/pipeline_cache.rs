@@ -16,7 +16,7 @@ impl PipelineCache {
     /// What adapters must offer for it.
     pub(super) const FEATURES: wgpu::Features = wgpu::Features::PIPELINE_CACHE;
 
-    /// The cache of an adapter, with what the last run left; None where driver or user will not have one.
+    /// The cache of an adapter, with what the last run left; None if driver or user will not have one.
     pub(super) fn open(device: &wgpu::Device, adapter: &wgpu::AdapterInfo) -> Option<Self> {
         if !device.features().contains(Self::FEATURES) {
             return None;
@@ -53,7 +53,7 @@ impl PipelineCache {
     }
 }
 
-/// A cache that begins with `blob` and its checksum, or empty with 0 where wgpu does not want the blob.
+/// A cache that begins with `blob` and its checksum, or empty with 0 if wgpu does not want the blob.
 fn create(device: &wgpu::Device, blob: Option<Vec<u8>>) -> Option<(wgpu::PipelineCache, u32)> {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let descriptor = wgpu::PipelineCacheDescriptor {

@@ -85,7 +85,7 @@ impl Chain {
         self.links.is_empty()
     }
 
-    /// The direction that a link compares gradients with; None where no link looks at gradients.
+    /// The direction that a link compares gradients with; None if no link looks at gradients.
     pub fn looks_along(&self) -> Option<DVec3> {
         self.links.iter().find_map(|link| match link {
             Link::Probe(probe) => Some(probe.view),

@@ -10,7 +10,7 @@ use crate::store::BrickError;
 use glam::{DVec3, DVec4};
 use std::ops::ControlFlow;
 
-/// Times that a way is laid anew, closer to the true one.
+/// How often a way is laid again, closer to the true one.
 const MOST_TRIES: u32 = 7;
 /// The first try's deviation from the way, finest voxels, for a tolerance of 1: it falls with the tolerance's root.
 const FIRST_DEVIATION_VOXELS: f64 = 0.1;

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 /// Smallest 1 − b² − c² − d² of a quaternion that is taken for more than a rounding error.
 const LEAST_SQUARE: f64 = 1e-7;
 
-/// By the affine map where there is one (method 3 of nifti1.h), else by the rotation (method 2), else the voxels'
+/// By the affine map if there is one (method 3 of nifti1.h), else by the rotation (method 2), else the voxels'
 /// edges alone (method 1), whose axes belong to no patient. An impossible map is ignored.
 ///
 /// An unknown unit is taken for millimetres and an unknown length for one of them.

@@ -55,7 +55,7 @@ fn ends(path: &Path, ending: &str) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().to_ascii_lowercase().ends_with(ending))
 }
 
-/// The path with another ending in place of its own, of which `.gz` is a part.
+/// The path with another ending instead of its own, of which `.gz` is a part.
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let unpacked = if ends(path, ".gz") { path.with_extension("") } else { path.into() };
     unpacked.with_extension(&ending[1..])

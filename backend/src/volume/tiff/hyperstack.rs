@@ -41,7 +41,7 @@ impl Hyperstack {
         Self { counts, pages, voxel_mm: [None; 3] }
     }
 
-    /// How many pages counts make; None where they are 0 or beyond all measure.
+    /// How many pages counts make; None if they are 0 or beyond all measure.
     pub fn page_count(counts: [u32; 3]) -> Option<u32> {
         let count = counts.iter().try_fold(1u32, |product, &count| product.checked_mul(count))?;
         (count > 0).then_some(count)

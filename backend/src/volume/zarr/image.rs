@@ -20,9 +20,9 @@ pub(super) struct Image {
 
 /// One resolution of an image.
 pub(super) struct Level {
-    /// The array's folder below the image's; empty where they are the same.
+    /// The array's folder below the image's; empty if they are the same.
     pub path: String,
-    /// Units from a voxel to the next one, and place of the first one, for each dimension; None where nothing is said.
+    /// Units from a voxel to the next one, and place of the first one, for each dimension; None if nothing is said.
     pub placement: Option<Placement>,
 }
 
@@ -123,7 +123,7 @@ fn placement(folder: &Path, json: &Value) -> Result<Option<Placement>, VolumeErr
     Ok(placement)
 }
 
-/// One transformation; None where it does nothing.
+/// One transformation; None if it does nothing.
 fn step(folder: &Path, json: &Value) -> Result<Option<Placement>, VolumeError> {
     let numbers = |key: &str| {
         let list = json[key].as_array().and_then(|list| list.iter().map(Value::as_f64).collect());

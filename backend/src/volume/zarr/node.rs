@@ -22,7 +22,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    /// The node in a folder; None where the folder is not Zarr.
+    /// The node in a folder; None if the folder is not Zarr.
     pub fn read(folder: &Path) -> Result<Option<Self>, VolumeError> {
         if let Some(mut json) = read_json(folder, METADATA_FILES[0])? {
             let attributes = json["attributes"].take();

@@ -94,7 +94,7 @@ impl Loader {
         Ok(())
     }
 
-    /// Puts another list in place of the last: threads read `ordered` from its first on, and `prefetch`, from its first
+    /// Replaces the list: threads read `ordered` from its first on, and `prefetch`, from its first
     /// on, when nothing of `ordered` is left to begin; one thread, if there are two, stays free of `prefetch`. What is
     /// being read is finished and kept for a while, wanted or not. Returns how many queued bricks were dropped.
     ///

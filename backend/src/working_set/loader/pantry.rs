@@ -54,7 +54,7 @@ impl Pantry {
         self.kept.len() as u64 * SAMPLE_BYTES
     }
 
-    /// Whether a brick of such worth would stay, were `coming` others put in before.
+    /// Whether a brick of this worth would stay after `coming` others were put in.
     pub fn has_room(&self, worth: Worth, coming: usize) -> bool {
         let leaving = (self.kept.len() + coming + 1).saturating_sub(self.capacity);
         leaving == 0 || self.order.keys().nth(leaving - 1).is_some_and(|&last| last < worth)

@@ -24,14 +24,14 @@ pub struct Account {
     pub loaded_again: u64,
     /// Bytes that disks read.
     pub bytes_read: u64,
-    /// The mean over frames of what rays found too coarse on average, levels; 0 where no rays met anything.
+    /// The mean over frames of what rays found too coarse on average, levels; 0 if no rays met anything.
     pub mean_deficit: f64,
-    /// That of the frame which 99 in 100 are no worse than.
+    /// That of the frame that 99 in 100 do not exceed.
     pub high_deficit: f64,
     /// The largest deficit in the last frame, levels.
     pub deficit_at_end: f64,
     /// From the first frame to the first one in which rays found nothing too coarse, seconds; of several back-ends the
-    /// longest. None where one never came so far.
+    /// longest. None if one never came so far.
     pub seconds_to_rest: Option<f64>,
     /// Families that came.
     pub splits: u64,

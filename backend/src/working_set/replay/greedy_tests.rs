@@ -254,7 +254,7 @@ fn shells(dims: UVec3) -> ProceduralVolume {
 }
 
 /// LIGHTLOOM_CACHE_MIB=64,256 tries other caches; LIGHTLOOM_TRACE=x.trace plays a recording of shells to and fro from frame
-/// LIGHTLOOM_FROM on, in place of shells of 4096³ voxels that pass.
+/// LIGHTLOOM_FROM on, instead of shells of 4096³ voxels that pass.
 #[test]
 #[ignore = "prints figures, some minutes long"]
 fn figures() {

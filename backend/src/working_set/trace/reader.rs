@@ -80,7 +80,7 @@ impl TraceReader {
     }
 
     fn check(&self, line: &FrameLine) -> Result<(), String> {
-        // A clock that runs backwards, or is no number, would undo fades.
+        // A clock that runs backwards, or is NaN, would undo fades.
         if line.time_s.partial_cmp(&self.last_time_s).is_none_or(std::cmp::Ordering::is_lt) {
             return Err(format!("time_s {} comes after {}", line.time_s, self.last_time_s));
         }

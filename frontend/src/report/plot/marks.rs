@@ -41,7 +41,7 @@ pub(super) fn shape(series: &Series, (x, y): (f64, f64), title: &str) -> String 
     }
 }
 
-/// The line through places; nothing where the series has none.
+/// The line through places; nothing if the series has none.
 pub(super) fn line(series: &Series, places: &[(f64, f64)]) -> String {
     let kind = match series.stroke {
         Stroke::None => return String::new(),

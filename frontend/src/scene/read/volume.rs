@@ -63,7 +63,7 @@ impl SceneText {
         Ok(Placement { centre_m, rotation: rotation_from_deg(deg), axes, size })
     }
 
-    /// Which way the volume stands; None where the file leaves it to the volume.
+    /// Which way the volume stands; None if the file leaves it to the volume.
     fn axes(&self, place: &PlacementTable, table: Range<usize>) -> Checked<Option<VolumeAxes>> {
         if place.up.is_none() && place.front.is_none() && place.right.is_none() {
             return Ok(None);

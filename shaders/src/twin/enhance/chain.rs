@@ -108,7 +108,7 @@ impl<F: Real> Chain<F> {
         self.follow(scene, ray);
     }
 
-    /// The breaks anew, for another straight way.
+    /// The breaks again, for another straight way.
     #[inline(never)]
     pub fn follow(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {
@@ -128,7 +128,7 @@ impl<F: Real> Chain<F> {
         next
     }
 
-    /// How much the links make samples around t vary within a step; 0 where none looks at gradients.
+    /// How much the links make samples around t vary within a step; 0 if none looks at gradients.
     #[inline(always)]
     pub fn spread<K: Kernel>(&self, scene: &Scene<F>, t: F) -> F {
         let mut sum = F::ZERO;
