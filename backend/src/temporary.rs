@@ -1,4 +1,4 @@
-//! Working files beside what they are to become.
+//! Working files beside their final places.
 
 use std::io;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! A progress bar for what takes longer than a moment.
+//! A progress bar for long work.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::{Duration, Instant};

@@ -122,7 +122,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
     return front;
 }
 
-// Adds a pair of steps that meets nothing but scalars within `range`: the first along one straight way, the second along
+// Adds a pair of steps that meets nothing but scalars within `range`: the first along one straight path, the second along
 // another, which is the same where light is not bent. Yields the number of parts that each was cut into.
 fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
     t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>) -> f32 {

@@ -1,4 +1,4 @@
-//! Feedback tables between the end of their frame and whoever takes them.
+//! Feedback tables between the end of their frame and the moment they are taken.
 
 use std::collections::VecDeque;
 

@@ -1,4 +1,4 @@
-//! Why an export did not come about.
+//! Why an export failed.
 
 use crate::store::BrickError;
 use crate::volume::Element;

@@ -62,7 +62,7 @@ impl Band {
     }
 }
 
-/// How strongly importance erases what lies before it.
+/// How strongly importance erases what lies in front of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Erasure {
     /// γ in (0, 1].

@@ -1,4 +1,4 @@
-//! A ray in the display frame, with the line it is in the volume frame.
+//! A ray in the display frame, with its line in the volume frame.
 
 use glam::{DAffine3, DVec3};
 

@@ -82,7 +82,7 @@ impl View<'_> {
         Scene { integrator, medium, chain: &self.chain, brightest, levels }
     }
 
-    /// A straight way of such a ray.
+    /// A straight path of such a ray.
     pub fn course(&self, way: &Ray) -> Course {
         let setting = self.setting;
         let (low, high) = setting.medium.optics().domain;

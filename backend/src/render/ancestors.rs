@@ -1,4 +1,4 @@
-//! The bricks above a node, as filtering over levels looks at them.
+//! The bricks above a node, as filtering over levels reads them.
 
 use crate::store::{CellRanges, NodeKey, OVERLAP, OWN_EDGE};
 use crate::working_set::ResidentBrick;

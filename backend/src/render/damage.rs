@@ -1,4 +1,4 @@
-//! The bricks that could not be read: which, why, and which of them the present frame missed.
+//! The bricks that could not be read: which, why, and which of them the current frame missed.
 
 use crate::store::{BrickError, NodeKey};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,4 @@
-//! One frame: a coarse look by few rays to fetch what they need, then every pixel, again where something was missing.
+//! One frame: a coarse pass of few rays to fetch what they need, then every pixel, again where something was missing.
 
 use super::residency::{Residency, milliseconds};
 use super::rules::FrameRules;

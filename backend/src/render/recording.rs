@@ -1,4 +1,4 @@
-//! The trace of what rays of live frames asked for, where one is wanted.
+//! The trace of what rays of live frames asked for, if one is wanted.
 
 use super::RenderError;
 use crate::device::MOST_UNDER_WAY;

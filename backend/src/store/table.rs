@@ -1,4 +1,4 @@
-//! The table of an open store: from a node to what is known of it, read block by block as it is asked for.
+//! The table of an open store: from a node to what is known of it, read block by block on demand.
 
 use super::entry::{ENTRY_BYTES, Entry};
 use super::format::Header;

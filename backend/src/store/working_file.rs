@@ -1,4 +1,4 @@
-//! A file that is being written: beside the one that it will be, locked, and gone when the work is given up.
+//! A file being written: beside its final place, locked, and removed if the work is abandoned.
 
 use super::bytes::checksum;
 use std::ffi::{OsStr, OsString};

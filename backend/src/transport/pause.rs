@@ -1,4 +1,4 @@
-//! The wait between two looks at whether a message has come.
+//! The pause between two checks for a message.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Whether a process of this machine is still there.
+//! Whether a process of this machine still runs.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! A thread that ends this process when the run is over and the main thread may be too busy to see it.
+//! A thread that ends this process when the run is over, even if the main thread is too busy to notice.
 
 use super::launch::{is_first_to_say, say};
 use super::roster::{Peer, Roster};

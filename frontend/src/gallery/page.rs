@@ -1,4 +1,4 @@
-//! A gallery as one page that needs nothing else.
+//! A gallery as one self-contained page.
 
 use super::{EYES, Exhibit, Gallery, Shot};
 use crate::report::html::{embedded_image, escape};

@@ -1,4 +1,4 @@
-//! What a gallery shows techniques on: a scene without any, and what techniques need to know of it.
+//! The subject of a gallery: a scene without techniques, and what techniques need to know of it.
 
 use super::curves::{most, opaque_part, over_band, rise_in, scaled};
 use crate::FrontendError;
@@ -50,7 +50,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// The subject that a scene makes before a display, no larger than the screen's shorter edge.
+    /// The subject that a scene makes in front of a display, no larger than the screen's shorter edge.
     ///
     /// # Errors
     /// A look that does not fit the volume, or an observer that no eye has a viewing zone beside.

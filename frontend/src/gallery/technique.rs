@@ -1,4 +1,4 @@
-//! The techniques of illustration that a gallery shows.
+//! The illustrative techniques that a gallery shows.
 
 use super::Subject;
 use backend::protocol::FrameState;

@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing else.
+//! The report as one self-contained page.
 
 use super::html::{embedded_image, escape, facts, table};
 use super::stage_bar::stage_bar;

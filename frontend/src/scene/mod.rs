@@ -175,7 +175,7 @@ impl Scene {
     }
 }
 
-/// A tool that nothing has moved: before the screen, pointing at it.
+/// A tool that nothing has moved: in front of the screen, pointing at it.
 fn tool_at_rest(kind: ToolKind) -> Tool {
     Tool { kind, tip_in_display: DVec3::new(0.0, 0.0, 0.5), axis_in_display: DVec3::NEG_Z }
 }

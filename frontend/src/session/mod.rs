@@ -1,6 +1,6 @@
 //! Where the front-end meets what it drives: displays, volumes, importers and back-ends.
 //!
-//! Everything that the commands need from elsewhere passes through this folder and no other.
+//! The commands reach readers, stores and back-ends through here.
 
 mod import;
 mod levels;

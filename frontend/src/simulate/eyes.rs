@@ -1,4 +1,4 @@
-//! Eyes before the display, and what they see while pictures come.
+//! Eyes in front of the display, and what they see while pictures come.
 
 use crate::FrontendError;
 use crate::session::{eye_optics, pixel_from_screen};
@@ -8,7 +8,7 @@ use display_config::Display;
 use glam::DVec3;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// An eye before the display.
+/// An eye in front of the display.
 pub struct Eye {
     /// Where it is, display frame, metres.
     pub position_m: DVec3,
@@ -22,7 +22,7 @@ impl Eye {
     /// The eye at a place, display frame, metres.
     ///
     /// # Errors
-    /// A place that is not before the screen.
+    /// A place that is not in front of the screen.
     pub fn before(display: &Display, position_m: DVec3) -> Result<Self, FrontendError> {
         let optics = eye_optics(display, position_m)?;
         let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), optics.weights);

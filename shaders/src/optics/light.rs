@@ -1,4 +1,4 @@
-//! The one directional light of a scene, with the material's answer to it.
+//! The one directional light of a scene, and the shading law.
 
 use super::Material;
 use super::bounds::{OutOfBounds, held};

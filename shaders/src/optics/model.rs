@@ -33,7 +33,7 @@ pub enum MimdaForm {
 pub struct Mimda {
     /// Importance ι of the normalised scalar, in [0, 1].
     pub importance: Curve<f64>,
-    /// γ in [0, 1]: 0 is ordinary compositing, 1 lets full importance erase what lies before it.
+    /// γ in [0, 1]: 0 is ordinary compositing, 1 lets full importance erase what lies in front of it.
     pub gamma: f64,
     /// Which form.
     pub form: MimdaForm,
@@ -200,7 +200,7 @@ impl Optics {
     }
 
     /// Whether data values in [min, max] leave a picture as it is: no extinction, nor any importance, which acts
-    /// on what lies before it even where there is nothing to see, nor any change of the refraction index.
+    /// on what lies in front of it even where there is nothing to see, nor any change of the refraction index.
     pub fn is_empty_on(&self, min: f64, max: f64) -> bool {
         let (lo, hi) = (self.normalise(min), self.normalise(max));
         let bends = self.refraction.as_ref().is_some_and(|index| !index.is_constant_on(lo, hi));

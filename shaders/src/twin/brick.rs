@@ -1,4 +1,4 @@
-//! A ray's way through one brick: light and steps.
+//! A ray's path through one brick: light and steps.
 
 use super::composite::{Accumulated, Composite, Light, Sample};
 use super::debug::debug_light;
@@ -63,7 +63,7 @@ impl<F: Real> Brick<'_, F> {
     }
 }
 
-/// A straight way through a brick.
+/// A straight path through a brick.
 #[derive(Clone, Copy)]
 pub(super) struct Straight<'a, F> {
     pub(super) brick: &'a Brick<'a, F>,

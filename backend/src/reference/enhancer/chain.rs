@@ -118,7 +118,7 @@ impl Chain {
         })
     }
 
-    /// The t of a straight way at which a link's law is not smooth, in rising order.
+    /// The t of a straight path at which a link's law is not smooth, in rising order.
     pub fn breaks(&self, way: &Ray) -> Vec<f64> {
         let mut breaks = Vec::new();
         for link in &self.links {

@@ -1,4 +1,4 @@
-//! The laws of geometrical optics that a way must keep.
+//! The laws of geometrical optics that a path must keep.
 
 use super::Index;
 use super::bending::Bending;

@@ -108,7 +108,7 @@ impl<F: Real> Chain<F> {
         self.follow(scene, ray);
     }
 
-    /// The breaks again, for another straight way.
+    /// The breaks again, for another straight path.
     #[inline(never)]
     pub fn follow(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
         for (i, kind) in scene.needs.chain.kinds().enumerate() {

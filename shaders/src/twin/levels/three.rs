@@ -8,7 +8,7 @@ use crate::twin::kernel::Kernel;
 use crate::twin::traverse::voxel_edge;
 use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
 
-/// What stays the same on a straight way through one brick. Where an ancestor has no brick, the level below stands for it.
+/// What stays the same on a straight path through one brick. Where an ancestor has no brick, the level below stands for it.
 #[derive(Clone, Copy)]
 pub struct Brick<'a, F> {
     /// The node.
@@ -29,7 +29,7 @@ pub struct Brick<'a, F> {
 }
 
 impl<'a, F: Real> Brick<'a, F> {
-    /// The brick of a node, on a straight way.
+    /// The brick of a node, on a straight path.
     #[inline(always)]
     pub fn new<K: Kernel>(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
         let finest = scene.view.finest_depth;

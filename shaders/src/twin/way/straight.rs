@@ -1,4 +1,4 @@
-//! A straight ray's way through the volume.
+//! A straight ray's path through the volume.
 
 use crate::layout::{NO_NODE, NO_SLOT};
 use crate::twin::brick::{PairOfSteps, Straight, add_pair};
