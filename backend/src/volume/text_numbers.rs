@@ -148,6 +148,6 @@ mod tests {
         assert!(said(Element::I64, "inf").contains("\"inf\""));
         assert!(said(Element::I16, "1 two").contains("\"two\""));
         assert!(said(Element::F64, &"1".repeat(9999)).contains("too long"));
-        assert!(said(Element::F64, "1 \u{fffd}").contains("no number"));
+        assert!(said(Element::F64, "1 \u{fffd}").contains("not a number"));
     }
 }

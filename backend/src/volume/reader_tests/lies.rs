@@ -53,7 +53,7 @@ fn nrrd_axes_and_directions_that_lie() {
     assert!(space("(1,0,0) (0,1,0) (0,1,0)").contains("in a plane"));
     assert!(space("(1,0,0) (0,1,0) (0,0,0)").contains("voxel size"));
     assert!(space("(1,0,0) (0,1,0) none").contains("2 of its 3 axes"));
-    assert!(space("(1,0,0) (0,1,0) (0,0,1)\nspace origin: (inf,0,0)").contains("no number"));
+    assert!(space("(1,0,0) (0,1,0) (0,0,1)\nspace origin: (inf,0,0)").contains("not a number"));
 }
 
 #[test]
