@@ -117,9 +117,7 @@ pub enum ConfigError {
     )]
     Placement { place: Place, count: usize },
     /// A raster that falls on a line, on a point, or across the horizon.
-    #[error(
-        "{place} is singular: the raster has no area on the screen; measure it again"
-    )]
+    #[error("{place} is singular: the raster has no area on the screen; measure it again")]
     SingularRaster { place: Place },
     /// Two projectors of one name.
     #[error("{place} `{name}` is already the name of another projector; give each its own")]

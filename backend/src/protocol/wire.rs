@@ -162,10 +162,7 @@ fn decode_body<M: DeserializeOwned>(body: &[u8]) -> Result<M, WireError> {
     if used == body.len() {
         Ok(message)
     } else {
-        Err(WireError::Damaged(format!(
-            "its body has {} bytes, of which {used} mean something",
-            body.len()
-        )))
+        Err(WireError::Damaged(format!("its body has {} bytes, of which {used} mean something", body.len())))
     }
 }
 

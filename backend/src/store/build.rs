@@ -208,7 +208,8 @@ fn memory_for_rings(
     let least = slabs.saturating_add(tiles);
     if least > options.memory_bytes.max(LEAST_MEMORY_BYTES) {
         let (least, given) = (least >> 20, options.memory_bytes >> 20);
-        let what = format!("slabs of {} need {least} MiB of memory, but only {given} MiB are allowed", info.dims);
+        let what =
+            format!("slabs of {} need {least} MiB of memory, but only {given} MiB are allowed", info.dims);
         return Err(StoreError::Input { input: info.name.clone(), what });
     }
     Ok(options.memory_bytes.saturating_sub(least))

@@ -180,7 +180,9 @@ impl Header {
             table_offset: u64_at(bytes, TABLE_AT),
             stored_bricks: Some(u64_at(bytes, STORED_AT)),
             levels: (0..levels).map(level).collect(),
-            source_name: str::from_utf8(name).map_err(|_| damaged("the source's name is not UTF-8 text"))?.into(),
+            source_name: str::from_utf8(name)
+                .map_err(|_| damaged("the source's name is not UTF-8 text"))?
+                .into(),
         })
     }
 }

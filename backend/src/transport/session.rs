@@ -186,7 +186,9 @@ impl Session {
                 FromBackend::Progress { done, total } => EventKind::Progress { done, total },
                 FromBackend::Image(image) => EventKind::Image(image),
                 FromBackend::Done(report) if report.frame == frame.index => return Answer::Given(*report),
-                FromBackend::Done(_) => return Answer::Misfit("it drew another frame than the one it was asked for"),
+                FromBackend::Done(_) => {
+                    return Answer::Misfit("it drew another frame than the one it was asked for");
+                }
                 _ => return Answer::Misfit("it answered a frame with something other than pictures"),
             };
             on_event(SessionEvent { backend, kind });

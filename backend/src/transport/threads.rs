@@ -103,7 +103,8 @@ impl Link for ThreadLink {
         for (backend, thread) in threads.into_iter().enumerate() {
             while !thread.is_finished() {
                 if since.elapsed() > PARTING {
-                    let how = format!("its thread still runs {} s after it was asked to end", PARTING.as_secs());
+                    let how =
+                        format!("its thread still runs {} s after it was asked to end", PARTING.as_secs());
                     return Err(LinkError::Ended { backend, how });
                 }
                 std::thread::sleep(Duration::from_millis(1));

@@ -45,10 +45,7 @@ fn text(args: &ImportArgs, summary: &ImportSummary) -> String {
         text += &format!("; {} bricks were left out as empty", units::count(summary.emptied_bricks));
     }
     if summary.non_finite > 0 {
-        text += &format!(
-            "; {} non-finite voxels were replaced",
-            units::count(summary.non_finite)
-        );
+        text += &format!("; {} non-finite voxels were replaced", units::count(summary.non_finite));
     }
     let levels = level_table(&summary.level_errors);
     if levels.is_empty() { text } else { format!("{text}\n{}", levels.trim_end()) }

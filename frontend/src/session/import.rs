@@ -131,7 +131,9 @@ fn selection(args: &ImportArgs) -> Result<Selection, FrontendError> {
 fn raw_layout(args: &ImportArgs) -> Result<Option<RawLayout>, FrontendError> {
     let (Some(dims), Some(element)) = (args.raw.dims, &args.raw.element) else { return Ok(None) };
     let unknown = || {
-        FrontendError::Volume(format!("`{element}` is not a voxel type; give uint8, int16, float or the like"))
+        FrontendError::Volume(format!(
+            "`{element}` is not a voxel type; give uint8, int16, float or the like"
+        ))
     };
     Ok(Some(RawLayout {
         dims,

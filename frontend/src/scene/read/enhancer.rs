@@ -148,7 +148,9 @@ impl SceneText {
             return Err(self.wrong(carried.span(), message));
         }
         match table.given().find(|(name, _)| OF_THE_TOOL.contains(name)) {
-            Some((_, span)) => Err(self.wrong(span, "the tool that carries it decides this; remove this line")),
+            Some((_, span)) => {
+                Err(self.wrong(span, "the tool that carries it decides this; remove this line"))
+            }
             None => Ok(()),
         }
     }
