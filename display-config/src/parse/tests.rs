@@ -161,7 +161,7 @@ fn numbers_outside_their_range_are_refused() {
         ("1.6", "-1.6", "line 2: `screen_width_m` is -1.6; give a length in metres, above 0"),
         ("0.9\n", "0\n", "line 3: `screen_height_m` is 0; give a length"),
         ("0.0015", "0", "line 4: `pixel_size_m` is 0; give a length"),
-        ("0.8\n", "0\n", "line 5: `angular_accuracy_deg` is 0; give an angle in degrees between 0 and 180"),
+        ("0.8\n", "0\n", "line 5: `angular_accuracy_deg` is 0; give an angle in degrees above 0"),
         ("0.8\n", "180\n", "line 5: `angular_accuracy_deg` is 180; give an angle"),
         ("3.0]", "0]", "line 6: `observer_m` is 0; give an observer before the screen"),
         ("3.0]", "-3.0]", "line 6: `observer_m` is -3; give an observer before the screen"),
