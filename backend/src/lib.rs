@@ -1,13 +1,7 @@
-//! The renderer: volume store, working set, devices, reference integrator, outputs, exports, protocol and transports.
+//! What both programs open a back-end with: the volume, the renderer, the log.
 
-pub mod device;
-pub mod export;
-pub mod output;
-pub mod protocol;
-pub mod reference;
-pub mod render;
-pub mod store;
-mod temporary;
-pub mod transport;
-pub mod volume;
-pub mod working_set;
+mod log;
+mod open;
+
+pub use log::start_log;
+pub use open::{open_renderer, open_volume};

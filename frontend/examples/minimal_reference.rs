@@ -1,9 +1,9 @@
 //! One pixel as the 64-bit reference sees it: `cargo run --release -p frontend --example minimal_reference`.
 
-use backend::reference::{Integrator, Reference};
-use backend::working_set::LodRule;
+use bricks::LodRule;
 use frontend::scene::{Scene, VolumeFacts};
 use frontend::session;
+use reference::{Integrator, Reference};
 use std::error::Error;
 
 /// Near the middle of `desk8`.

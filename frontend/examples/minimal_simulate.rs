@@ -1,11 +1,11 @@
 //! From a scene to the pictures of a display's projectors: `cargo run --release -p frontend --example minimal_simulate -- DIR`.
 
-use backend::protocol::{DeviceChoice, FilterChoice, Setup};
 use frontend::FrontendError;
 use frontend::progress::Progress;
 use frontend::scene::{Scene, VolumeFacts};
 use frontend::session::{self, Backends};
 use frontend::simulate::Job;
+use protocol::{DeviceChoice, FilterChoice, Setup};
 use std::path::PathBuf;
 
 fn main() -> Result<(), FrontendError> {

@@ -1,10 +1,11 @@
 //! Builds a store, opens it, and reads one brick: `cargo run --release -p frontend --example minimal_store -- DIR`.
 
-use backend::store::{Brick, BrickSource, ImportOptions, NodeKey, OVERLAP, Store, import};
-use backend::volume::Selection;
+use bricks::store::Store;
+use bricks::{Brick, BrickSource, NodeKey, OVERLAP};
 use glam::UVec3;
 use std::error::Error;
 use std::path::PathBuf;
+use volumes::{ImportOptions, Selection, import};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".to_owned()));

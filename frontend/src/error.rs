@@ -2,7 +2,7 @@
 
 use crate::accuracy::AccuracyError;
 use crate::scene::SceneError;
-use backend::output::OutputError;
+use renderer::output::OutputError;
 use std::path::PathBuf;
 
 /// Each is one sentence for the person who started the program.

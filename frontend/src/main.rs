@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| usage(&error));
-    backend::transport::start_log();
+    backend::start_log();
     match frontend::command::run(&cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         // Only this process is at work then, so nothing else has to be ended.
@@ -18,7 +18,7 @@ fn main() -> ExitCode {
             complain(&error.to_string());
             std::process::exit(INTERRUPTED)
         }
-        Err(error) => backend::transport::fail("lightloom", &error.to_string()),
+        Err(error) => transport::fail("lightloom", &error.to_string()),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Which way a volume's axes point, in the few words that people and programs read.
 
-use backend::volume::{Space, VolumeFrame};
+use bricks::volume::{Space, VolumeFrame};
 use glam::{DMat3, DVec3};
 use serde::Serialize;
 

@@ -1,9 +1,9 @@
 //! Pre-integrated transfer functions: curves made into tables of f and F = ∫ f.
 
 use crate::compose::{Compositing, Needs, Way};
-use crate::layout::{ImportanceEntry, OpticsEntry};
-use crate::optics::{Curve, Optics};
 use glam::DVec3;
+use layout::{ImportanceEntry, OpticsEntry};
+use optics::{Curve, Optics};
 
 /// Entries of a table: nodes at s = i / (TABLE_ENTRIES − 1).
 pub const TABLE_ENTRIES: usize = 1024;
@@ -197,7 +197,7 @@ fn split<const N: usize>(sums: [Sum; N]) -> ([f32; N], [f32; N]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::ExtinctionUnit;
+    use optics::ExtinctionUnit;
 
     fn optics(points: Vec<(f64, f64)>) -> Optics {
         Optics {

@@ -1,8 +1,8 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
+use layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, Params};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shaders::compose::KernelKey;
-use shaders::layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, Params};
 use std::mem::{offset_of, size_of};
 
 fn parse(wgsl: &str) -> naga::Module {

@@ -3,19 +3,22 @@
 //! `cargo bench -p lightloom-tests --bench all_views`; LIGHTLOOM_BENCH_VIEWS=n takes n views, evenly spread, and
 //! LIGHTLOOM_BENCH_DEVICES=cpu,gpu the devices named.
 
-use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
-use backend::render::{RenderEvent, Renderer};
-use backend::store::{BrickSource, BuildOptions, CodeBits, ImportOptions, Store, import};
-use backend::volume::{ByteOrder, Element, RawLayout, Selection};
+use bricks::BrickSource;
+use bricks::store::{BuildOptions, CodeBits, Store};
+use bricks::volume::{ByteOrder, Element};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::head::head;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::{compare, draw, scenes};
-use shaders::optics::{Light, Optics, Quality};
+use optics::{Light, Optics, Quality};
+use protocol::{DeviceChoice, FrameState, ProjectorImage, RenderEvent};
+use renderer::Renderer;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
+use volumes::{ImportOptions, import};
+use volumes::{RawLayout, Selection};
 
 /// As a scanner gives a head: 512 × 512 × 133.
 const DIMS: UVec3 = UVec3::new(512, 512, 133);

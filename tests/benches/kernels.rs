@@ -6,17 +6,16 @@
 //! processor draws, also as Mesa's software GPU, it is the process's processor time, which others on the machine disturb
 //! less; elsewhere it is the wall-clock time of casting.
 
-use backend::protocol::{DeviceChoice, FilterChoice, FrameState, ProjectorImage};
-use backend::render::Renderer;
-use backend::store::{BrickSource, CodeBits};
+use bricks::BrickSource;
+use bricks::store::CodeBits;
 use display_config::Display;
 use glam::DVec3;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::{compare, data, draw};
-use shaders::optics::{
-    BandPicker, ClipPlane, Enhancer, LayerOpacity, Light, Probe, Quality, Ramp, Trapezoid,
-};
+use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Light, Probe, Quality, Ramp, Trapezoid};
+use protocol::{DeviceChoice, FilterChoice, FrameState, ProjectorImage};
+use renderer::Renderer;
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;

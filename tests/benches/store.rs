@@ -5,10 +5,9 @@
 //! builds n³ voxels of procedural:sparse-vessels instead (4096: an hour and more on a slow machine, and room for the
 //! store), and LIGHTLOOM_BENCH_DIR is the folder for the files.
 
-use backend::store::{
-    BrickSource, BuildOptions, BuildReport, CodeBits, Codec, ImportOptions, NodeKey, Store, import,
-};
-use backend::volume::{ByteOrder, Element, RawLayout, Selection};
+use bricks::store::{BuildOptions, BuildReport, CodeBits, Codec, Store};
+use bricks::volume::{ByteOrder, Element};
+use bricks::{BrickSource, NodeKey};
 use glam::{DVec3, UVec3};
 use lightloom_tests::head::head;
 use lightloom_tests::random::Random;
@@ -18,6 +17,8 @@ use std::fs::File;
 use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use volumes::{ImportOptions, import};
+use volumes::{RawLayout, Selection};
 
 const MIB: f64 = (1 << 20) as f64;
 /// Builds of each kind; the median of them is shown.

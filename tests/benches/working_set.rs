@@ -4,11 +4,12 @@
 //! volume is a box of solid values that moves to and fro in front of the screen; rays meet every leaf, a tenth of the leaves
 //! changes its depth in a second, and every brick comes at once.
 
-use backend::store::{NodeKey, NodeSummary, OctreeShape};
-use backend::working_set::{IndexRules, LodRule, Met, Moment, WorkingSet, corner_weights};
+use bricks::LodRule;
+use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
 use lightloom_tests::results::{Program, Results};
-use shaders::optics::{Curve, ExtinctionUnit, Optics};
+use optics::{Curve, ExtinctionUnit, Optics};
+use renderer::working_set::{IndexRules, Met, Moment, WorkingSet, corner_weights};
 use std::time::Instant;
 
 /// Finest voxels along an edge: eight levels.

@@ -2,15 +2,15 @@
 //!
 //! `cargo run --release -p lightloom-tests --example blending`. Contenders take turns; times are medians.
 
-use backend::device::{CpuDevice, Device};
 use display_config::Display;
 use lightloom_tests::blending_scenes::{self, is_split};
 use lightloom_tests::presented::{Presented, picture};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, view};
+use optics::{Curve, Light};
+use renderer::device::{CpuDevice, Device};
 use shaders::compose::Needs;
-use shaders::optics::{Curve, Light};
 use std::sync::Arc;
 
 const PROJECTOR: u32 = 5;

@@ -14,11 +14,8 @@
 //! largest numbers are the surface's own bends. `--fades` draws cold starts alone, one for each fade, until they are at
 //! rest.
 
-use backend::output::write_png;
-use backend::protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
-use backend::render::Renderer;
-use backend::store::BrickSource;
-use backend::volume::procedural::{ProceduralVolume, field_named};
+use bricks::BrickSource;
+use bricks::procedural::{ProceduralVolume, field_named};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::borders::{BorderSteps, Shown, border_steps, is_one_surface, shown};
@@ -31,7 +28,10 @@ use lightloom_tests::motion::{
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, with_raster};
-use shaders::optics::{Light, Optics};
+use optics::{Light, Optics};
+use protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
+use renderer::Renderer;
+use renderer::output::write_png;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -234,7 +234,7 @@ fn stays(surfaces: &[Surface], first: usize, pixel: usize, pixel_m: f64) -> bool
 fn write_pictures(folder: &Path, name: &str, images: &[ProjectorImage], at: usize) -> Result<(), String> {
     let file =
         |what: &str| folder.join(format!("{}-{what}.png", name.replace([' ', ','], "-").replace("--", "-")));
-    let text = |error: backend::output::OutputError| error.to_string();
+    let text = |error: renderer::output::OutputError| error.to_string();
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     if let Some(last) = images.last() {
         write_png(&file("last"), borrowed(last)).map_err(text)?;

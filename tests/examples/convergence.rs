@@ -9,9 +9,7 @@
 //! rounding does not hide the order. The published form of MImDA depends on the step: it is compared with the limit that it
 //! creeps toward, and with the reference over the same steps.
 
-use backend::protocol::FrameState;
-use backend::reference::{Errors, Field, Integrator, Radiance, Ray, Reference, Segmentation};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use frontend::report::plot::{Chart, Mark, Point, Series, Stroke};
 use glam::{DQuat, DVec3, UVec3};
@@ -20,8 +18,10 @@ use lightloom_tests::compare::lod_rule;
 use lightloom_tests::results::{self, Program, Results};
 use lightloom_tests::scenes::{frame, optics, placed};
 use lightloom_tests::twin_scene::{TwinScene, view};
+use optics::{Curve, Light, Mimda, MimdaForm, Quality};
+use protocol::FrameState;
 use rayon::prelude::*;
-use shaders::optics::{Curve, Light, Mimda, MimdaForm, Quality};
+use reference::{Errors, Field, Integrator, Radiance, Ray, Reference, Segmentation};
 use shaders::twin::Real;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -7,12 +7,12 @@
 //! SCENE: only scenes whose name contains it; all without it. `--gpu`: by the GPU instead of the CPU. `--no-light`: without
 //! shading, which tells the errors of shading from those of compositing. `--with`: with one of the illustrative techniques.
 
-use backend::protocol::DeviceChoice;
 use display_config::Display;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES};
 use lightloom_tests::{compare, draw};
+use protocol::DeviceChoice;
 use std::time::Instant;
 
 /// Longest step in voxels, and error allowed per step.

@@ -4,9 +4,8 @@
 //! Each error is against the reference of the same setting: what sampling costs, not what levels of detail leave out.
 //! Samples are those of a second picture, when every brick is there; gradients are not counted.
 
-use backend::protocol::{DeviceChoice, FrameState};
-use backend::store::BrickSource;
-use backend::volume::procedural::ProceduralVolume;
+use bricks::BrickSource;
+use bricks::procedural::ProceduralVolume;
 use display_config::Display;
 use glam::{DQuat, EulerRot, UVec3};
 use lightloom_tests::compare;
@@ -14,7 +13,8 @@ use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, with_raster};
-use shaders::optics::{Light, Quality};
+use optics::{Light, Quality};
+use protocol::{DeviceChoice, FrameState};
 use std::sync::Arc;
 
 /// Near the middle.

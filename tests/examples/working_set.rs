@@ -10,9 +10,8 @@
 //! A cache also holds what is above the leaves, and the rest of each family of eight: both are counted. The control shows
 //! how far the two counts are apart where nothing hides anything: bricks whose bounds promise more than rays find.
 
-use backend::protocol::{DeviceChoice, FrameReport, FrameState};
-use backend::store::BrickSource;
-use backend::volume::procedural::ProceduralVolume;
+use bricks::BrickSource;
+use bricks::procedural::ProceduralVolume;
 use display_config::Display;
 use glam::{DQuat, UVec3};
 use lightloom_tests::data;
@@ -21,7 +20,8 @@ use lightloom_tests::ideal_cut::{IdealCut, ideal_cut};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, Colours, Points, scaled, with_raster};
-use shaders::optics::Optics;
+use optics::Optics;
+use protocol::{DeviceChoice, FrameReport, FrameState};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;

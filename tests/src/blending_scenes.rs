@@ -3,11 +3,11 @@
 use crate::closure_volume::ClosureVolume;
 use crate::presented::{Corner, Presented};
 use crate::scenes::{self, TestScene};
-use backend::protocol::FrameState;
-use backend::store::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
+use bricks::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
-use shaders::optics::{Curve, Detail, Enhancer, Light, Mimda, MimdaForm};
+use optics::{Curve, Detail, Enhancer, Light, Mimda, MimdaForm};
+use protocol::FrameState;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
@@ -125,7 +125,7 @@ impl<V: Fn(DVec3) -> f64 + Send + Sync> BrickSource for WithOwnRanges<V> {
         self.volume.shape()
     }
 
-    fn frame(&self) -> backend::volume::VolumeFrame {
+    fn frame(&self) -> bricks::volume::VolumeFrame {
         self.volume.frame()
     }
 

@@ -15,12 +15,12 @@
 //! leaves which touch show the same blend of levels there, in every frame (`continuity_tests` of the working set).
 
 use crate::motion::Spread;
-use backend::protocol::{FrameState, ProjectorImage};
-use backend::store::{NodeKey, OctreeShape};
-use backend::volume::procedural::Field;
-use backend::working_set::LodRule;
+use bricks::LodRule;
+use bricks::procedural::Field;
+use bricks::{NodeKey, OctreeShape};
 use display_config::Display;
 use glam::{DVec3, UVec3};
+use protocol::{FrameState, ProjectorImage};
 use rayon::prelude::*;
 
 /// Points of neighbouring pixels farther apart than this many pixels do not lie on one piece of surface.
@@ -66,7 +66,7 @@ pub fn shown(
     let law = display
         .beam_law(projector as usize, frame.observer_in_display, frame.eta)
         .expect("a test scene goes with its display");
-    let rule = LodRule::new(display, frame);
+    let rule = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
     let volume_from_display = frame.display_from_volume.inverse();
     let pixel_m = display.width_m / f64::from(raster.width);
     let unit = f64::from(shape.dims().max_element());
@@ -121,7 +121,7 @@ fn leaf_at(rule: &LodRule, shape: &OctreeShape, position: DVec3) -> NodeKey {
     let last = shape.dims() - 1;
     let voxel = position.max(DVec3::ZERO).as_uvec3().min(last);
     let node = |depth: u8| {
-        let edge = (backend::store::OWN_EDGE as u32) << shape.level(depth);
+        let edge = (bricks::OWN_EDGE as u32) << shape.level(depth);
         NodeKey { depth, cell: voxel / UVec3::splat(edge) }
     };
     let found = (0..shape.finest_depth()).map(node).find(|&key| rule.is_fine_enough(shape, key));

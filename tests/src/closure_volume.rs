@@ -1,8 +1,9 @@
 //! A volume given by a formula, quantised brick by brick as a store would.
 
-use backend::store::{
-    BRICK_EDGE, BRICK_VOXELS, Brick, BrickError, BrickSource, CodeBits, Codes, NodeKey, NodeSummary, OVERLAP,
-    OWN_EDGE, OctreeShape,
+use bricks::store::CodeBits;
+use bricks::{
+    BRICK_EDGE, BRICK_VOXELS, Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OVERLAP, OWN_EDGE,
+    OctreeShape,
 };
 use glam::{DVec3, UVec3};
 
@@ -31,8 +32,8 @@ impl<V: Fn(DVec3) -> f64 + Send + Sync> BrickSource for ClosureVolume<V> {
         self.shape
     }
 
-    fn frame(&self) -> backend::volume::VolumeFrame {
-        backend::volume::VolumeFrame::of_voxels(DVec3::splat(1e-3))
+    fn frame(&self) -> bricks::volume::VolumeFrame {
+        bricks::volume::VolumeFrame::of_voxels(DVec3::splat(1e-3))
     }
 
     fn value_range(&self) -> (f64, f64) {

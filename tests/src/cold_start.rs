@@ -2,8 +2,8 @@
 
 use crate::draw::draw_with;
 use crate::motion::{FRAMES_PER_SECOND, Spread, steps};
-use backend::protocol::{FrameState, ProjectorImage};
-use backend::render::Renderer;
+use protocol::{FrameState, ProjectorImage};
+use renderer::Renderer;
 
 /// What came of a cold start.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,17 +1,17 @@
 //! A picture against the truth, pixel by pixel.
 
-use backend::protocol::{FrameState, ProjectorImage};
-pub use backend::reference::Errors;
-use backend::reference::{Integrator, Radiance, Reference};
-use backend::store::BrickSource;
-use backend::working_set::LodRule;
+use bricks::BrickSource;
+use bricks::LodRule;
 use display_config::Display;
+use protocol::{FrameState, ProjectorImage};
 use rayon::prelude::*;
+pub use reference::Errors;
+use reference::{Integrator, Radiance, Reference};
 use std::sync::Arc;
 
 /// The cut that a frame asks for on a display.
 pub fn lod_rule(display: &Display, frame: &FrameState) -> LodRule {
-    LodRule::new(display, frame)
+    LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale)
 }
 
 /// A pixel and what it should be.

@@ -1,12 +1,14 @@
 //! Real volumes, from the packages that carry them.
 
-use backend::store::{BuildOptions, CodeBits, ImportOptions, Store, import};
-use backend::volume::{ByteOrder, Element, RawLayout, Selection};
+use bricks::store::{BuildOptions, CodeBits, Store};
+use bricks::volume::{ByteOrder, Element};
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
+use volumes::{ImportOptions, import};
+use volumes::{RawLayout, Selection};
 
 /// A CT of a head, 256 × 256 × 108, 16 bit: a tar archive in Debian's package invesalius-examples.
 const CRANIUM: &str = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3";

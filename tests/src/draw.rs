@@ -1,11 +1,12 @@
 //! A scene drawn by a device.
 
-use backend::protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, Setup, VolumeRef,
-};
-use backend::render::{RenderEvent, Renderer};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
+use protocol::{
+    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup,
+    VolumeRef,
+};
+use renderer::Renderer;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What a device made of a frame.
@@ -98,7 +99,7 @@ pub fn has_gpu() -> bool {
 /// LIGHTLOOM_REQUIRE_GPU=1.
 pub fn devices() -> Vec<DeviceChoice> {
     #[cfg(feature = "gpu")]
-    let gpu = backend::device::gpu::adapter_name().map_err(|error| error.to_string());
+    let gpu = renderer::device::gpu::adapter_name().map_err(|error| error.to_string());
     #[cfg(not(feature = "gpu"))]
     let gpu: Result<String, String> = Err("the tests were built without the gpu feature".into());
     match gpu {

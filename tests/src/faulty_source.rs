@@ -1,8 +1,8 @@
 //! A volume on a disk that fails: some bricks are late, damaged or away, and all reads can be held.
 
 use crate::random::Random;
-use backend::store::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
-use backend::volume::VolumeFrame;
+use bricks::volume::VolumeFrame;
+use bricks::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
 use std::collections::HashMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;
@@ -207,7 +207,7 @@ fn shortened(mut brick: Brick) -> Brick {
 mod tests {
     use super::*;
     use crate::closure_volume::ClosureVolume;
-    use backend::store::BrickErrorKind;
+    use bricks::BrickErrorKind;
     use glam::UVec3;
 
     fn source(seed: u64, rates: Rates) -> Arc<FaultySource> {

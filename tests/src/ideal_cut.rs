@@ -1,10 +1,11 @@
 //! The cut that a picture would ask for if nothing hid anything: what visibility feedback is measured against.
 
-use backend::protocol::FrameState;
-use backend::store::{BrickSource, NodeKey};
-use backend::working_set::{LodRule, is_shown};
+use bricks::LodRule;
+use bricks::is_shown;
+use bricks::{BrickSource, NodeKey};
 use display_config::{BeamLaw, Clip, Display, Raster};
 use glam::{DVec2, DVec3};
+use protocol::FrameState;
 
 /// The bricks of an ideal cut.
 #[derive(Clone, Debug)]
@@ -60,7 +61,7 @@ pub fn ideal_cut(
     projectors: &[u32],
 ) -> IdealCut {
     let shape = source.shape();
-    let rule = LodRule::new(display, frame);
+    let rule = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
     let sights: Vec<Sight> = projectors.iter().map(|&p| Sight::new(display, p, frame)).collect();
     let is_wanted = |key: &NodeKey| shape.contains(*key) && is_shown(&frame.optics, source.summary(*key));
     let is_in_view = |key| {
@@ -88,7 +89,7 @@ mod tests {
     use super::*;
     use crate::draw::{self, With};
     use crate::scenes::{self, scaled, with_raster};
-    use backend::protocol::DeviceChoice;
+    use protocol::DeviceChoice;
 
     /// Rays sample no brick that the ideal cut lacks, and nearly all that it has where nothing hides anything.
     #[test]

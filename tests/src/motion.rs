@@ -5,13 +5,13 @@
 
 use crate::draw::draw_with;
 use crate::scenes;
-use backend::output::{Picture, PictureRef};
-use backend::protocol::{FrameReport, FrameState, ProjectorImage};
-use backend::render::Renderer;
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::DQuat;
-use shaders::optics::{Light, Optics};
+use optics::{Light, Optics};
+use protocol::{FrameReport, FrameState, ProjectorImage};
+use renderer::Renderer;
+use renderer::output::{Picture, PictureRef};
 
 /// Frames shown per second.
 pub const FRAMES_PER_SECOND: f64 = 60.0;

@@ -2,15 +2,15 @@
 
 use crate::compare::lod_rule;
 use crate::twin_scene::{TwinScene, resident};
-use backend::device::{CastJob, Device, Gather, TileGrid};
-use backend::protocol::FrameState;
-use backend::reference::StoredField;
-use backend::store::{BRICK_VOXELS, BrickSource, CellRanges, NodeKey};
-use backend::working_set::{Cut, IndexRules, build_index};
+use bricks::{BRICK_VOXELS, BrickSource, CellRanges, NodeKey};
 use display_config::Display;
 use glam::{IVec3, UVec3};
+use layout::{CELL_WORDS, FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
+use protocol::FrameState;
+use reference::StoredField;
+use renderer::device::{CastJob, Device, Gather, TileGrid};
+use renderer::working_set::{Cut, IndexRules, build_index};
 use shaders::compose::{Compositing, Needs, Way};
-use shaders::layout::{CELL_WORDS, FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 use shaders::tables::Tables;
 use shaders::twin::View;
 use std::collections::{HashMap, HashSet};

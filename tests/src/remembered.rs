@@ -1,7 +1,7 @@
 //! A volume whose bricks are made once: many renderers, as of many back-ends, then share them.
 
-use backend::store::{Brick, BrickError, BrickSource, CellRanges, NodeKey, NodeSummary, OctreeShape};
-use backend::volume::VolumeFrame;
+use bricks::volume::VolumeFrame;
+use bricks::{Brick, BrickError, BrickSource, CellRanges, NodeKey, NodeSummary, OctreeShape};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Arc, PoisonError, RwLock};

@@ -1,12 +1,12 @@
 //! The scenes that pictures are tested on.
 
 use crate::data;
-use backend::protocol::{FrameState, Pace};
-use backend::store::BrickSource;
-use backend::volume::procedural::ProceduralVolume;
+use bricks::BrickSource;
+use bricks::procedural::ProceduralVolume;
 use display_config::{Display, Homography, Raster};
 use glam::{DAffine3, DQuat, DVec2, DVec3, UVec3};
-use shaders::optics::{Curve, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality};
+use optics::{Curve, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality};
+use protocol::{FrameState, Pace};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 

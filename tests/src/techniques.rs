@@ -2,10 +2,10 @@
 
 use crate::closure_volume::ClosureVolume;
 use crate::scenes::{self, TestScene};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
-use shaders::optics::{
+use optics::{
     BandPicker, ClipPlane, Curve, Detail, Enhancer, LayerOpacity, Light, Material, Mimda, MimdaForm, Probe,
     Ramp, Trapezoid,
 };

@@ -1,13 +1,13 @@
 //! A scene for the twin, put together without the renderer: the ideal cut, every brick of it resident.
 
 use crate::compare::lod_rule;
-use backend::protocol::FrameState;
-use backend::store::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
-use backend::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle, settled_weights};
+use bricks::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
 use display_config::Display;
+use layout::{CELL_WORDS, NodeRecord};
+use protocol::FrameState;
 use rayon::prelude::*;
+use renderer::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle, settled_weights};
 use shaders::compose::Needs;
-use shaders::layout::{CELL_WORDS, NodeRecord};
 use shaders::tables::Tables;
 use shaders::twin::view::Placement;
 use shaders::twin::{FeedbackCell, Real, Scene, View, cast_pixel};

@@ -2,21 +2,21 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::device::{CpuDevice, Device};
-use backend::protocol::FrameState;
-use backend::reference::{Field, Integrator, Ray, StoredField, Tracer};
-use backend::store::NodeKey;
-use backend::working_set::is_shown;
+use bricks::NodeKey;
+use bricks::is_shown;
 use display_config::Display;
 use glam::DVec3;
+use layout::{FULL_WEIGHTS, NO_SLOT, NodeRecord};
 use lightloom_tests::blending_scenes::{self, LOOKS, is_split, presented};
 use lightloom_tests::compare::{Errors, Limits, errors_of, lod_rule};
 use lightloom_tests::draw;
 use lightloom_tests::presented::{Presented, picture};
 use lightloom_tests::scenes::{TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, view};
+use protocol::FrameState;
 use rayon::prelude::*;
-use shaders::layout::{FULL_WEIGHTS, NO_SLOT, NodeRecord};
+use reference::{Field, Integrator, Ray, StoredField, Tracer};
+use renderer::device::{CpuDevice, Device};
 use shaders::twin::composite::Over;
 use shaders::twin::kernel::Full;
 use shaders::twin::levels::Brick;
@@ -142,7 +142,8 @@ fn devices(slots: u32) -> Vec<Device> {
     let mut all = vec![Device::Cpu(Box::new(CpuDevice::new(slots)))];
     #[cfg(feature = "gpu")]
     if draw::has_gpu() {
-        use backend::{device::gpu::GpuDevice, protocol::FilterChoice};
+        use protocol::FilterChoice;
+        use renderer::device::gpu::GpuDevice;
         all.push(Device::Gpu(Box::new(
             GpuDevice::open(FilterChoice::Exact, slots.next_power_of_two()).unwrap(),
         )));

@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FilterChoice};
 use display_config::Display;
 use lightloom_tests::compare::{Limits, errors_between};
 use lightloom_tests::draw::{self, Drawn, With, draw_with, renderer};
 use lightloom_tests::scenes::{self, TestScene, with_raster};
-use shaders::compose::DebugView;
+use optics::DebugView;
+use protocol::{DeviceChoice, FilterChoice};
 use shaders::twin::debug::heat;
 
 const PROJECTORS: [u32; 2] = [1, 5];

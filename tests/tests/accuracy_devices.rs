@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FilterChoice, FrameState, ProjectorImage};
 use display_config::Display;
 use lightloom_tests::compare::{Limits, errors_between};
 use lightloom_tests::draw::{self, Drawn, With, draw};
 use lightloom_tests::scenes::{self, TestScene, scaled};
-use shaders::optics::{Light, MimdaForm};
+use optics::{Light, MimdaForm};
+use protocol::{DeviceChoice, FilterChoice, FrameState, ProjectorImage};
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];

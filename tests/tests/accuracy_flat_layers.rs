@@ -2,15 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FilterChoice, FrameState};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{self, Limits, errors_between};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{frame, optics, placed, with_raster};
-use shaders::optics::Curve;
+use optics::Curve;
+use protocol::{DeviceChoice, FilterChoice, FrameState};
 use std::sync::Arc;
 
 const PROJECTORS: [u32; 2] = [1, 5];

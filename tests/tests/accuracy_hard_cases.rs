@@ -2,15 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{FrameState, ProjectorImage};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::{DAffine3, DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{self, Limits, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{Points, frame, optics, placed, with_raster};
-use shaders::optics::{Curve, Light, Mimda, MimdaForm};
+use optics::{Curve, Light, Mimda, MimdaForm};
+use protocol::{FrameState, ProjectorImage};
 use shaders::tables::TABLE_ENTRIES;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;

@@ -2,16 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
-use backend::store::BrickSource;
-use backend::volume::procedural::ProceduralVolume;
+use bricks::BrickSource;
+use bricks::procedural::ProceduralVolume;
 use display_config::{Display, Homography};
 use glam::{DQuat, DVec2, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Limits, errors_between};
 use lightloom_tests::draw::{self, With, draw, draw_with, renderer};
 use lightloom_tests::scenes::{self, TestScene, frame, optics, placed, with_raster};
-use shaders::optics::{Curve, Light, Mimda, MimdaForm};
+use optics::{Curve, Light, Mimda, MimdaForm};
+use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use std::sync::Arc;
 
 /// On a GPU a sample's place is counted in texels of the whole atlas, so what rounding does depends on the slots that

@@ -2,17 +2,20 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::store::{BrickSource, BuildOptions, CodeBits, ImportOptions, Store, import};
-use backend::volume::{ByteOrder, Element, RawLayout, Selection};
+use bricks::BrickSource;
+use bricks::store::{BuildOptions, CodeBits, Store};
+use bricks::volume::{ByteOrder, Element};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Limits, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{frame, optics, placed, with_raster};
-use shaders::optics::Light;
+use optics::Light;
 use std::path::Path;
 use std::sync::Arc;
+use volumes::{ImportOptions, import};
+use volumes::{RawLayout, Selection};
 
 /// Two bricks along one axis, and a length that is no multiple of 28 along the others.
 const DIMS: UVec3 = UVec3::new(40, 20, 24);

@@ -2,17 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
-use backend::reference::{Field, Integrator, Radiance, Ray, Reference, Segmentation};
-use backend::store::BrickSource;
-use backend::volume::procedural::ProceduralVolume;
+use bricks::BrickSource;
+use bricks::procedural::ProceduralVolume;
 use display_config::Display;
 use glam::{DQuat, UVec3};
 use lightloom_tests::compare::{Limits, TruePixel, errors, lod_rule};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{TestScene, frame, optics, placed};
+use optics::{Curve, Light, Mimda, MimdaForm};
+use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use rayon::prelude::*;
-use shaders::optics::{Curve, Light, Mimda, MimdaForm};
+use reference::{Field, Integrator, Radiance, Ray, Reference, Segmentation};
 use std::sync::Arc;
 
 /// One projector from the side and one near the middle.

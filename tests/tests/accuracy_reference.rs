@@ -2,13 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
-use backend::store::EightBits;
+use bricks::store::EightBits;
 use display_config::Display;
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene, scaled};
-use shaders::optics::{Light, MimdaForm};
+use optics::{Light, MimdaForm};
+use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use std::sync::Arc;
 
 /// One projector from the side and one near the middle.

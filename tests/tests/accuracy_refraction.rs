@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FilterChoice, ProjectorImage};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
@@ -11,7 +10,8 @@ use lightloom_tests::compare::{self, Errors, Limits, errors_between};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques;
-use shaders::optics::Curve;
+use optics::Curve;
+use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
 use std::sync::Arc;
 
 const PROJECTORS: [u32; 2] = [1, 5];

@@ -2,14 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{FrameState, ProjectorImage};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{frame, optics, placed, with_raster};
-use shaders::optics::{BandPicker, Enhancer, LayerOpacity, Ramp, Trapezoid};
+use optics::{BandPicker, Enhancer, LayerOpacity, Ramp, Trapezoid};
+use protocol::{FrameState, ProjectorImage};
 use std::sync::Arc;
 
 const PROJECTORS: [u32; 2] = [1, 5];

@@ -2,14 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FilterChoice, ProjectorImage};
 use display_config::Display;
 use lightloom_tests::compare::{self, Errors, Limits, errors_between, errors_of};
 use lightloom_tests::draw::{self, Drawn, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES, band_picker, clip_plane, layer_opacity, probe};
 use lightloom_tests::twin_scene::{TwinScene, view};
-use shaders::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe};
+use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe};
+use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
 use shaders::twin::Real;
 
 /// One projector from the side and one near the middle.
@@ -220,7 +220,7 @@ fn order_matters_exactly_where_the_reference_says_so() {
         };
         let (truth, pictures) = told(links.to_vec());
         let (turned_truth, turned) = told(links.iter().rev().copied().collect());
-        let numbers = |r: &backend::reference::Radiance| [r.rgb.x, r.rgb.y, r.rgb.z, r.opacity];
+        let numbers = |r: &reference::Radiance| [r.rgb.x, r.rgb.y, r.rgb.z, r.opacity];
         let pairs = truth.iter().zip(&turned_truth).map(|(a, b)| (numbers(&a.truth), numbers(&b.truth)));
         let by_reference = errors_of(pairs);
         println!("{name}: the reference {by_reference}");

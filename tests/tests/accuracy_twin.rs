@@ -2,17 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FrameState};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
+use layout::OpticsEntry;
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors_of, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, view};
-use shaders::layout::OpticsEntry;
-use shaders::optics::MimdaForm;
+use optics::MimdaForm;
+use protocol::{DeviceChoice, FrameState};
 use shaders::twin::Real;
 use std::sync::Arc;
 

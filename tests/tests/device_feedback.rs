@@ -2,14 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::device::{CastJob, CastOutcome, Device, Gather, TileGrid, open_device};
-use backend::protocol::{DeviceChoice, FilterChoice};
-use backend::store::BRICK_VOXELS;
+use bricks::BRICK_VOXELS;
 use display_config::Display;
+use layout::FeedbackEntry;
 use lightloom_tests::draw;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, view};
-use shaders::layout::FeedbackEntry;
+use protocol::{DeviceChoice, FilterChoice};
+use renderer::device::{CastJob, CastOutcome, Device, Gather, TileGrid, open_device};
 use shaders::twin::View;
 use std::time::{Duration, Instant};
 

@@ -8,17 +8,17 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::output::{EyePlan, EyeView, ImageDifference, Picture, ScreenRaster};
-use backend::protocol::{DeviceChoice, FrameState, ProjectorImage};
-use backend::reference::{Integrator, Reference};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::{Display, EyeModel};
 use glam::{DAffine3, DVec2, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::lod_rule;
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene, frame, optics, with_raster};
+use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use rayon::prelude::*;
+use reference::{Integrator, Reference};
+use renderer::output::{EyePlan, EyeView, ImageDifference, Picture, ScreenRaster};
 use std::sync::Arc;
 
 /// x of the eyes, metres, at the viewer's height and distance: holo72's zone is ±0.6 m there.

@@ -1,11 +1,11 @@
 //! Tools that are held away from the volume change nothing of its picture, and are not in its kernel.
 
-use backend::protocol::FrameState;
 use display_config::Display;
 use glam::DVec3;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::scenes::{self, with_raster};
-use shaders::optics::{ClipPlane, Enhancer, Probe, Ramp};
+use optics::{ClipPlane, Enhancer, Probe, Ramp};
+use protocol::FrameState;
 
 const FACING: Ramp = Ramp { low: 0.2, high: 0.8 };
 

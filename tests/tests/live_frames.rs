@@ -2,17 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
-use backend::protocol::{DeviceChoice, FrameReport, FrameState, Pace, ProjectorImage};
-use backend::render::Renderer;
-use backend::store::{BrickSource, NodeKey};
-use backend::volume::procedural::ProceduralVolume;
+use bricks::procedural::ProceduralVolume;
+use bricks::{BrickSource, NodeKey};
 use display_config::Display;
 use glam::{DQuat, UVec3};
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::faulty_source::{FOR_EVER, Fault, FaultySource};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
-use shaders::optics::{Light, Quality};
+use optics::{Light, Quality};
+use protocol::{DeviceChoice, FrameReport, FrameState, Pace, ProjectorImage};
+use renderer::Renderer;
 use std::sync::Arc;
 use std::time::Duration;
 

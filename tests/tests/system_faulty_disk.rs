@@ -1,10 +1,10 @@
 //! The loader on a disk that fails: what can be had comes, what cannot is told, and nobody waits.
 
-use backend::store::{BrickErrorKind, BrickSource, NodeKey};
-use backend::working_set::{Loader, Retry};
+use bricks::{BrickErrorKind, BrickSource, NodeKey};
 use glam::UVec3;
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::faulty_source::{FOR_EVER, Fault, FaultySource, Rates};
+use renderer::working_set::{Loader, Retry};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Duration;

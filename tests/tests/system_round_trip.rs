@@ -1,10 +1,13 @@
 //! Every volume of the test data, all written by other programs, through a store and back.
 
-use backend::store::{BrickSource, BuildOptions, CodeBits, Codec, ImportOptions, NodeKey, Store, import};
-use backend::volume::{Element, Samples, Selection, VolumeInfo, open};
+use bricks::store::{BuildOptions, CodeBits, Codec, Store};
+use bricks::volume::{Element, Samples, VolumeInfo};
+use bricks::{BrickSource, NodeKey};
 use glam::UVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use volumes::{ImportOptions, import};
+use volumes::{Selection, open};
 
 /// Rounding of f32, in which codes turn into values: values, and one rounding of each operation.
 const ROUNDING: f64 = 4.0 / (1u64 << 24) as f64;

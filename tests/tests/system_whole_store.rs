@@ -1,7 +1,8 @@
 //! A store is whole or it is told: builds that are killed, bytes that change, many readers at once.
 #![cfg(unix)]
 
-use backend::store::{BrickSource, NodeKey, Store, verify};
+use bricks::store::{Store, verify};
+use bricks::{BrickSource, NodeKey};
 use lightloom_tests::data::{cranium, cranium_raw};
 use lightloom_tests::program::{lightloom, run, start};
 use lightloom_tests::random::Random;

@@ -3,12 +3,12 @@
 mod job;
 mod ranks;
 
-use backend::transport::threads;
 use job::{BACKENDS, CASE, FRONTEND, WORKERS, mpirun};
 use ranks::{be_frontend, be_worker, open, two_frames};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
 use std::{env, fs};
+use transport::threads;
 
 /// From the death of a back-end to the front-end's sentence as the launcher passes it on; it first waits over a second
 /// for the ranks it ends.

@@ -1,19 +1,19 @@
 //! What the ranks of a test job do.
 
 use crate::job::{CASE, CASE_LIMIT, DIRECTORY};
-use backend::protocol::{
-    DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace,
-    ProjectorImage, Setup, Stages, VolumeRef, wire,
-};
-use backend::transport::*;
 use display_config::Display;
 use glam::{DAffine3, DVec3};
-use shaders::optics::{Curve, ExtinctionUnit, Optics, Quality};
+use optics::{Curve, ExtinctionUnit, Optics, Quality};
+use protocol::{
+    DeviceChoice, DeviceInfo, Draw, FilterChoice, FrameReport, FrameState, FromBackend, FromFrontend, Pace,
+    ProjectorImage, RenderEvent, Setup, Stages, VolumeRef, wire,
+};
 use signal_hook::{consts::SIGKILL, low_level::raise};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
+use transport::*;
 
 const CULPRIT: u32 = 1;
 
@@ -42,7 +42,7 @@ struct Fake {
 }
 
 impl Draw for Fake {
-    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(DrawEvent)) -> Result<FrameReport, String> {
+    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(RenderEvent)) -> Result<FrameReport, String> {
         if self.backend == CULPRIT && frame.index == 1 {
             match case().as_str() {
                 "killed" => die_by_kill(),
@@ -54,14 +54,14 @@ impl Draw for Fake {
         }
         let is_long = frame.index == 1 && LONG.contains(&case().as_str());
         for step in 0..if is_long { 600 } else { 3 } {
-            sink(DrawEvent::Progress { done: step, total: 600 });
+            sink(RenderEvent::Progress { done: step, total: 600 });
             thread::sleep(Duration::from_millis(if is_long { 100 } else { 0 }));
         }
         for projector in [2 * self.backend, 2 * self.backend + 1] {
             let number = |i: u32| (i as f32 + 0.5) * (projector as f32 - 1.3) / (frame.index as f32 + 1.0);
             let (width, height) = (self.width, self.width * 3 / 4);
             let rgba = (0..4 * width * height).map(number).collect();
-            sink(DrawEvent::Image(ProjectorImage { projector, width, height, rgba }));
+            sink(RenderEvent::Image(ProjectorImage { projector, width, height, rgba }));
         }
         Ok(report(frame.index, self.backend))
     }

@@ -2,12 +2,13 @@
 
 use super::truth::Truth;
 use super::{AccuracyError, Offer, Setting, Study, Trial, Watch};
-use backend::protocol::{
-    DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, Setup, VolumeRef,
+use bricks::store::EightBits;
+use bricks::{BrickSource, Codes, NodeKey};
+use protocol::{
+    DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage, RenderEvent, Setup, VolumeRef,
 };
-use backend::reference::Errors;
-use backend::render::{RenderEvent, Renderer};
-use backend::store::{BrickSource, Codes, EightBits, NodeKey};
+use reference::Errors;
+use renderer::Renderer;
 use serde::Serialize;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! One way to draw a scene.
 
-use backend::protocol::FilterChoice;
+use optics::Quality;
+use protocol::FilterChoice;
 use serde::Serialize;
-use shaders::optics::Quality;
 use std::fmt;
 
 /// All that is varied.

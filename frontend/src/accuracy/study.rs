@@ -3,9 +3,9 @@
 use super::bench::{self, Bench};
 use super::truth::Truth;
 use super::{AccuracyError, Measured, TruthSummary, Watch, around_default, product};
-use backend::protocol::{DeviceChoice, DeviceInfo, FrameState};
-use backend::store::BrickSource;
+use bricks::BrickSource;
 use display_config::Display;
+use protocol::{DeviceChoice, DeviceInfo, FrameState};
 use std::sync::Arc;
 
 /// The part of the progress bar that is the truth's.

@@ -1,8 +1,8 @@
 //! The settings that are tried: around the default one, or the whole product.
 
 use super::{Family, Setting, Trial};
-use backend::protocol::FilterChoice;
-use shaders::optics::Quality;
+use optics::Quality;
+use protocol::FilterChoice;
 
 /// Longest step, voxels: from visibly coarse to well below the trilinear kernel's bend, about 1.6 apart. Above 1 a
 /// renderer passes over no empty cells.

@@ -1,12 +1,12 @@
 //! What pixels should be, by the reference at the scene's finest level.
 
 use super::{AccuracyError, Study, Watch};
-use backend::protocol::{FrameState, ProjectorImage};
-use backend::reference::{Errors, Integrator, Radiance, Reference};
-use backend::working_set::LodRule;
+use bricks::LodRule;
+use optics::Quality;
+use protocol::{FrameState, ProjectorImage};
 use rayon::prelude::*;
+use reference::{Errors, Integrator, Radiance, Reference};
 use serde::Serialize;
-use shaders::optics::Quality;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
@@ -122,7 +122,7 @@ impl<'a> Tracer<'a> {
     fn new(study: &'a Study) -> Result<Self, AccuracyError> {
         let finest = Quality { lod_scale: 0.0, ..study.frame.quality };
         let frame = FrameState { quality: finest, ..study.frame.clone() };
-        let rule = LodRule::new(&study.display, &frame);
+        let rule = LodRule::new(&study.display, frame.display_from_volume, frame.quality.lod_scale);
         let integrator = Integrator { tolerance: TOLERANCE, ..Integrator::default() };
         let reference = Reference::new(study.source.clone(), &frame, &rule, integrator)
             .map_err(|error| AccuracyError::Backend(error.to_string()))?;

@@ -1,7 +1,7 @@
 //! The arguments that choose what draws the pictures.
 
-use backend::protocol::{DeviceChoice, FilterChoice};
 use clap::{Args, ValueEnum};
+use protocol::{DeviceChoice, FilterChoice};
 
 /// Back-ends, their devices and their caches.
 #[derive(Clone, Debug, Args)]

@@ -1,7 +1,7 @@
 //! The argument that names a debug view.
 
 use clap::ValueEnum;
-use shaders::compose::DebugView;
+use optics::DebugView;
 
 /// See [`DebugView`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,7 @@
 //! The arguments of `lightloom export`.
 
 use super::parse::{dims, three};
-use backend::volume::Element;
+use bricks::volume::Element;
 use clap::Args;
 use glam::UVec3;
 use std::path::PathBuf;
@@ -48,7 +48,7 @@ fn element(text: &str) -> Result<Element, String> {
 #[cfg(test)]
 mod tests {
     use crate::cli::{Cli, Command};
-    use backend::volume::Element;
+    use bricks::volume::Element;
     use clap::Parser;
     use glam::UVec3;
 

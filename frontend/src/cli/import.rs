@@ -1,8 +1,8 @@
 //! The arguments of `lightloom import`.
 
 use super::parse::{dims, finite, spacing};
-use backend::store::{CodeBits, Codec};
-use backend::volume::ByteOrder;
+use bricks::store::{CodeBits, Codec};
+use bricks::volume::ByteOrder;
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec3};
 use std::path::PathBuf;

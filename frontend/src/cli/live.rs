@@ -1,7 +1,7 @@
 //! The arguments that decide how frames get their detail.
 
-use backend::protocol::Pace;
 use clap::Args;
+use protocol::Pace;
 use std::path::PathBuf;
 
 /// Seconds in which detail appears or goes, by default.

@@ -1,8 +1,8 @@
 //! The arguments of `lightloom replay`.
 
 use super::live::{FADE_S, UPLOAD_MIB, fade, upload};
-use backend::working_set::{DiskModel, FetchOrder};
 use clap::{Args, ValueEnum};
+use renderer::working_set::{DiskModel, FetchOrder};
 use std::path::PathBuf;
 
 /// `lightloom replay`: every combination of its lists is tried.

@@ -1,10 +1,10 @@
 //! Laws of the command line.
 
 use super::*;
-use backend::protocol::Pace;
 use clap::CommandFactory;
 use glam::DVec3;
-use shaders::compose::DebugView;
+use optics::DebugView;
+use protocol::Pace;
 
 fn simulate(arguments: &[&str]) -> Result<SimulateArgs, clap::Error> {
     let all = ["lightloom", "simulate", "procedural:shells", "--out", "o"].iter().chain(arguments);

@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use crate::report::accuracy::{self as report, AccuracyReport};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session;
-use backend::output::can_write_into;
+use renderer::output::can_write_into;
 use std::sync::Arc;
 use std::time::Instant;
 

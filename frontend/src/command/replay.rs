@@ -4,8 +4,8 @@ use super::say;
 use crate::FrontendError;
 use crate::cli::{DiskArg, FetchOrderArg, ReplayArgs};
 use crate::session::{ReplayRow, Traces};
-use backend::working_set::Policy;
 use clap::ValueEnum;
+use renderer::working_set::Policy;
 
 /// A policy as the command line names it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,8 +8,8 @@ use crate::report::{self, Report, units};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session::{self, Backends};
 use crate::simulate::{Eye, Job};
-use backend::protocol::FrameState;
 use display_config::Display;
+use protocol::FrameState;
 use std::time::Instant;
 
 /// Renders, writes and reports. All that can be wrong with the arguments is found before any back-end starts.

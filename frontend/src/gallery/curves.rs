@@ -1,6 +1,6 @@
 //! What is derived from curves and bands.
 
-use shaders::optics::{Curve, Trapezoid};
+use optics::{Curve, Trapezoid};
 
 /// Half the width of a jump in a derived curve, parts of the domain.
 const HAIR: f64 = 1e-9;

@@ -16,10 +16,10 @@ use crate::FrontendError;
 use crate::progress::Progress;
 use crate::report::write_text;
 use crate::simulate::{Eye, FrameSource, Job};
-use backend::output::OutputError;
-use backend::protocol::DeviceInfo;
 use display_config::{Display, Homography};
 use glam::{DMat3, DVec3, UVec2};
+use protocol::DeviceInfo;
+use renderer::output::OutputError;
 use std::path::{Path, PathBuf};
 
 /// The page, in the output folder.

@@ -4,8 +4,8 @@ use super::{EYES, Exhibit, Gallery, Shot};
 use crate::report::html::{embedded_image, escape};
 use crate::report::page::STYLE;
 use crate::report::units;
-use backend::output::OutputError;
-use backend::protocol::DeviceInfo;
+use protocol::DeviceInfo;
+use renderer::output::OutputError;
 
 /// What the page has beside the look of all pages.
 const GRID: &str = include_str!("grid.css");

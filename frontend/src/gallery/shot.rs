@@ -4,8 +4,8 @@ use super::{EYES, Gallery, Technique};
 use crate::FrontendError;
 use crate::report::Totals;
 use crate::simulate::{Event, EyeViews, FrameSource};
-use backend::output::{OutputError, write_png};
-use backend::protocol::FrameState;
+use protocol::FrameState;
+use renderer::output::{OutputError, write_png};
 use std::time::{Duration, Instant};
 
 /// A technique with its pictures.

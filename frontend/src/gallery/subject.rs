@@ -3,10 +3,10 @@
 use super::curves::{most, opaque_part, over_band, rise_in, scaled};
 use crate::FrontendError;
 use crate::scene::{Scene, VolumeFacts};
-use backend::protocol::FrameState;
 use display_config::Display;
 use glam::{DAffine3, DVec3, UVec3};
-use shaders::optics::{Curve, Detail, ExtinctionUnit, Light, Material, Ramp, Trapezoid};
+use optics::{Curve, Detail, ExtinctionUnit, Light, Material, Ramp, Trapezoid};
+use protocol::FrameState;
 
 /// Optical depth that [`Subject::covered`] gives the outer band's densest part, were the volume full of it.
 const COVERED_DEPTH: f64 = 200.0;
@@ -129,7 +129,7 @@ const MATT: Material = Material { ambient: 0.35, diffuse: 0.7, specular: 0.0, sh
 const GLOSSY: Material = Material { ambient: 0.15, diffuse: 0.7, specular: 0.9, shininess: 40.0 };
 
 /// One value below `s` and another above it.
-fn step<V: shaders::optics::CurveValue>(s: f64, below: V, above: V) -> Curve<V> {
+fn step<V: optics::CurveValue>(s: f64, below: V, above: V) -> Curve<V> {
     Curve::new(vec![(s - FLANK, below), (s + FLANK, above)])
         .expect("the values are constants, and s is a finite point of a curve or band")
 }

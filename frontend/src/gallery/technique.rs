@@ -1,9 +1,9 @@
 //! The illustrative techniques that a gallery shows.
 
 use super::Subject;
-use backend::protocol::FrameState;
 use glam::DVec3;
-use shaders::optics::{BandPicker, ClipPlane, Detail, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe, Ramp};
+use optics::{BandPicker, ClipPlane, Detail, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe, Ramp};
+use protocol::FrameState;
 
 /// One technique.
 pub struct Technique {

@@ -4,10 +4,10 @@ use super::*;
 use crate::scene::{Scene, VolumeFacts};
 use crate::session;
 use crate::simulate::Event;
-use backend::protocol::{FrameReport, FrameState, ProjectorImage, Stages};
-use backend::volume::VolumeFrame;
+use bricks::volume::VolumeFrame;
 use glam::{DVec2, UVec3};
-use shaders::optics::{Enhancer, Trapezoid};
+use optics::{Enhancer, Trapezoid};
+use protocol::{FrameReport, FrameState, ProjectorImage, Stages};
 
 const SIZE: UVec2 = UVec2::new(16, 12);
 

@@ -1,7 +1,7 @@
 //! The account of one frame.
 
 use super::upkeep::together;
-use backend::protocol::{FrameReport, FrameState, Stages, Upkeep};
+use protocol::{FrameReport, FrameState, Stages, Upkeep};
 use serde::Serialize;
 use std::time::Duration;
 

@@ -1,8 +1,8 @@
 //! Pieces of HTML.
 
-use backend::output::OutputError;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use renderer::output::OutputError;
 use std::path::Path;
 
 /// Text with what HTML would read as its own replaced.

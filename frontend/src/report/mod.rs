@@ -16,11 +16,11 @@ pub use memory::peak_memory_bytes;
 use crate::FrontendError;
 use crate::scene::{Scene, VolumeFacts, VolumeSource};
 use crate::simulate::{Job, LEGEND, shows};
-use backend::output::{OutputError, write_atomically};
-use backend::protocol::{DeviceInfo, FrameState};
 use display_config::Display;
+use optics::DebugView;
+use protocol::{DeviceInfo, FrameState};
+use renderer::output::{OutputError, write_atomically};
 use serde::Serialize;
-use shaders::compose::DebugView;
 use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
@@ -68,8 +68,8 @@ pub struct SceneSummary {
     pub facts: VolumeFacts,
     /// Its longest edge in the display in the first frame, metres.
     pub longest_m: f64,
-    /// See [`shaders::optics::Quality`].
-    pub quality: shaders::optics::Quality,
+    /// See [`optics::Quality`].
+    pub quality: optics::Quality,
 }
 
 /// The display, in brief.

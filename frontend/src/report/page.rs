@@ -5,7 +5,7 @@ use super::stage_bar::stage_bar;
 use super::{FrameSummary, Report, Totals, units, upkeep};
 use crate::orientation::describe;
 use crate::simulate::{CONTACT_SHEET, marks, number};
-use backend::output::OutputError;
+use renderer::output::OutputError;
 use std::path::Path;
 
 /// The look of all pages.

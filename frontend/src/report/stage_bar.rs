@@ -2,7 +2,7 @@
 
 use super::html::escape;
 use super::units;
-use backend::protocol::Stages;
+use protocol::Stages;
 use std::fmt::Write;
 
 /// Width of the drawing, its own units.

@@ -2,7 +2,7 @@
 
 use super::html::table;
 use super::{FrameSummary, units};
-use backend::protocol::{FrameReport, Upkeep};
+use protocol::{FrameReport, Upkeep};
 
 /// The back-ends of one frame together: counts add up, the largest deficit is that of all, and the mean is over the rays
 /// of all. None if no back-end drew a live frame.

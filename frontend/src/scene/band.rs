@@ -1,6 +1,6 @@
 //! A named band of data values.
 
-use shaders::optics::{Trapezoid, TrapezoidError};
+use optics::{Trapezoid, TrapezoidError};
 
 /// A trapezoid over data values that enhancers and keyframes know by its name.
 #[derive(Clone, Debug, PartialEq)]

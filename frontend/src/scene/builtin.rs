@@ -2,7 +2,7 @@
 
 use super::{Edits, Look, Motion, Placement, Scene, Size, VolumeSource, placement};
 use glam::DVec3;
-use shaders::optics::{Curve, Light, Quality};
+use optics::{Curve, Light, Quality};
 use std::path::Path;
 
 /// Names that may follow `procedural:`.

@@ -1,7 +1,7 @@
 //! What keyframes change of the look.
 
 use glam::DVec3;
-use shaders::optics::{Curve, Trapezoid};
+use optics::{Curve, Trapezoid};
 
 /// Values that each hold from their time on until the next, seconds, rising.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! An enhancer of a scene, before a frame gives it its place.
 
 use super::band::normalised_band;
-use backend::protocol::Tool;
 use glam::DVec3;
-use shaders::optics::{Enhancer, Trapezoid, TrapezoidError};
+use optics::{Enhancer, Trapezoid, TrapezoidError};
+use protocol::Tool;
 
 /// What an enhancer goes with.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! A scene file as TOML has it, before it is checked.
 
 use super::{QualityPreset, VolumeAxis};
-use backend::protocol::ToolKind;
+use optics::{ExtinctionUnit, MimdaForm};
+use protocol::ToolKind;
 use serde::Deserialize;
-use shaders::optics::{ExtinctionUnit, MimdaForm};
 use toml::Spanned;
 
 /// A number with its place in the file.
@@ -107,7 +107,7 @@ pub(super) struct LightTable {
     pub detail_strength: Option<Number>,
 }
 
-/// See [`shaders::optics::Detail`].
+/// See [`optics::Detail`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum DetailKind {
@@ -123,7 +123,7 @@ pub(super) struct BandTable {
     pub corners: Spanned<[f64; 4]>,
 }
 
-/// See [`shaders::optics::Enhancer`].
+/// See [`optics::Enhancer`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum EnhancerKind {

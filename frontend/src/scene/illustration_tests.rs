@@ -3,7 +3,7 @@
 use super::tests::{FACTS, OPTICS, display, read, refusal};
 use super::*;
 use glam::DVec3;
-use shaders::optics::{Detail, Material, Ramp};
+use optics::{Detail, Material, Ramp};
 
 /// A look from which all else hangs; line 5 and 6 of what begins with [`OPTICS`].
 const LOOK: &str = "extinction = [[0, 0], [1000, 5]]\ncolour = [[0, 1, 1, 1]]\n";

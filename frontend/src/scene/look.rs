@@ -3,7 +3,7 @@
 use super::enhancer::{band_of, normalised_enhancer};
 use super::{Edits, SceneError};
 use glam::DVec3;
-use shaders::optics::{Curve, CurveError, CurveValue, Enhancer, ExtinctionUnit, Material, Mimda, Optics};
+use optics::{Curve, CurveError, CurveValue, Enhancer, ExtinctionUnit, Material, Mimda, Optics};
 
 /// A scene's look.
 #[derive(Clone, Debug, PartialEq)]

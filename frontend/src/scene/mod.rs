@@ -28,11 +28,11 @@ pub use placement::{Placement, Size};
 pub use quality::QualityPreset;
 pub use volume::{VolumeFacts, VolumeSource};
 
-use backend::protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
 use band::normalised_band;
 use display_config::Display;
 use glam::DVec3;
-use shaders::optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
+use optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
+use protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
 use std::path::Path;
 
 /// A scene, read and checked. Everything that is the same in all frames is here; `motion`

@@ -1,7 +1,7 @@
 //! Where a volume floats.
 
 use super::VolumeAxes;
-use backend::volume::{Space, VolumeFrame};
+use bricks::volume::{Space, VolumeFrame};
 use display_config::Display;
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
 

@@ -1,8 +1,8 @@
 //! Named levels of quality.
 
 use clap::ValueEnum;
+use optics::Quality;
 use serde::Deserialize;
-use shaders::optics::Quality;
 
 /// How much time a picture may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]

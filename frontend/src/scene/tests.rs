@@ -2,7 +2,7 @@
 
 use super::text::SceneText;
 use super::*;
-use backend::volume::{Space, VolumeFrame};
+use bricks::volume::{Space, VolumeFrame};
 use display_config::{Homography, Projector, Raster};
 use glam::{DAffine3, DMat3, UVec3};
 

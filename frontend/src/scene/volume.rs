@@ -2,8 +2,8 @@
 
 use super::{PROCEDURAL_NAMES, SceneError};
 use crate::orientation::FrameFacts;
-use backend::store::BrickSource;
-use backend::volume::VolumeFrame;
+use bricks::BrickSource;
+use bricks::volume::VolumeFrame;
 use glam::{DVec3, UVec3};
 use serde::{Serialize, Serializer};
 use std::path::PathBuf;

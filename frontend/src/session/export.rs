@@ -3,11 +3,11 @@
 use crate::FrontendError;
 use crate::cli::ExportArgs;
 use crate::progress::Progress;
-use backend::export::ExportOptions;
-use backend::store::Store;
+use bricks::store::Store;
 use glam::UVec3;
 use serde::Serialize;
 use std::cell::RefCell;
+use volumes::export::ExportOptions;
 
 /// What an export did.
 #[derive(Clone, Debug, Serialize)]
@@ -38,7 +38,7 @@ pub fn export(args: &ExportArgs, progress: Progress) -> Result<ExportSummary, Fr
     let show = |done: u64, total: u64| {
         progress.borrow_mut().set(done as f64 / total.max(1) as f64, "planes");
     };
-    let report = backend::export::export(&store, &args.output, &options, &show)
+    let report = volumes::export::export(&store, &args.output, &options, &show)
         .map_err(|e| FrontendError::Volume(e.to_string()))?;
     Ok(ExportSummary {
         levels: report.levels,

@@ -7,13 +7,16 @@ use crate::interrupt;
 use crate::orientation::FrameFacts;
 use crate::progress::Progress;
 use crate::scene::{Scene, VolumeSource};
-use backend::store::{self, BrickSource, BuildOptions, Emptiness, ImportOptions, Store};
-use backend::volume::{Element, RawLayout, Selection};
+use bricks::BrickSource;
+use bricks::store::{BuildOptions, Emptiness, Store};
+use bricks::volume::Element;
 use glam::UVec3;
 use serde::Serialize;
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use volumes::ImportOptions;
+use volumes::{RawLayout, Selection};
 
 /// What an import did.
 #[derive(Clone, Debug, Serialize)]
@@ -57,7 +60,7 @@ pub fn import(args: &ImportArgs, progress: Progress) -> Result<ImportSummary, Fr
         true => FrontendError::Stopped(sentence),
         false => FrontendError::Volume(sentence),
     };
-    let report = store::import(&input, &selection, &args.output, &options, &show)
+    let report = volumes::import(&input, &selection, &args.output, &options, &show)
         .map_err(|error| failed(error.to_string()))?;
     let store = Store::open(&args.output).map_err(|error| failed(error.to_string()))?;
     Ok(ImportSummary {
@@ -93,7 +96,7 @@ fn import_options(
     let mut input = args.input.to_string_lossy().into_owned();
     if let Some(VolumeSource::Procedural { name, dims }) = VolumeSource::parse_procedural(&input)? {
         options.procedural_dims = dims;
-        input = format!("{}{name}", store::PROCEDURAL_PREFIX);
+        input = format!("{}{name}", volumes::PROCEDURAL_PREFIX);
     }
     Ok((input, options))
 }

@@ -1,6 +1,6 @@
 //! The errors of a store's levels, for reports.
 
-use backend::store::LevelError;
+use bricks::store::LevelError;
 use serde::Serialize;
 
 /// How far one level of a store is from the source.

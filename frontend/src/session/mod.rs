@@ -22,13 +22,14 @@ use crate::FrontendError;
 use crate::cli::BackendArgs;
 use crate::scene::VolumeFacts;
 use crate::simulate::{Event, FrameSource};
-use backend::protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
-use backend::store::BrickSource;
-use backend::transport::{EventKind, Launch, Limits, Link, Session, launch, open_renderer, threads};
+use backend::open_renderer;
+use bricks::BrickSource;
 use display_config::{Display, EyeModel};
 use glam::{DVec2, DVec3};
+use protocol::{DeviceInfo, FrameReport, FrameState, Setup, VolumeRef};
 use std::path::Path;
 use std::sync::Arc;
+use transport::{EventKind, Launch, Limits, Link, Session, launch, threads};
 
 /// The displays that come with the program: name, and a line about each.
 pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
@@ -76,7 +77,7 @@ pub fn volume_facts(volume: &VolumeRef) -> Result<VolumeFacts, FrontendError> {
 
 /// Opens a volume for work in this process.
 pub fn open_volume(volume: &VolumeRef) -> Result<Arc<dyn BrickSource>, FrontendError> {
-    backend::transport::open_volume(volume).map_err(FrontendError::Volume)
+    backend::open_volume(volume).map_err(FrontendError::Volume)
 }
 
 /// Back-ends that run and wait to be set up.
@@ -113,7 +114,7 @@ impl Backends {
 
 #[cfg(feature = "mpi")]
 fn cluster_link() -> Result<Box<dyn Link>, FrontendError> {
-    let link = backend::transport::cluster::connect().map_err(|e| FrontendError::Backend(e.to_string()))?;
+    let link = transport::cluster::connect().map_err(|e| FrontendError::Backend(e.to_string()))?;
     Ok(Box::new(link))
 }
 

@@ -2,9 +2,10 @@
 
 use super::open_volume;
 use crate::FrontendError;
-use backend::protocol::VolumeRef;
-use backend::store::{BrickSource, Store};
-use backend::working_set::{
+use bricks::BrickSource;
+use bricks::store::Store;
+use protocol::VolumeRef;
+use renderer::working_set::{
     Account, Policy, ReplayVolume, SAMPLE_BYTES, TraceHeader, TraceReader, TracedFrame, replay,
 };
 use serde::Serialize;
@@ -80,7 +81,7 @@ impl Traces {
 
 impl Trace {
     fn open(path: &Path, moved: Option<&Path>) -> Result<Self, FrontendError> {
-        let sentence = |error: backend::working_set::TraceError| FrontendError::Trace(error.to_string());
+        let sentence = |error: renderer::working_set::TraceError| FrontendError::Trace(error.to_string());
         let reader = TraceReader::open(path).map_err(sentence)?;
         let header = reader.header().clone();
         let volume = moved.map_or(header.volume.clone(), |path| VolumeRef::Store(path.to_owned()));
@@ -101,7 +102,7 @@ impl Trace {
         Ok(Self { header, frames, source, brick_bytes })
     }
 
-    fn replay(&self, policy: &Policy) -> backend::working_set::ReplayRun {
+    fn replay(&self, policy: &Policy) -> renderer::working_set::ReplayRun {
         let summary = |key| self.source.summary(key);
         let volume = ReplayVolume { summary: &summary, brick_bytes: self.brick_bytes };
         replay(&self.header, volume, policy, &self.frames)

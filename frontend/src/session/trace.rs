@@ -1,7 +1,7 @@
 //! The folder for the traces of a run.
 
 use crate::FrontendError;
-use backend::output::{OutputError, can_write_into};
+use renderer::output::{OutputError, can_write_into};
 use std::path::{Path, PathBuf};
 
 /// Where a back-end's trace will be, whatever host the back-end runs on.

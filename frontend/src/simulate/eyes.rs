@@ -2,10 +2,10 @@
 
 use crate::FrontendError;
 use crate::session::{eye_optics, pixel_from_screen};
-use backend::output::{EyePlan, EyeView, OutputError, Picture, ScreenRaster};
-use backend::protocol::ProjectorImage;
 use display_config::Display;
 use glam::DVec3;
+use protocol::ProjectorImage;
+use renderer::output::{EyePlan, EyeView, OutputError, Picture, ScreenRaster};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// An eye in front of the display.

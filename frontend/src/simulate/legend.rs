@@ -1,7 +1,7 @@
 //! The key of a debug view: which value has which colour.
 
-use backend::output::{OutputError, Picture, write_png};
-use shaders::compose::DebugView;
+use optics::DebugView;
+use renderer::output::{OutputError, Picture, write_png};
 use shaders::twin::debug::heat;
 use std::path::Path;
 

@@ -14,10 +14,10 @@ pub use source::{Event, FrameSource};
 use crate::FrontendError;
 use crate::progress::Progress;
 use crate::report::{EyeSummary, FrameSummary};
-use backend::output::{OutputError, can_write_into};
-use backend::protocol::FrameState;
 use display_config::Display;
-use shaders::compose::DebugView;
+use optics::DebugView;
+use protocol::FrameState;
+use renderer::output::{OutputError, can_write_into};
 use std::path::{Path, PathBuf};
 
 /// The contact sheet of the first frame, in the output folder.

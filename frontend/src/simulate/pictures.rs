@@ -3,10 +3,10 @@
 use super::eyes::hold;
 use super::{EyeViews, Job};
 use crate::FrontendError;
-use backend::output::{ContactSheet, OutputError, PictureRef, write_exr, write_png};
-use backend::protocol::ProjectorImage;
 use display_config::Display;
 use glam::DVec2;
+use protocol::ProjectorImage;
+use renderer::output::{ContactSheet, OutputError, PictureRef, write_exr, write_png};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 

@@ -1,7 +1,7 @@
 //! What draws frames.
 
 use crate::FrontendError;
-use backend::protocol::{FrameReport, FrameState, ProjectorImage};
+use protocol::{FrameReport, FrameState, ProjectorImage};
 
 /// What happens while a frame is drawn.
 #[derive(Clone, Debug)]

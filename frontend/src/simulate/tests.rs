@@ -4,11 +4,11 @@ use super::*;
 use crate::report::{self, Report};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session;
-use backend::output::{EyePlan, ScreenRaster};
-use backend::protocol::{DeviceInfo, FrameReport, Pace, ProjectorImage, Stages, Upkeep};
-use backend::volume::VolumeFrame;
+use bricks::volume::VolumeFrame;
 use display_config::{Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
+use protocol::{DeviceInfo, FrameReport, Pace, ProjectorImage, Stages, Upkeep};
+use renderer::output::{EyePlan, ScreenRaster};
 use std::path::Path;
 
 const WIDTH: u32 = 40;
@@ -224,10 +224,13 @@ fn an_eye_sees_the_weighted_mean_of_the_projectors() {
     let (_, job) = job(folder.path(), 4, 1, |p| 0.25 * f64::from(p == 1) + 0.75 * f64::from(p == 3));
     job.run(&mut source(4), &mut Progress::new(false)).unwrap();
     let seen = image::open(folder.path().join("frame-0000/eye-0.png")).unwrap().to_rgb8();
-    let blue = backend::output::srgb_code((0.25 + 0.75 * 3.0) / 8.0);
+    let blue = renderer::output::srgb_code((0.25 + 0.75 * 3.0) / 8.0);
     for (x, y) in [(0, 0), (17, 5), (39, 29)] {
-        let expected =
-            [backend::output::srgb_code(x as f32 / 64.0), backend::output::srgb_code(y as f32 / 64.0), blue];
+        let expected = [
+            renderer::output::srgb_code(x as f32 / 64.0),
+            renderer::output::srgb_code(y as f32 / 64.0),
+            blue,
+        ];
         assert_eq!(seen.get_pixel(x, y).0, expected);
     }
 }

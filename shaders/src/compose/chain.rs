@@ -1,6 +1,6 @@
 //! The chain of enhancers of a kernel, with the glue between them.
 
-use crate::optics::{Enhancer, MOST_ENHANCERS};
+use optics::{Enhancer, MOST_ENHANCERS};
 use std::fmt::Write;
 
 /// An enhancer's module. A new one takes a variant here and in [`Enhancer`], a WGSL file, and its twin.

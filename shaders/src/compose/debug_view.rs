@@ -1,91 +1,26 @@
-//! What a debug view shows, and on which scale.
+//! The kernel of a debug view.
 
-use serde::{Deserialize, Serialize};
+use optics::DebugView;
 
-/// A view of the working set instead of the picture. Colours are those of [`crate::twin::debug::heat()`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DebugView {
-    /// Levels above the finest that the light comes from.
-    Lod,
-    /// Levels that the node is too coarse by; 0 if it is fine enough.
-    Deficit,
-    /// Samples of each ray.
-    Samples,
-    /// Share of the node's own samples, its parent's being the rest.
-    Weights,
-}
-
-/// Blue and yellow on the scale of colours: views of nodes are drawn in the scene's own opacities over black, so that
-/// black is left for where nothing is.
-const BLUE_TO_YELLOW: (f64, f64) = (0.2, 0.8);
-
-impl DebugView {
-    /// All there are.
-    pub const ALL: [Self; 4] = [Self::Lod, Self::Deficit, Self::Samples, Self::Weights];
-
-    /// The values at the ends of the scale; what lies beyond has the colour of the end.
-    pub fn scale(self) -> (f64, f64) {
-        match self {
-            // Few displays see more than three levels of a volume at once; each is a colour of its own.
-            Self::Lod | Self::Deficit => (0.0, 4.0),
-            Self::Samples => (0.0, 1024.0),
-            Self::Weights => (0.0, 1.0),
-        }
-    }
-
-    /// The part of the colours that the scale has.
-    pub fn colours(self) -> (f64, f64) {
-        match self {
-            Self::Samples => (0.0, 1.0),
-            Self::Lod | Self::Deficit | Self::Weights => BLUE_TO_YELLOW,
-        }
-    }
-
-    /// Where a value lies on the scale, 0 to 1: counts of samples by their logarithm.
-    pub fn place(self, value: f64) -> f64 {
-        let (least, most) = self.scale();
-        let share = match self {
-            Self::Samples => (1.0 + value.max(0.0)).log2() / (1.0 + most).log2(),
-            Self::Lod | Self::Deficit | Self::Weights => (value - least) / (most - least),
-        };
-        share.clamp(0.0, 1.0)
-    }
-
-    /// The modules of a kernel that shows it, and the numbers that they read.
-    pub(super) fn wgsl(self) -> String {
-        let (least, most) = self.scale();
-        let (low, high) = self.colours();
-        let (shows, module) = match self {
-            Self::Lod => (0, include_str!("../../wgsl/debug/node.wgsl")),
-            Self::Deficit => (1, include_str!("../../wgsl/debug/node.wgsl")),
-            Self::Weights => (2, include_str!("../../wgsl/debug/node.wgsl")),
-            Self::Samples => (3, include_str!("../../wgsl/debug/samples.wgsl")),
-        };
-        let numbers = [("LEAST", least), ("MOST", most), ("LOW", low), ("HIGH", high)];
-        let numbers = numbers.map(|(name, value)| format!("const DEBUG_{name}: f32 = {value:?};\n")).concat();
-        let ramp = |(i, [r, g, b]): (usize, [f64; 3])| {
-            format!(
-                "const HEAT_RAMP_{i}: vec3<f32> = vec3<f32>({:?}, {:?}, {:?});\n",
-                r as f32, g as f32, b as f32
-            )
-        };
-        let ramps: String = crate::twin::debug::ramps().into_iter().enumerate().map(ramp).collect();
-        let heat = include_str!("../../wgsl/debug/heat.wgsl");
-        format!("const DEBUG_SHOWS: u32 = {shows}u;\n{numbers}{ramps}{heat}{module}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ends_of_a_scale_are_its_ends() {
-        for view in DebugView::ALL {
-            let (least, most) = view.scale();
-            assert_eq!([least - 1.0, least, most, 2.0 * most].map(|v| view.place(v)), [0.0, 0.0, 1.0, 1.0]);
-            assert!(view.place(0.5 * most) > 0.1 && view.place(0.5 * most) < 0.95);
-        }
-    }
+/// The modules of a kernel that shows it, and the numbers that they read.
+pub(super) fn wgsl(view: DebugView) -> String {
+    let (least, most) = view.scale();
+    let (low, high) = view.colours();
+    let (shows, module) = match view {
+        DebugView::Lod => (0, include_str!("../../wgsl/debug/node.wgsl")),
+        DebugView::Deficit => (1, include_str!("../../wgsl/debug/node.wgsl")),
+        DebugView::Weights => (2, include_str!("../../wgsl/debug/node.wgsl")),
+        DebugView::Samples => (3, include_str!("../../wgsl/debug/samples.wgsl")),
+    };
+    let numbers = [("LEAST", least), ("MOST", most), ("LOW", low), ("HIGH", high)];
+    let numbers = numbers.map(|(name, value)| format!("const DEBUG_{name}: f32 = {value:?};\n")).concat();
+    let ramp = |(i, [r, g, b]): (usize, [f64; 3])| {
+        format!(
+            "const HEAT_RAMP_{i}: vec3<f32> = vec3<f32>({:?}, {:?}, {:?});\n",
+            r as f32, g as f32, b as f32
+        )
+    };
+    let ramps: String = crate::twin::debug::ramps().into_iter().enumerate().map(ramp).collect();
+    let heat = include_str!("../../wgsl/debug/heat.wgsl");
+    format!("const DEBUG_SHOWS: u32 = {shows}u;\n{numbers}{ramps}{heat}{module}")
 }

@@ -1,7 +1,8 @@
 //! One kernel: a filter, and what a scene needs.
 
-use super::{Compositing, DebugView, Levels, Needs, Shading, Way};
-use crate::optics::MimdaForm;
+use super::{Compositing, Levels, Needs, Shading, Way};
+use optics::DebugView;
+use optics::MimdaForm;
 
 /// How voxels are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -100,7 +101,7 @@ impl KernelKey {
         modules.extend(needs.composite_wgsl());
         modules.extend(needs.shade_wgsl());
         let chain = needs.chain.wgsl(needs.reads_importance());
-        let debug = needs.debug.map_or_else(|| module!("debug/none").to_owned(), DebugView::wgsl);
+        let debug = needs.debug.map_or_else(|| module!("debug/none").to_owned(), super::debug_view::wgsl);
         modules.extend([
             chain.as_str(),
             module!("refine"),

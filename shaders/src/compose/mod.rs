@@ -11,7 +11,7 @@
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
 //! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`] |
 //! | way | `way/straight`, `way/refracted` |
-//! | debug | `debug/none`, `node`, `samples`, see [`DebugView`] |
+//! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 
 mod chain;
 mod debug_view;
@@ -19,6 +19,5 @@ mod kernel;
 mod needs;
 
 pub use chain::{Chain, EnhancerKind};
-pub use debug_view::DebugView;
 pub use kernel::{Filter, KernelKey};
 pub use needs::{Compositing, Levels, Needs, Shading, Way};

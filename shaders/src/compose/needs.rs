@@ -1,7 +1,8 @@
 //! What a scene needs of a kernel.
 
-use super::{Chain, DebugView};
-use crate::optics::{Detail, Light, MimdaForm, Optics, Quality};
+use super::Chain;
+use optics::DebugView;
+use optics::{Detail, Light, MimdaForm, Optics, Quality};
 
 /// Whether samples are filtered over levels of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -7,7 +7,7 @@ use super::shade::{AnyShade, Phong, Plain};
 use super::way::cast_ray;
 use super::{Real, Scene, ray::Ray};
 use crate::compose::{Chain, Compositing, Levels, Needs, Shading, Way};
-use crate::optics::MimdaForm;
+use optics::MimdaForm;
 
 /// What one ray brings back.
 #[derive(Clone, Copy, Debug, PartialEq)]

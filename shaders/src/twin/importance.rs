@@ -1,7 +1,7 @@
 //! Averages of the importance over a segment.
 
 use super::{Real, tables::span};
-use crate::layout::ImportanceEntry;
+use layout::ImportanceEntry;
 
 #[inline(always)]
 fn importance_at<F: Real>(table: &[ImportanceEntry], u: F, cell: usize) -> F {

@@ -8,7 +8,7 @@ use super::shade::Shade;
 use super::tables::locate;
 use super::traverse::voxel_edge;
 use super::{Real, Scene, ray::Ray};
-use crate::layout::NodeRecord;
+use layout::NodeRecord;
 
 /// A step is split into this many parts at most.
 pub const MOST_PARTS: f64 = 16.0;

@@ -2,8 +2,8 @@
 
 use super::{Real, View};
 use crate::compose::Needs;
-use crate::layout::{CELL_WORDS, FeedbackEntry, NodeRecord, code_from_deficit};
 use crate::tables::Tables;
+use layout::{CELL_WORDS, FeedbackEntry, NodeRecord, code_from_deficit};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Codes of one brick: 32³.
@@ -20,7 +20,7 @@ pub struct Scene<'a, F> {
     pub tables: &'a Tables,
     /// What the scene needs.
     pub needs: &'a Needs,
-    /// Which 4³ cells of each slot's brick show anything: 16 words of bits a slot, see [`crate::layout::CELL_WORDS`].
+    /// Which 4³ cells of each slot's brick show anything: 16 words of bits a slot, see [`layout::CELL_WORDS`].
     pub cells: &'a [u32],
     /// The brick cache: slot i holds the codes from i · 32³.
     pub atlas: &'a [u16],

@@ -2,7 +2,7 @@
 
 use super::Real;
 use super::four::{each, mix, widen};
-use crate::layout::OpticsEntry;
+use layout::OpticsEntry;
 
 /// A scalar's place in a table, and the values there: looked up once, used for every mean that ends at it.
 #[derive(Clone, Copy, Debug)]
@@ -75,9 +75,9 @@ pub fn attenuation_mean<F: Real>(x: F) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::{Curve, ExtinctionUnit, Optics};
     use crate::tables::optics_table;
     use glam::DVec3;
+    use optics::{Curve, ExtinctionUnit, Optics};
     use proptest::prelude::*;
 
     /// Six terms of the series, cut off at x = 1/4: the next term is x⁶/5040.

@@ -2,7 +2,7 @@
 
 use super::ray::far;
 use super::{Real, Scene, ray::Ray, vector::Vec3};
-use crate::layout::{NO_NODE, NodeRecord};
+use layout::{NO_NODE, NodeRecord};
 
 /// Own voxels of a node along an edge.
 pub const OWN_EDGE: f64 = 28.0;

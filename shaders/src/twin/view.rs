@@ -2,11 +2,11 @@
 
 use super::enhance::{Constants, constants};
 use super::vector::Vec3;
-use crate::layout::{Link, Params};
-use crate::optics::{Detail, Light, MOST_ENHANCERS, Optics, Quality};
 use crate::tables::TABLE_ENTRIES;
 use display_config::{BeamLaw, Raster};
 use glam::{DAffine3, DMat3, DVec3, UVec3};
+use layout::{Link, Params};
+use optics::{Detail, Light, MOST_ENHANCERS, Optics, Quality};
 
 /// See [`Params`]; one field for each that the twin needs.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Writes the inputs that fuzzing starts from: stores of every kind, and the volume files of the tests.
 
-use backend::store::{BuildOptions, CodeBits, Codec, build};
-use backend::volume::{Element, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
+use bricks::store::{BuildOptions, CodeBits, Codec, build};
+use bricks::volume::{Element, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
 use flate2::read::MultiGzDecoder;
 use glam::{DVec3, UVec3};
 use lightloom_fuzz::format::{FORMATS, Form, number};

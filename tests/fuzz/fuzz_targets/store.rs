@@ -1,7 +1,8 @@
 //! Reads a hostile store: all that can be asked of it, with right checksums or wrong ones.
 #![no_main]
 
-use backend::store::{BRICK_VOXELS, Brick, BrickSource, Codes, NodeKey, NodeSummary, Store};
+use bricks::{BRICK_VOXELS, Brick, BrickSource, Codes, NodeKey, NodeSummary};
+use bricks::store::Store;
 use libfuzzer_sys::fuzz_target;
 use lightloom_fuzz::budget::Budget;
 use lightloom_fuzz::resign::{Repair, resign};

@@ -1,7 +1,8 @@
 //! Opens a hostile volume file in several ways, and reads it where it is small.
 #![no_main]
 
-use backend::volume::{ByteOrder, Element, RawLayout, Samples, Selection, VolumeReader, open};
+use bricks::volume::{ByteOrder, Element, Samples, VolumeReader};
+use volumes::{RawLayout, Selection, open};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use glam::{DVec3, UVec3};

@@ -2,5 +2,5 @@
 
 pub mod budget;
 pub mod format;
-#[path = "../../../backend/src/store/resign.rs"]
+#[path = "../../../backend/bricks/src/store/resign.rs"]
 pub mod resign;

@@ -5,8 +5,8 @@ use super::difference::{Difference, Limit, difference};
 use crate::compare::{self, TruePixel};
 use crate::draw::{self, With};
 use crate::scenes::with_raster;
-use backend::protocol::{DeviceChoice, ProjectorImage};
 use display_config::Display;
+use protocol::{DeviceChoice, ProjectorImage};
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];
@@ -153,7 +153,7 @@ fn brightest(scene: &RandomScene) -> f64 {
     let colour = scene.optics.colour.points().iter().map(|p| p.1.max_element()).fold(1.0, f64::max);
     let Some(light) = &scene.light else { return colour };
     let materials = scene.optics.materials.iter().flat_map(|m| m.points()).map(|p| p.1);
-    let lit = |m: shaders::optics::Material| colour * (m.ambient + m.diffuse).max(1.0) + m.specular;
+    let lit = |m: optics::Material| colour * (m.ambient + m.diffuse).max(1.0) + m.specular;
     materials.map(lit).fold(lit(light.material()), f64::max)
 }
 

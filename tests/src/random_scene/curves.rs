@@ -2,8 +2,8 @@
 
 use super::sometimes;
 use glam::DVec3;
+use optics::Curve;
 use proptest::prelude::*;
-use shaders::optics::Curve;
 use shaders::tables::TABLE_ENTRIES;
 
 /// A table cell.
@@ -73,7 +73,7 @@ pub(super) fn colours() -> impl Strategy<Value = Colours> {
 }
 
 /// A curve from points that are in order.
-pub(super) fn curve<V: shaders::optics::CurveValue>(points: Vec<(f64, V)>) -> Curve<V> {
+pub(super) fn curve<V: optics::CurveValue>(points: Vec<(f64, V)>) -> Curve<V> {
     Curve::new(points).expect("rising positions and values from 0 make a curve")
 }
 

@@ -2,10 +2,8 @@
 
 use super::look::directions;
 use glam::{DAffine3, DVec3, UVec3};
+use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid};
 use proptest::prelude::*;
-use shaders::optics::{
-    BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
-};
 
 /// Chains; empty where none are wanted. Points lie in the unit cube, lengths are shares of the volume's longest edge.
 pub(super) fn chains(are_wanted: bool) -> impl Strategy<Value = Vec<Enhancer>> {

@@ -3,8 +3,8 @@
 use super::curves::{curve, points};
 use super::{Wanted, sometimes};
 use glam::DVec3;
+use optics::{Curve, Detail, Light, Material, Mimda, MimdaForm};
 use proptest::prelude::*;
-use shaders::optics::{Curve, Detail, Light, Material, Mimda, MimdaForm};
 
 /// What makes light of samples.
 #[derive(Clone, Debug)]

@@ -27,13 +27,13 @@ pub use view::Stand;
 pub use volume::{RandomField, RandomVolume};
 
 use crate::scenes;
-use backend::protocol::FrameState;
 use curves::Shape;
 use display_config::Display;
 use glam::DAffine3;
 use look::Look;
+use optics::{Enhancer, ExtinctionUnit, Light, MimdaForm, Optics, Quality};
 use proptest::prelude::*;
-use shaders::optics::{Enhancer, ExtinctionUnit, Light, MimdaForm, Optics, Quality};
+use protocol::FrameState;
 
 /// Features that scenes may have beyond those that every device and the reference know.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -158,7 +158,7 @@ impl RandomScene {
     /// Whether a reference tells its picture: MImDA as published depends on the step, which has no limit to compare with
     /// but its own, and rays in strong refraction part where they differ by rounding.
     pub fn has_truth(&self) -> bool {
-        let is_paper = |m: &shaders::optics::Mimda| m.form == MimdaForm::Paper && m.gamma > 0.0;
+        let is_paper = |m: &optics::Mimda| m.form == MimdaForm::Paper && m.gamma > 0.0;
         !self.optics.mimda.as_ref().is_some_and(is_paper) && self.is_gentle && !self.has_coarse_quality()
     }
 
@@ -194,7 +194,7 @@ mod tests {
             |s| s.optics.materials.is_some() && s.light.is_some(),
             |s| s.optics.enhancers.len() == 3,
             |s| s.quality.quadrilinear,
-            |s| s.light.is_some_and(|light| light.detail != shaders::optics::Detail::None),
+            |s| s.light.is_some_and(|light| light.detail != optics::Detail::None),
             |s| s.optics.mimda.as_ref().is_some_and(|mimda| mimda.gamma == 1.0),
             RandomScene::is_tame,
         ];

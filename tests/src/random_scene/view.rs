@@ -2,8 +2,8 @@
 
 use super::look::directions;
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
+use optics::Quality;
 use proptest::prelude::*;
-use shaders::optics::Quality;
 
 /// Where the volume is, and who looks.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! A field of some kind over a box of voxels, at random.
 
 use crate::closure_volume::ClosureVolume;
-use backend::store::{BrickSource, CodeBits};
-use backend::volume::procedural::ProceduralVolume;
+use bricks::BrickSource;
+use bricks::procedural::ProceduralVolume;
+use bricks::store::CodeBits;
 use glam::{DVec3, IVec3, UVec3};
 use proptest::prelude::*;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! Seconds against one measure of error: the front, and where the default lies.
 
 use crate::accuracy::{BEATEN_BY, Measured, Score, beaten_by, front};
-use backend::reference::Errors;
+use reference::Errors;
 use serde::Serialize;
 
 /// A measure of error.

@@ -12,7 +12,7 @@ use super::{DisplaySummary, SceneSummary, write_text};
 use crate::FrontendError;
 use crate::accuracy::{Measured, Outcome, Study, TruthSummary};
 use crate::scene::{Scene, VolumeFacts};
-use backend::protocol::DeviceInfo;
+use protocol::DeviceInfo;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Duration;

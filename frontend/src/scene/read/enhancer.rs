@@ -4,10 +4,8 @@ use super::Checked;
 use crate::scene::file::{BandTable, EnhancerKind, EnhancerTable, Limits, Number, Triple};
 use crate::scene::text::SceneText;
 use crate::scene::{Anchor, Band, SceneEnhancer};
+use ::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid};
 use glam::DVec3;
-use shaders::optics::{
-    BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
-};
 use std::ops::Range;
 use toml::Spanned;
 

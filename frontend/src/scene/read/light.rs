@@ -3,7 +3,7 @@
 use super::Checked;
 use crate::scene::file::{DetailKind, LightTable, QualityTable};
 use crate::scene::text::SceneText;
-use shaders::optics::{Detail, Light, Quality};
+use ::optics::{Detail, Light, Quality};
 
 /// Of unsharp masking: as much again as a level differs from the next coarser one.
 const UNSHARP_STRENGTH: f64 = 1.0;

@@ -9,10 +9,10 @@ mod volume;
 use super::file::{DisplayTable, FramesTable, SceneFile, ToolTable};
 use super::text::SceneText;
 use super::{Look, Scene, SceneEnhancer, SceneError, VolumeSource, builtin};
-use backend::protocol::Tool;
+use ::optics::Enhancer;
 use glam::DVec3;
 use motion::Changeable;
-use shaders::optics::Enhancer;
+use protocol::Tool;
 use std::path::Path;
 
 type Checked<T> = Result<T, SceneError>;

@@ -4,8 +4,8 @@ use super::Checked;
 use crate::scene::file::{MimdaTable, OpticsTable, Points, SceneFile};
 use crate::scene::look::DataLook;
 use crate::scene::text::SceneText;
+use ::optics::{Curve, CurveError, CurveValue, Material, Mimda, MimdaForm};
 use glam::DVec3;
-use shaders::optics::{Curve, CurveError, CurveValue, Material, Mimda, MimdaForm};
 use toml::Spanned;
 
 impl SceneText {

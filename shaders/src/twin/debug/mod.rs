@@ -9,7 +9,7 @@ pub use heat::{heat, ramps};
 use super::composite::Light;
 use super::kernel::Kernel;
 use super::{Real, Scene, ray::Ray};
-use crate::compose::DebugView;
+use optics::DebugView;
 
 /// A segment's light around t: itself, where no debug view colours it.
 #[inline(always)]

@@ -1,11 +1,11 @@
 //! Debug views of nodes: light in the colour of the node that it comes from, as opaque as it is.
 
 use super::heat;
-use crate::compose::DebugView;
-use crate::layout::NodeRecord;
 use crate::twin::composite::Light;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
 use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use layout::NodeRecord;
+use optics::DebugView;
 
 /// Share of the node's own samples at a point, between its eight corners.
 fn weight<F: Real>(finest: u32, node: &NodeRecord, point: Vec3<F>) -> F {
@@ -47,7 +47,7 @@ pub(super) fn light<F: Real>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::{NO_NODE, pack_weights};
+    use layout::{NO_NODE, pack_weights};
 
     #[test]
     fn weights_are_trilinear_between_corners() {

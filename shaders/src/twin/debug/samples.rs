@@ -1,8 +1,8 @@
 //! The debug view of samples: how many a ray took, instead of its colour.
 
 use super::heat;
-use crate::compose::DebugView;
 use crate::twin::Real;
+use optics::DebugView;
 
 /// The colour of a ray.
 pub(super) fn pixel<F: Real>(samples: u32) -> [F; 4] {

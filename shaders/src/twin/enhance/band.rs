@@ -59,7 +59,7 @@ pub(super) fn band_most<F: Real>(corners: &[F; 4], (s0, s1): (F, F)) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::Trapezoid;
+    use optics::Trapezoid;
     use proptest::prelude::*;
 
     proptest! {

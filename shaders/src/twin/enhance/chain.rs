@@ -2,12 +2,12 @@
 
 use super::{BandPicker, ClipPlane, Constants, LayerOpacity, Probe};
 use crate::compose::EnhancerKind;
-use crate::optics::MOST_ENHANCERS;
 use crate::twin::composite::{Accumulated, Composite, Sample};
 use crate::twin::gradient::Gradients;
 use crate::twin::kernel::Kernel;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Real, Scene, vector::Vec3};
+use optics::MOST_ENHANCERS;
 
 /// An enhancer's state along one ray.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! How each enhancer packs its constants: as its WGSL module says.
 
-use crate::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Probe, Trapezoid};
 use glam::DVec3;
+use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Probe, Trapezoid};
 
 /// The four vectors of a link.
 pub type Constants<F> = [[F; 4]; 4];

@@ -1,10 +1,10 @@
 //! One level of detail around a ray: where a brick's samples lie on it.
 
-use crate::layout::NodeRecord;
 use crate::twin::sample::sample_brick;
 use crate::twin::scene::BRICK_VOXELS;
 use crate::twin::traverse::{node_low, voxel_edge};
 use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use layout::NodeRecord;
 
 /// See `Level` in `wgsl/levels/level.wgsl`.
 #[derive(Clone, Copy)]

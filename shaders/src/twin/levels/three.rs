@@ -3,10 +3,10 @@
 
 use super::{Level, weights::Weights};
 use crate::compose::Levels;
-use crate::layout::{CELL_WORDS, NO_NODE, NO_SLOT, NodeRecord};
 use crate::twin::kernel::Kernel;
 use crate::twin::traverse::voxel_edge;
 use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use layout::{CELL_WORDS, NO_NODE, NO_SLOT, NodeRecord};
 
 /// What stays the same on a straight path through one brick. Where an ancestor has no brick, the level below stands for it.
 #[derive(Clone, Copy)]

@@ -1,9 +1,9 @@
 //! A node's share of its own samples, by the weights of its corners; the parent has the rest.
 
 use super::Level;
-use crate::layout::{FULL_WEIGHTS, NodeRecord};
 use crate::twin::four::{between_corners, each, mix};
 use crate::twin::{Real, traverse::OWN_EDGE};
+use layout::{FULL_WEIGHTS, NodeRecord};
 
 /// See `Weights` in `wgsl/levels/weights.wgsl`.
 #[derive(Clone, Copy)]

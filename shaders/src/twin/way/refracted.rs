@@ -1,6 +1,5 @@
 //! A bent ray's path through the volume: straight pairs of steps, with a turn in the middle of each.
 
-use crate::layout::{NO_NODE, NO_SLOT, NodeRecord};
 use crate::twin::brick::{PairOfSteps, Straight, add_pair};
 use crate::twin::composite::{Accumulated, Composite};
 use crate::twin::enhance::Chain;
@@ -12,6 +11,7 @@ use crate::twin::refine::{Voxel, scalars_in_reach};
 use crate::twin::tables::is_vacant;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
 use crate::twin::{Cast, Real, Scene, vector::Vec3};
+use layout::{NO_NODE, NO_SLOT, NodeRecord};
 
 /// See `wgsl/way/refracted.wgsl` for these eight.
 const MOST_STEP: f64 = 0.5;

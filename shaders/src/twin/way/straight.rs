@@ -1,6 +1,5 @@
 //! A straight ray's path through the volume.
 
-use crate::layout::{NO_NODE, NO_SLOT};
 use crate::twin::brick::{PairOfSteps, Straight, add_pair};
 use crate::twin::composite::{Accumulated, Composite};
 use crate::twin::enhance::Chain;
@@ -9,6 +8,7 @@ use crate::twin::levels::Brick;
 use crate::twin::refine::{Voxel, scalars_in_reach};
 use crate::twin::tables::is_vacant;
 use crate::twin::{Cast, Real, Scene, ray::Ray};
+use layout::{NO_NODE, NO_SLOT};
 
 struct Marched<F> {
     front: Accumulated<F>,

@@ -1,0 +1,51 @@
+//! Working files beside their final places.
+
+use std::io;
+use std::path::Path;
+use tempfile::{Builder, NamedTempFile, TempDir};
+
+/// A file that deletes itself unless it is given a name; readable as any other file of the user would be.
+///
+/// # Errors
+/// Those of the file system, without the working file's own path.
+pub fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(".lightloom-").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder).map_err(without_path)
+}
+
+/// A folder that deletes itself and all in it unless it is kept; readable as any other folder of the user would be.
+///
+/// # Errors
+/// Those of the file system, without the working folder's own path.
+pub fn temporary_folder_in(folder: &Path) -> io::Result<TempDir> {
+    let mut builder = Builder::new();
+    builder.prefix(".lightloom-").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    builder.tempdir_in(folder).map_err(without_path)
+}
+
+/// The error without the working file's path that `tempfile` puts behind it: the user knows the file to be, not this.
+fn without_path(error: io::Error) -> io::Error {
+    let text = error.to_string();
+    let plain = text.split(" at path \"").next().unwrap_or(&text);
+    io::Error::new(error.kind(), plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_tells_of_no_working_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = temporary_in(&folder.path().join("nowhere")).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert!(!error.to_string().contains(".part"), "{error}");
+        let error = temporary_folder_in(&folder.path().join("nowhere")).unwrap_err();
+        assert!(!error.to_string().contains(".part"), "{error}");
+    }
+}

@@ -1,0 +1,88 @@
+//! The state of one frame: all that a back-end must know to draw it.
+
+use glam::{DAffine3, DVec3};
+use optics::DebugView;
+use optics::{Light, Optics, Quality};
+use serde::{Deserialize, Serialize};
+
+/// What a tracked tool does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToolKind {
+    /// It only points.
+    Pointer,
+    /// It carries the light: light comes from where the tool's axis points back to.
+    Light,
+}
+
+/// A tool in a visitor's hand.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tool {
+    /// What it does.
+    pub kind: ToolKind,
+    /// Its tip, display frame, metres.
+    pub tip_in_display: DVec3,
+    /// Unit vector along which it points, display frame.
+    pub axis_in_display: DVec3,
+}
+
+/// How a frame gets its detail.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Pace {
+    /// It waits until nothing is missing.
+    #[default]
+    Complete,
+    /// It shows what is there; detail comes with later frames.
+    Live {
+        /// Bytes of bricks that one frame may move to the device.
+        upload_bytes: u64,
+        /// Time in which detail appears or goes, seconds; 0 is at once.
+        fade_s: f64,
+    },
+}
+
+/// One frame, the same for every back-end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameState {
+    /// Frame number, from 0.
+    pub index: u32,
+    /// Time of the frame on the scene's clock, seconds.
+    pub time_s: f64,
+    /// The virtual observer V, display frame, metres; z > 0.
+    pub observer_in_display: DVec3,
+    /// η in [0, 1]: 0 one perspective view, 1 full horizontal parallax.
+    pub eta: f64,
+    /// Volume frame (finest voxels) to display frame (metres).
+    pub display_from_volume: DAffine3,
+    /// What scalars look like.
+    pub optics: Optics,
+    /// Gradient shading; None shows the plain colours.
+    pub light: Option<Light>,
+    /// How closely the continuous model is followed.
+    pub quality: Quality,
+    /// The tool, where the scene has one.
+    pub tool: Option<Tool>,
+    /// How it gets its detail.
+    pub pace: Pace,
+    /// What is shown of the working set instead of the pictures.
+    pub debug: Option<DebugView>,
+}
+
+impl FrameState {
+    /// The light after the tool has had its say.
+    pub fn light_in_effect(&self) -> Option<Light> {
+        let light = self.light?;
+        match self.tool {
+            Some(Tool { kind: ToolKind::Light, axis_in_display, .. }) => {
+                Some(Light { toward_light_in_display: -axis_in_display, ..light })
+            }
+            Some(Tool { kind: ToolKind::Pointer, .. }) | None => Some(light),
+        }
+    }
+
+    /// Edge of the finest voxel in the display frame: the cube root of its volume, metres.
+    pub fn voxel_m(&self) -> f64 {
+        self.display_from_volume.matrix3.determinant().abs().cbrt()
+    }
+}

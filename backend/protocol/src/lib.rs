@@ -1,0 +1,16 @@
+//! What a front-end and a back-end say to each other.
+
+mod draw;
+mod frame;
+mod image;
+mod message;
+mod report;
+mod setup;
+pub mod wire;
+
+pub use draw::{Draw, RenderEvent};
+pub use frame::{FrameState, Pace, Tool, ToolKind};
+pub use image::ProjectorImage;
+pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
+pub use report::{FrameReport, Stages, Upkeep};
+pub use setup::{DeviceChoice, DeviceInfo, FilterChoice, Hello, Setup, VolumeRef};

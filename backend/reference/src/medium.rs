@@ -1,0 +1,272 @@
+//! The curves of an optical model, cut into bands on which all of them are linear.
+
+use super::Cubic;
+use super::enhancer::Chain;
+use glam::{DVec3, DVec4};
+use optics::{Curve, CurveValue, MOST_ENHANCERS, Material, MimdaForm, Optics};
+
+/// A function that is linear over a band: its value at the band's start, and its change over the band.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear<V>(pub V, pub V);
+
+/// An interval of the scalar on which every curve is linear. Positions in it are x = (s − start) / width.
+#[derive(Clone, Copy, Debug)]
+pub struct Band {
+    start: f64,
+    width: f64,
+    /// Extinction, 1/metre.
+    pub extinction: Linear<f64>,
+    /// Colour, linear RGB.
+    pub colour: Linear<DVec3>,
+    /// Importance as the chain leaves it; 0 if the medium has none.
+    pub importance: Linear<f64>,
+    /// Importance as the chain of enhancers gets it: the scene's own, 1 if none is accumulated.
+    pub told: Linear<f64>,
+    /// What each link of the chain has of the scalar: its own band's value, 0 for links without a band.
+    pub shares: [Linear<f64>; MOST_ENHANCERS],
+    /// Factors of the shading law, where they depend on the scalar.
+    pub material: Option<Linear<DVec4>>,
+}
+
+impl Band {
+    /// The place in the band of the scalar `s`.
+    pub fn place(&self, s: f64) -> f64 {
+        (s - self.start) / self.width
+    }
+
+    /// The place in the band along a way on which the scalar is a cubic.
+    pub fn places(&self, scalar: &Cubic) -> Cubic {
+        scalar.relative_to(self.start, self.width)
+    }
+
+    /// The importance at the scalar `s`.
+    pub fn importance_at(&self, s: f64) -> f64 {
+        (self.importance.0 + self.importance.1 * self.place(s)).clamp(0.0, 1.0)
+    }
+
+    /// The scalar at which the importance, which must change in this band, is `importance`.
+    pub fn scalar_where(&self, importance: f64) -> f64 {
+        self.start + self.width * ((importance - self.importance.0) / self.importance.1)
+    }
+
+    /// What the shading law uses at `place`: `light`'s factors if the scene has none per scalar.
+    pub fn material(&self, place: f64, light: Material) -> Material {
+        let Some(Linear(start, change)) = self.material else { return light };
+        let [ambient, diffuse, specular, shininess] = (start + change * place).to_array();
+        Material { ambient, diffuse, specular, shininess }
+    }
+
+    /// Whether nothing is visible anywhere in the band.
+    pub fn is_empty(&self) -> bool {
+        self.extinction.0 == 0.0 && self.extinction.1 == 0.0
+    }
+}
+
+/// How strongly importance erases what lies in front of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Erasure {
+    /// γ in (0, 1].
+    pub gamma: f64,
+    /// Which form.
+    pub form: MimdaForm,
+    /// The largest importance there is.
+    pub largest: f64,
+}
+
+impl Erasure {
+    /// What is left of the past after ι_max rises from a to b > a by infinitely small steps: exp(−γ (b − a)) in the
+    /// paper's form, (1 − γ b) / (1 − γ a) in the consistent one. A jump of ι at one point is taken as the limit of ever
+    /// steeper rises, so that a curve with a jump and the same curve with a very steep flank show the same picture.
+    pub fn kept(&self, a: f64, b: f64) -> f64 {
+        match self.form {
+            MimdaForm::Paper => (-self.gamma * (b - a)).exp(),
+            MimdaForm::Consistent => kept_consistently(self.gamma, a, b),
+        }
+    }
+
+    /// dP / dι at importance ι: the erasing of the past per rise of importance.
+    pub fn rate(&self, importance: f64) -> f64 {
+        match self.form {
+            MimdaForm::Paper => self.gamma,
+            MimdaForm::Consistent => self.gamma / (1.0 - self.gamma * importance),
+        }
+    }
+
+    /// β of LFD eq. 3 for one step that finds importance `b` after a maximum of `a` < b.
+    pub fn kept_by_one_step(&self, a: f64, b: f64) -> f64 {
+        match self.form {
+            MimdaForm::Paper => 1.0 - self.gamma * (b - a),
+            MimdaForm::Consistent => kept_consistently(self.gamma, a, b),
+        }
+    }
+}
+
+fn kept_consistently(gamma: f64, a: f64, b: f64) -> f64 {
+    if gamma * a == 1.0 { 1.0 } else { (1.0 - gamma * b) / (1.0 - gamma * a) }
+}
+
+/// An optical model made ready for integration.
+///
+/// A value that a curve takes at a single scalar only (the middle one of three points at one position) is never
+/// seen, as the ray spends no length at it.
+#[derive(Clone, Debug)]
+pub struct Medium {
+    optics: Optics,
+    knots: Vec<f64>,
+    bands: Vec<Band>,
+    /// One band of no width per knot, for values that stay on it.
+    points: Vec<Band>,
+    /// Importance accumulation, where it does anything.
+    pub erasure: Option<Erasure>,
+    /// The largest component of any colour.
+    pub brightest: f64,
+}
+
+impl Medium {
+    /// `optics`, which must have passed its check, for a finest voxel of edge `voxel_m`, as a `chain` of its enhancers
+    /// leaves it.
+    pub fn new(optics: &Optics, voxel_m: f64, chain: &Chain) -> Self {
+        let knots = knots(optics, chain);
+        let band = |s0: f64, s1: f64| band(optics, chain, voxel_m, s0, s1);
+        let mut bands = vec![band(0.0, 0.0)];
+        bands.extend(knots.windows(2).map(|pair| band(pair[0], pair[1])));
+        bands.push(band(1.0, 1.0));
+        let largest = optics.most_importance_on(0.0, 1.0);
+        Self {
+            points: knots.iter().map(|&knot| band(knot, knot)).collect(),
+            knots,
+            bands,
+            erasure: optics.accumulation().map(|m| Erasure { gamma: m.gamma, form: m.form, largest }),
+            brightest: optics.colour.points().iter().fold(0.0, |most, p| p.1.max_element().max(most)),
+            optics: optics.clone(),
+        }
+    }
+
+    /// The optical model it was made of.
+    pub fn optics(&self) -> &Optics {
+        &self.optics
+    }
+
+    /// The scalar, not clamped, along a way on which the data value is a cubic.
+    pub fn scalar(&self, value: &Cubic) -> Cubic {
+        let (low, high) = self.optics.domain;
+        if value.is_finite() {
+            value.relative_to(low, high - low)
+        } else {
+            Cubic::constant(self.optics.normalise(value.0[0]))
+        }
+    }
+
+    /// Number of the band that holds the scalar `s`; on a knot, the upper one, as [`Curve::at`] has it.
+    pub fn band_number(&self, s: f64) -> usize {
+        self.knots.partition_point(|&knot| knot <= s)
+    }
+
+    /// A band by its number.
+    pub fn band(&self, number: usize) -> &Band {
+        &self.bands[number]
+    }
+
+    /// The band for a stretch on which the scalar is `s` throughout: on a knot, what the curves are at that point.
+    pub fn band_at(&self, s: f64) -> &Band {
+        match self.knots.binary_search_by(|knot| knot.total_cmp(&s)) {
+            Ok(index) => &self.points[index],
+            Err(_) => self.band(self.band_number(s)),
+        }
+    }
+
+    /// The mean importance over the scalars between `a` and `b`, summed band by band so that nothing cancels; its
+    /// value at the point where they are equal.
+    pub fn mean_importance(&self, a: f64, b: f64) -> f64 {
+        let (low, high) = (a.min(b), a.max(b));
+        if low == high {
+            return self.band_at(low).importance_at(low);
+        }
+        let (mut sum, mut from) = (0.0, low);
+        for to in self.knots_between(low, high).chain([high]) {
+            let middle = 0.5 * (from + to);
+            sum += self.band(self.band_number(middle)).importance_at(middle) * (to - from);
+            from = to;
+        }
+        sum / (high - low)
+    }
+
+    /// The knots strictly between `from` and `to`, in the order in which they are met.
+    pub fn knots_between(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
+        let is_rising = to > from;
+        let (low, high) = (from.min(to), from.max(to));
+        let first = self.knots.partition_point(|&knot| knot <= low);
+        let last = self.knots.partition_point(|&knot| knot < high).max(first);
+        (first..last).map(move |i| self.knots[if is_rising { i } else { first + last - 1 - i }])
+    }
+
+    /// Whether data values in [low, high] neither show nor, with ι_max already at `importance`, erase anything.
+    pub fn is_idle_on(&self, low: f64, high: f64, importance: f64) -> bool {
+        let (s0, s1) = (self.optics.normalise(low), self.optics.normalise(high));
+        let may_erase = self.erasure.is_some() && self.optics.most_importance_on(s0, s1) > importance;
+        self.optics.is_empty_on(low, high) && !may_erase
+    }
+}
+
+/// All positions at which a curve or a link of the chain may bend or jump, with the clamps of the scalar at 0 and 1.
+fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
+    let mut knots = vec![0.0, 1.0];
+    knots.extend(optics.extinction.knots_between(0.0, 1.0));
+    knots.extend(optics.colour.knots_between(0.0, 1.0));
+    knots.extend(optics.materials.iter().flat_map(|curve| curve.knots_between(0.0, 1.0)));
+    // Without a chain, importance that does not erase does nothing.
+    let told = optics.accumulation();
+    knots.extend(told.iter().flat_map(|m| m.importance.knots_between(0.0, 1.0)));
+    knots.extend(chain.knots().filter(|&s| s > 0.0 && s < 1.0));
+    knots.sort_by(f64::total_cmp);
+    knots.dedup();
+    knots
+}
+
+fn band(optics: &Optics, chain: &Chain, voxel_m: f64, s0: f64, s1: f64) -> Band {
+    let per_metre = optics.extinction_per_metre(voxel_m);
+    let Linear(extinction, change) = linear(&optics.extinction, s0, s1);
+    let told = optics.accumulation().map_or(Linear(1.0, 0.0), |m| linear(&m.importance, s0, s1));
+    let shares = chain.shares(s0, s1);
+    Band {
+        start: s0,
+        width: if s1 > s0 { s1 - s0 } else { 1.0 },
+        extinction: Linear(extinction * per_metre, change * per_metre),
+        colour: linear(&optics.colour, s0, s1),
+        importance: optics.accumulation().map_or(Linear(0.0, 0.0), |_| chain.importance(told, &shares)),
+        told,
+        shares,
+        material: optics.materials.as_ref().map(|curve| materials(curve, s0, s1)),
+    }
+}
+
+fn materials(curve: &Curve<Material>, s0: f64, s1: f64) -> Linear<DVec4> {
+    let start = DVec4::from_array(curve.at(s0).to_array());
+    let end = if s1 > s0 { DVec4::from_array(curve.just_below(s1).to_array()) } else { start };
+    Linear(start, end - start)
+}
+
+/// A curve over [s0, s1]; at its point where they are equal.
+pub fn linear<V: CurveValue + std::ops::Sub<Output = V>>(curve: &Curve<V>, s0: f64, s1: f64) -> Linear<V> {
+    let start = curve.at(s0);
+    let end = if s1 > s0 { curve.just_below(s1) } else { start };
+    Linear(start, end - start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_scene::{optics, with_importance};
+    use super::*;
+
+    #[test]
+    fn the_mean_of_a_curve_with_a_jump_is_its_integral_over_the_width() {
+        let curve = Curve::new(vec![(0.2, 0.0), (0.4, 1.0), (0.4, 0.5), (1.0, 0.5)]).unwrap();
+        let plain = optics(Curve::constant(1.0), Curve::constant(DVec3::ONE));
+        let model = with_importance(plain, curve, 1.0, MimdaForm::Paper);
+        let medium = Medium::new(&model, 1.0, &Chain::default());
+        let exact = (0.1 + 0.5 * 0.2) / 0.6;
+        assert!((medium.mean_importance(0.0, 0.6) - exact).abs() < 1e-15);
+        assert!((medium.mean_importance(0.6, 0.0) - exact).abs() < 1e-15);
+        assert_eq!(medium.mean_importance(0.4, 0.4), 0.5);
+    }
+}

@@ -1,0 +1,341 @@
+//! A back-end's share of the GPU: its atlas, buffers and kernels.
+
+use super::atlas::Atlas;
+use super::context::{Context, context};
+use super::feedback::FrameFeedback;
+use super::kernels::Kernels;
+use super::precision::{filter_error, is_precise};
+use super::readback::Readback;
+use super::storage::{Storage, uniform};
+use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
+use layout::{FeedbackEntry, Link, NodeRecord, Params};
+use optics::MOST_ENHANCERS;
+use protocol::{DeviceInfo, FilterChoice};
+use shaders::compose::{Filter, KernelKey, Way};
+use shaders::tables::Tables;
+use shaders::twin::view::Dispatch;
+use std::sync::Arc;
+
+/// Set in the count of samples where a ray met a node that is too coarse; as in the kernel.
+const MISSING: u32 = 0x8000_0000;
+/// Workgroups along x of a dispatch: a tile each.
+const GROUPS_ACROSS: u32 = 32768;
+
+/// A device with its brick cache.
+#[derive(Debug)]
+pub struct GpuDevice {
+    context: Arc<Context>,
+    atlas: Atlas,
+    sampler: wgpu::Sampler,
+    filter: Filter,
+    filter_error: Option<f32>,
+    kernels: Kernels,
+    params: wgpu::Buffer,
+    links: wgpu::Buffer,
+    nodes: Storage,
+    cells: Storage,
+    optics: Storage,
+    importance: Storage,
+    importance_most: Storage,
+    index: Storage,
+    materials: Storage,
+    occupied: Storage,
+    tiles: Storage,
+    pixels: Storage,
+    counts: Storage,
+    feedback: Storage,
+    frame_feedback: FrameFeedback,
+    feedback_back: Readback,
+    counts_back: Readback,
+    pixels_back: Readback,
+    raster: [u32; 2],
+    /// Places of the index.
+    places: usize,
+}
+
+impl GpuDevice {
+    /// Opens the process's adapter with a cache of about `slots` bricks.
+    ///
+    /// # Errors
+    /// No adapter, or no memory.
+    pub fn open(filter: FilterChoice, slots: u32) -> Result<Self, DeviceError> {
+        let context = context()?;
+        let turn = context.turn();
+        let atlas = Atlas::new(&context, slots)?;
+        let sampler = context.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("trilinear"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let filter_error =
+            if context.has_filter { Some(filter_error(&context, &atlas, &sampler)?) } else { None };
+        let filter = choose_filter(filter, filter_error)?;
+        let storage = |label| Storage::new(&context, label);
+        let params = uniform::<Params>(&context, "params");
+        let links = uniform::<[Link; MOST_ENHANCERS]>(&context, "chain of enhancers");
+        drop(turn);
+        Ok(Self {
+            atlas,
+            sampler,
+            filter,
+            filter_error,
+            kernels: Kernels::default(),
+            params,
+            links,
+            nodes: storage("nodes"),
+            cells: storage("visible cells"),
+            occupied: storage("occupied table cells"),
+            optics: storage("optics table"),
+            importance: storage("importance table"),
+            importance_most: storage("largest importances"),
+            index: storage("refraction table"),
+            materials: storage("material table"),
+            tiles: storage("tiles"),
+            pixels: storage("pixels"),
+            counts: storage("sample counts"),
+            feedback: storage("feedback"),
+            frame_feedback: FrameFeedback::new(&context),
+            feedback_back: Readback::new(),
+            counts_back: Readback::new(),
+            pixels_back: Readback::new(),
+            raster: [0, 0],
+            places: 0,
+            context,
+        })
+    }
+
+    /// What to say of it.
+    pub fn info(&self) -> DeviceInfo {
+        let filter = match self.filter {
+            Filter::Hardware => "hardware",
+            Filter::Exact => "exact",
+        };
+        let measured = match self.filter_error {
+            Some(error) => format!("its texture unit interpolates to {error:.1e}"),
+            None => "its texture unit does not interpolate 16-bit samples".into(),
+        };
+        DeviceInfo {
+            adapter: self.context.name.clone(),
+            reason: format!("a driver offers it; {measured}"),
+            filter: filter.into(),
+            cache_bytes: u64::from(self.atlas.count()) * self.context.brick_bytes(),
+        }
+    }
+
+    /// Runs this kernel instead of those that are composed; see [`crate::Renderer::substitute_kernel`].
+    pub(in crate::device) fn substitute_kernel(&mut self, wgsl: &str) {
+        let _turn = self.context.turn();
+        self.kernels.substitute(&self.context, wgsl);
+    }
+
+    pub(in crate::device) fn slots(&self) -> u32 {
+        self.atlas.count()
+    }
+
+    pub(in crate::device) fn write_brick(&mut self, slot: u32, samples: &[u16]) {
+        let _turn = self.context.turn();
+        self.atlas.write(&self.context, slot, samples);
+    }
+
+    pub(in crate::device) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
+        let _turn = self.context.turn();
+        self.nodes.write(&self.context, nodes);
+        self.cells.write(&self.context, cells);
+        self.places = nodes.len();
+        self.feedback.reserve(&self.context, (self.places * size_of::<FeedbackEntry>()) as u64);
+        self.frame_feedback.resize(&self.context, self.places);
+    }
+
+    pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
+        let _turn = self.context.turn();
+        self.optics.write(&self.context, &tables.optics);
+        self.occupied.write(&self.context, &tables.occupied);
+        self.importance.write_if_any(&self.context, &tables.importance);
+        self.importance_most.write_if_any(&self.context, &tables.importance_most);
+        self.index.write_if_any(&self.context, &tables.index);
+        self.materials.write_if_any(&self.context, &tables.materials);
+    }
+
+    pub(in crate::device) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let _turn = context.turn();
+        self.prepare(job);
+        let key = KernelKey { filter: self.filter, needs: job.needs };
+        let pipeline = self.kernels.get(&context, key).clone();
+        let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let feedback = match job.gather {
+            Gather::Own => {
+                encoder.clear_buffer(&self.feedback.buffer, 0, None);
+                &self.feedback
+            }
+            Gather::Frame => {
+                self.frame_feedback.clear_stale(&mut encoder);
+                self.frame_feedback.table()
+            }
+        };
+        let bind_group = self.bind(&pipeline, key, feedback);
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &bind_group, &[]);
+            let tiles = job.tiles.len() as u32;
+            pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
+        }
+        self.bring_back(job, encoder)
+    }
+
+    /// Runs a cast. What it is not asked for is not waited for.
+    fn bring_back(
+        &mut self,
+        job: &CastJob,
+        mut encoder: wgpu::CommandEncoder,
+    ) -> Result<CastOutcome, DeviceError> {
+        let context = &self.context;
+        let has_own = job.gather == Gather::Own;
+        if has_own {
+            let bytes = self.feedback.used_bytes;
+            self.feedback_back.copy(context, &mut encoder, &self.feedback.buffer, bytes);
+        }
+        let pixels = self.raster[0] as usize * self.raster[1] as usize;
+        if job.tells_counts() {
+            self.counts_back.copy(context, &mut encoder, &self.counts.buffer, 4 * pixels as u64);
+        }
+        context.submit(encoder);
+        if has_own || job.tells_counts() {
+            context.wait()?;
+        }
+        let feedback = if has_own { self.feedback_back.read(context, self.places)? } else { Vec::new() };
+        let counts = if job.tells_counts() { self.counts_back.read(context, pixels)? } else { Vec::new() };
+        Ok(sum_up(job, &counts, feedback))
+    }
+
+    pub(in crate::device) fn begin_feedback(&mut self) {
+        self.frame_feedback.begin();
+    }
+
+    pub(in crate::device) fn end_feedback(&mut self) {
+        let context = Arc::clone(&self.context);
+        let _turn = context.turn();
+        self.frame_feedback.end(&context);
+    }
+
+    pub(in crate::device) fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        // Another back-end of this process may have the turn, for long; what it waits for moves these tables along, too.
+        if let Some(_turn) = self.context.turn_if_free() {
+            self.context.poll()?;
+        }
+        self.frame_feedback.take(&self.context)
+    }
+
+    pub(in crate::device) fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let _turn = context.turn();
+        context.wait()?;
+        self.frame_feedback.take(&context)
+    }
+
+    pub(in crate::device) fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let _turn = context.turn();
+        let numbers = 4 * self.raster[0] as usize * self.raster[1] as usize;
+        let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.pixels_back.copy(&context, &mut encoder, &self.pixels.buffer, 4 * numbers as u64);
+        context.run(encoder)?;
+        self.pixels_back.read(&context, numbers)
+    }
+
+    /// Uploads what is particular to one cast.
+    fn prepare(&mut self, job: &CastJob) {
+        let dispatch = Dispatch {
+            atlas_slots: self.atlas.slots,
+            stride: job.grid.stride,
+            tiles_across: job.grid.across,
+            tiles: job.tiles.len() as u32,
+        };
+        self.raster = job.view.raster;
+        let pixels = u64::from(self.raster[0]) * u64::from(self.raster[1]);
+        self.pixels.reserve(&self.context, 16 * pixels);
+        self.counts.reserve(&self.context, 4 * pixels);
+        self.tiles.write(&self.context, job.tiles);
+        self.context.queue.write_buffer(&self.params, 0, bytemuck::bytes_of(&job.view.params(&dispatch)));
+        if !job.needs.chain.is_empty() {
+            self.context.queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&job.view.links()));
+        }
+    }
+
+    fn bind(&self, pipeline: &wgpu::ComputePipeline, key: KernelKey, feedback: &Storage) -> wgpu::BindGroup {
+        let buffers = [
+            (1, &self.nodes),
+            (2, &self.optics),
+            (3, &self.tiles),
+            (4, &self.pixels),
+            (5, &self.counts),
+            (6, feedback),
+            (10, &self.occupied),
+            (11, &self.cells),
+        ];
+        let mut entries: Vec<wgpu::BindGroupEntry> = buffers
+            .into_iter()
+            .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
+            .collect();
+        entries.push(wgpu::BindGroupEntry { binding: 0, resource: self.params.as_entire_binding() });
+        let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
+        entries.push(wgpu::BindGroupEntry { binding: 7, resource: atlas });
+        if key.filter == Filter::Hardware {
+            let sampler = wgpu::BindingResource::Sampler(&self.sampler);
+            entries.push(wgpu::BindGroupEntry { binding: 8, resource: sampler });
+        }
+        if !key.needs.chain.is_empty() {
+            entries.push(wgpu::BindGroupEntry { binding: 12, resource: self.links.as_entire_binding() });
+        }
+        let tables = [
+            (9, &self.importance, key.needs.reads_importance()),
+            (15, &self.importance_most, key.needs.reads_importance()),
+            (13, &self.index, key.needs.way == Way::Refracted),
+            (14, &self.materials, key.needs.has_materials),
+        ];
+        for (binding, storage, _) in tables.into_iter().filter(|&(.., is_read)| is_read) {
+            entries.push(wgpu::BindGroupEntry { binding, resource: storage.binding() });
+        }
+        self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        })
+    }
+}
+
+fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {
+    match (choice, error) {
+        (FilterChoice::Exact, _) | (FilterChoice::Auto, None) => Ok(Filter::Exact),
+        (FilterChoice::Auto, Some(error)) => {
+            Ok(if is_precise(error) { Filter::Hardware } else { Filter::Exact })
+        }
+        (FilterChoice::Hardware, Some(_)) => Ok(Filter::Hardware),
+        (FilterChoice::Hardware, None) => Err(DeviceError(
+            "this adapter's texture unit does not interpolate 16-bit samples; take --filter exact".into(),
+        )),
+    }
+}
+
+/// Adds up the counts of the tiles cast; without counts there are rays alone.
+fn sum_up(job: &CastJob, counts: &[u32], feedback: Vec<FeedbackEntry>) -> CastOutcome {
+    let [width, height] = job.view.raster;
+    let mut outcome = CastOutcome { feedback, rays: job.rays(), ..Default::default() };
+    if counts.is_empty() {
+        return outcome;
+    }
+    for &tile in job.tiles {
+        let mut is_missing = false;
+        for (x, y) in job.grid.pixels(tile, width, height) {
+            let count = counts[y as usize * width as usize + x as usize];
+            outcome.samples += u64::from(count & !MISSING);
+            is_missing |= count & MISSING != 0;
+        }
+        if is_missing {
+            outcome.missing_tiles.push(tile);
+        }
+    }
+    outcome
+}

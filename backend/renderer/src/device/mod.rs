@@ -1,0 +1,117 @@
+//! What casts rays: the GPU, or the kernels' twin on the CPU.
+
+mod choose;
+mod cpu;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod job;
+mod under_way;
+
+pub(crate) use choose::slots_within;
+pub use choose::{ChosenDevice, open_device};
+pub use cpu::CpuDevice;
+pub use job::{CastJob, CastOutcome, Gather, TileGrid};
+
+pub(crate) use under_way::MOST_UNDER_WAY;
+
+use layout::{FeedbackEntry, NodeRecord};
+use shaders::tables::Tables;
+
+/// Why a device cannot go on: one sentence.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct DeviceError(pub String);
+
+/// A device with its brick cache.
+#[derive(Debug)]
+pub enum Device {
+    /// The twin, on all cores.
+    Cpu(Box<CpuDevice>),
+    /// A wgpu device.
+    #[cfg(feature = "gpu")]
+    Gpu(Box<gpu::GpuDevice>),
+}
+
+/// The same call on whichever device there is.
+macro_rules! on_device {
+    ($device:expr, $found:ident => $call:expr) => {
+        match $device {
+            Device::Cpu($found) => $call,
+            #[cfg(feature = "gpu")]
+            Device::Gpu($found) => $call,
+        }
+    };
+}
+
+impl Device {
+    /// Runs this kernel instead of those that are composed; false on a device that has none to replace.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn substitute_kernel(&mut self, wgsl: &str) -> bool {
+        let Self::Gpu(device) = self else { return false };
+        device.substitute_kernel(wgsl);
+        true
+    }
+
+    /// Slots of the brick cache.
+    pub fn slots(&self) -> u32 {
+        on_device!(self, device => device.slots())
+    }
+
+    /// Puts a brick's 32³ samples into a slot.
+    pub fn write_brick(&mut self, slot: u32, samples: &[u16]) {
+        on_device!(self, device => device.write_brick(slot, samples));
+    }
+
+    /// Replaces the spatial index, and which cells of each slot show anything.
+    pub fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
+        on_device!(self, device => device.write_index(nodes, cells));
+    }
+
+    /// Replaces the transfer functions' tables.
+    pub fn write_tables(&mut self, tables: Tables) {
+        on_device!(self, device => device.write_tables(tables));
+    }
+
+    /// From now on the casts that gather for the frame ([`Gather::Frame`]) add to an empty table. An index that is
+    /// written meanwhile empties it again: places mean other nodes then.
+    pub fn begin_feedback(&mut self) {
+        on_device!(self, device => device.begin_feedback());
+    }
+
+    /// The frame's table is complete: starts it on its way to the host, and waits for nothing. Of the tables not taken
+    /// only the latest few are kept.
+    pub fn end_feedback(&mut self) {
+        on_device!(self, device => device.end_feedback());
+    }
+
+    /// The oldest table that is under way, one entry per place of the index that its frame was cast with; None if
+    /// there is none, or it has not arrived. It never waits.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        on_device!(self, device => device.take_feedback())
+    }
+
+    /// The same, but waits for it; None if none is under way.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        on_device!(self, device => device.wait_feedback())
+    }
+
+    /// Casts the rays of some tiles; their colours stay on the device. Where neither feedback nor counts are asked of it,
+    /// a GPU casts on while this returns.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
+        on_device!(self, device => device.cast(job))
+    }
+
+    /// The colours of the view last cast: 4 numbers per pixel, rows from the top.
+    pub fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
+        on_device!(self, device => device.picture())
+    }
+}

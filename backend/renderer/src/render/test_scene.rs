@@ -1,0 +1,103 @@
+//! A small display and a cloud, for the tests of the renderer.
+
+use super::{RenderError, Renderer};
+use bricks::BrickSource;
+use display_config::{Display, Homography, Projector, Raster};
+use glam::{DAffine3, DVec2, DVec3};
+use optics::{Curve, ExtinctionUnit, Light, Optics, Quality};
+use protocol::RenderEvent;
+use protocol::{DeviceChoice, FilterChoice, FrameReport, FrameState, Pace, Setup, VolumeRef};
+use std::sync::Arc;
+
+/// Two projectors of 48 × 36 pixels, one the mirror image of the other.
+pub(super) fn display() -> Display {
+    let raster = |width, height| Raster {
+        width,
+        height,
+        screen_from_pixel: Homography::of_rectangle(
+            DVec2::new(f64::from(width), f64::from(height)),
+            DVec2::new(-0.2, -0.15),
+            DVec2::new(0.4, 0.3),
+        ),
+        output: None,
+    };
+    let projector = |x| Projector {
+        name: format!("p{x}"),
+        centre_in_display: DVec3::new(x, 0.0, -1.5),
+        raster: raster(48, 36),
+        backend: 0,
+    };
+    Display {
+        name: "test".into(),
+        width_m: 0.4,
+        height_m: 0.3,
+        pixel_size_m: 1e-3,
+        angular_accuracy: 0.01,
+        observer_in_display: DVec3::new(0.0, 0.0, 1.2),
+        eta: 1.0,
+        projectors: vec![projector(-0.2), projector(0.2)],
+    }
+}
+
+/// A cloud of all values from `least` up, on the finest level everywhere.
+pub(super) fn frame(least: f64) -> FrameState {
+    let placed = DAffine3::from_scale(DVec3::splat(2e-3)) * DAffine3::from_translation(DVec3::splat(-50.0));
+    FrameState {
+        index: 0,
+        time_s: 0.0,
+        observer_in_display: DVec3::new(0.0, 0.0, 1.2),
+        eta: 1.0,
+        display_from_volume: placed,
+        optics: Optics {
+            domain: (0.0, 1.0),
+            extinction: Curve::new(vec![(least, 0.0), (1.0, 0.08)]).unwrap(),
+            extinction_unit: ExtinctionUnit::PerVoxel,
+            colour: Curve::new(vec![(0.0, DVec3::X), (1.0, DVec3::new(0.2, 0.7, 1.0))]).unwrap(),
+            mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
+        },
+        light: Some(Light::default()),
+        quality: Quality { lod_scale: 0.0, ..Quality::default() },
+        tool: None,
+        pace: Pace::Complete,
+        debug: None,
+    }
+}
+
+/// Both projectors on the CPU, with a cache that holds any volume of these tests.
+pub(super) fn setup() -> Setup {
+    Setup {
+        display: display(),
+        projectors: vec![0, 1],
+        backend: 0,
+        volume: VolumeRef::Store("given by the test".into()),
+        device: DeviceChoice::Cpu,
+        filter: FilterChoice::Auto,
+        cache_bytes: 64 << 20,
+        trace: None,
+    }
+}
+
+/// The renderer of this setup.
+pub(super) fn renderer(source: Arc<dyn BrickSource>) -> Renderer {
+    Renderer::new(&setup(), source).unwrap().0
+}
+
+/// A picture per projector, four numbers per pixel.
+pub(super) type Pictures = Vec<Vec<f32>>;
+
+/// Draws one frame.
+pub(super) fn draw(
+    renderer: &mut Renderer,
+    frame: &FrameState,
+) -> Result<(Pictures, FrameReport), RenderError> {
+    let mut pictures = Vec::new();
+    let report = renderer.draw(frame, &mut |event| {
+        if let RenderEvent::Image(image) = event {
+            pictures.push(image.rgba);
+        }
+    })?;
+    Ok((pictures, report))
+}

@@ -1,0 +1,185 @@
+//! Which nodes rays meet, and how much of them: detail appears and goes in time, and never beside a border it would show.
+//!
+//! What is resident and what is shown are two things. The cut is what is resident. A family of it is shown if its parent
+//! is too coarse for the display; every node has its share t of the blend with its parent, which rises or falls over
+//! time. So a family that is no longer needed fades away and stays in the cache until others need the room.
+
+use super::{Cut, CutNode, Family, IndexRules};
+use bricks::{NodeKey, OctreeShape};
+
+/// Since when nodes count as seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Those that rays met since then, seconds.
+    pub met_since_s: f64,
+    /// Those that began to show since then: rays have had no time to report them.
+    pub new_since_s: f64,
+}
+
+impl Seen {
+    /// Whether rays met a node.
+    pub fn has_met(&self, node: &CutNode) -> bool {
+        node.met.time_s >= self.met_since_s
+    }
+
+    /// Whether somebody may see it.
+    pub fn may_see(&self, node: &CutNode) -> bool {
+        self.has_met(node) || node.met.since_s >= self.new_since_s
+    }
+}
+
+/// A moment on the working set's clock.
+#[derive(Clone, Copy, Debug)]
+pub struct Tick {
+    /// Now, seconds.
+    pub now_s: f64,
+    /// By how much shares may change until now, 0 to 1.
+    pub step: f32,
+    /// Which nodes count as seen.
+    pub seen: Seen,
+}
+
+/// Brings visibility and deficits of all nodes up to date with the frame.
+pub fn refresh(cut: &mut Cut, rules: &IndexRules, order: &[u32]) {
+    for &place in order {
+        let is_visible = !rules.is_empty(cut.node(place));
+        cut.node_mut(place).is_visible = is_visible;
+    }
+    refresh_deficits(cut, rules, order);
+}
+
+/// The same where the transfer functions are those of the frame before.
+pub(super) fn refresh_deficits(cut: &mut Cut, rules: &IndexRules, order: &[u32]) {
+    let rule = rules.lod.measured();
+    for &place in order {
+        let deficit = rules.deficit_by(&rule, cut.node(place));
+        cut.node_mut(place).deficit = deficit;
+    }
+}
+
+/// Shows at once what the rule of detail asks for, as far as it is resident. The outcome depends on nothing else: not on
+/// what rays met, nor on what was shown before.
+pub fn settle(cut: &mut Cut) {
+    for place in cut.walk().collect::<Vec<_>>() {
+        cut.node_mut(place).is_leaving = false;
+        let is_shown = cut.wants_children(place);
+        let node = cut.node_mut(place);
+        node.family = if is_shown { Family::Shown } else { Family::Hidden };
+        node.permits = permitted(node.is_visible, node.deficit, false);
+        if let Some(first) = node.first_child {
+            (first..first + 8).for_each(|child| cut.node_mut(child).shown = f32::from(u8::from(is_shown)));
+        }
+    }
+}
+
+/// Moves all shares toward what the rule of detail asks for; returns how many leaves are not there yet. Families begin
+/// and end one by one, each after seeing what the ones before it did; `order` has parents before children. `is_lost` says
+/// whether the detail below a node cannot be read.
+pub fn advance(
+    cut: &mut Cut,
+    shape: &OctreeShape,
+    order: &[u32],
+    tick: &Tick,
+    is_lost: impl Fn(NodeKey) -> bool,
+) -> u64 {
+    for &place in order {
+        let wants = cut.wants_children(place);
+        let node = cut.node(place);
+        let is_seen = tick.seen.may_see(node);
+        let is_ready = node.permits == 0.0 || !is_seen;
+        let family = match node.family {
+            Family::Hidden if wants && is_ready && cut.may_show(shape, place) => {
+                cut.begin_family(place, is_seen, tick.now_s);
+                Family::Shown
+            }
+            Family::Shown if !wants && cut.may_go(shape, place) => Family::Going,
+            Family::Going if wants => Family::Shown,
+            same => same,
+        };
+        cut.node_mut(place).family = family;
+        cut.move_family(place, tick.step);
+        let lost = is_lost(cut.node(place).key);
+        let node = cut.node_mut(place);
+        // Whose family has just ended is seen as that was.
+        let is_seen = tick.seen.may_see(node);
+        if node.shown_child().is_none() {
+            let target = permitted(node.is_visible, node.deficit, is_seen && !lost);
+            node.permits += (target - node.permits).clamp(-tick.step, tick.step);
+        }
+    }
+    let is_moving = |place: &u32| {
+        let node = cut.node(*place);
+        let is_met = tick.seen.has_met(node) && !is_lost(node.key);
+        let target = permitted(node.is_visible, node.deficit, is_met);
+        node.permits != target || node.shown < 1.0
+    };
+    cut.shown_leaves().filter(is_moving).count() as u64
+}
+
+/// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they
+/// blend down to it; where it is not, it will be split as soon as a ray meets it, and until then no border shows.
+fn permitted(is_visible: bool, deficit: f64, is_seen: bool) -> f32 {
+    if is_visible && (deficit <= 0.0 || is_seen) { 0.0 } else { 1.0 }
+}
+
+impl Cut {
+    /// Shows all there is, at once and whole.
+    pub fn show_all(&mut self) {
+        for place in self.walk().collect::<Vec<_>>() {
+            let node = self.node_mut(place);
+            node.shown = 1.0;
+            node.family = if node.first_child.is_some() { Family::Shown } else { Family::Hidden };
+        }
+    }
+
+    /// Whether a node's children are resident and wanted.
+    fn wants_children(&self, place: u32) -> bool {
+        let node = self.node(place);
+        let is_wanted = node.is_visible && node.deficit > 0.0 && !node.is_leaving;
+        is_wanted && node.first_child.is_some_and(|first| (first..first + 8).all(|child| !self.lacks(child)))
+    }
+
+    /// Whether a node shows something and its brick is not there.
+    pub fn lacks(&self, place: u32) -> bool {
+        let node = self.node(place);
+        node.is_visible && node.brick.is_none()
+    }
+
+    /// Children begin as their parent: seen, with no share of their own; unseen, with what finer neighbours found there.
+    fn begin_family(&mut self, place: u32, is_seen: bool, now_s: f64) {
+        let node = self.node(place);
+        let permits = node.permits;
+        let first = node.first_child.expect("only what has children can show them");
+        for child in first..first + 8 {
+            let child = self.node_mut(child);
+            (child.shown, child.permits) = (permits, permits);
+            child.met.since_s = if is_seen { now_s } else { f64::NEG_INFINITY };
+        }
+    }
+
+    fn move_family(&mut self, place: u32, step: f32) {
+        let Some(first) = self.node(place).shown_child() else { return };
+        let shown = self.node(first).shown;
+        let moved = match self.node(place).family {
+            Family::Going => (shown - step).max(0.0),
+            Family::Shown | Family::Hidden => (shown + step).min(1.0),
+        };
+        (first..first + 8).for_each(|child| self.node_mut(child).shown = moved);
+        if moved == 0.0 && self.node(place).family == Family::Going {
+            self.inherit_meeting(place);
+            let node = self.node_mut(place);
+            (node.family, node.permits) = (Family::Hidden, 0.0);
+        }
+    }
+
+    /// Passes to a node what its children know of rays: it takes their place.
+    pub(super) fn inherit_meeting(&mut self, place: u32) {
+        let first = self.node(place).first_child.expect("only what has children can take their place");
+        let met = (first..first + 8).map(|child| self.node(child).met);
+        let latest = met.max_by(|a, b| a.time_s.total_cmp(&b.time_s)).expect("there are eight");
+        let node = self.node_mut(place);
+        if latest.time_s > node.met.time_s {
+            node.met = latest;
+        }
+    }
+}

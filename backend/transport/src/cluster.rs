@@ -1,0 +1,297 @@
+//! Back-ends as ranks of an MPI job: rank 0 is the front-end, rank i + 1 is back-end i.
+//!
+//! The first message between two ranks is an introduction: role (1 byte), process number (4 bytes, little-endian),
+//! host name (the rest). It says which rank claims to be what before anything waits, and whose process to look
+//! for later.
+
+use super::launch::{HOW_TO_LAUNCH, fail};
+use super::link::{Link, LinkError, WorkerLink};
+use super::mpi::Messenger;
+use super::pause::Pause;
+use super::roster::{Peer, Roster, WHAT_TO_DO};
+use super::worker::{Opened, WorkerError, serve};
+use super::{process, watchdog};
+use protocol::wire::{decode, encode};
+use protocol::{FromBackend, FromFrontend, Setup};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+const FRONTEND_RANK: usize = 0;
+const IS_FRONTEND: u8 = 1;
+const IS_BACKEND: u8 = 2;
+
+/// How long the introductions may take; the launcher may start the ranks one after another.
+const INTRODUCTIONS: Duration = Duration::from_secs(60);
+
+/// How often back-ends' processes are looked for.
+const LOOK_INTERVAL: Duration = Duration::from_millis(200);
+
+/// How long messages of a back-end that is gone may still come in before it is given up.
+const LAST_MESSAGES: Duration = Duration::from_millis(300);
+
+/// How long a back-end goes on without a word from the front-end. Two minutes, because a front-end may be busy with
+/// pictures between two frames; in longer work it calls [`super::Session::keep_alive`]. A front-end that dies on the
+/// same host is noticed in a second whatever this says.
+pub const FRONTEND_SILENCE: Duration = Duration::from_secs(120);
+
+/// The front-end's end of back-ends that are ranks.
+pub struct ClusterLink {
+    messenger: Messenger,
+    roster: Arc<Mutex<Roster>>,
+    gone_since: Vec<Option<Instant>>,
+    last_look: Instant,
+    first_to_poll: usize,
+}
+
+/// Joins the job as its front-end. An error is a sentence to end with, by [`fail`]. From here on, the launcher's signal to
+/// end prints which back-end was lost and ends this process.
+pub fn connect() -> Result<ClusterLink, LinkError> {
+    let mut messenger = Messenger::start().map_err(LinkError::Launch)?;
+    let (rank, ranks) = (messenger.rank(), messenger.size());
+    if rank != FRONTEND_RANK {
+        return Err(second_frontend(&mut messenger, rank));
+    }
+    let roster = Arc::new(Mutex::new(Roster { activity: "connecting".to_owned(), ..Roster::default() }));
+    watchdog::guard_frontend(Arc::clone(&roster)).map_err(LinkError::Launch)?;
+    let mut peers = Vec::new();
+    for rank in 1..ranks {
+        match await_introduction(&mut messenger, rank)? {
+            (IS_BACKEND, peer) => peers.push(peer),
+            _ => return Err(LinkError::Launch(two_frontends(rank))),
+        }
+    }
+    if peers.is_empty() {
+        return Err(LinkError::Launch(format!("no back-end was started; start them with `{HOW_TO_LAUNCH}`")));
+    }
+    let greeting = introduction(IS_FRONTEND);
+    for rank in 1..ranks {
+        messenger.post(rank, Arc::clone(&greeting)).map_err(LinkError::Launch)?;
+    }
+    let gone_since = vec![None; peers.len()];
+    roster.lock().unwrap_or_else(PoisonError::into_inner).backends = peers;
+    Ok(ClusterLink { messenger, roster, gone_since, last_look: Instant::now(), first_to_poll: 0 })
+}
+
+fn two_frontends(rank: usize) -> String {
+    format!("ranks 0 and {rank} are both a front-end; one is enough: `{HOW_TO_LAUNCH}`")
+}
+
+/// Sends the sentence to rank 0, which prints it and ends the job; prints it itself if that does not happen.
+fn second_frontend(messenger: &mut Messenger, rank: usize) -> LinkError {
+    let told = messenger.post(FRONTEND_RANK, introduction(IS_FRONTEND));
+    let since = Instant::now();
+    while told.is_ok() && since.elapsed() < Duration::from_secs(10) && messenger.is_sending().is_ok() {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    LinkError::Launch(two_frontends(rank))
+}
+
+fn introduction(role: u8) -> Arc<[u8]> {
+    let mut bytes = vec![role];
+    bytes.extend(std::process::id().to_le_bytes());
+    bytes.extend(process::host().as_bytes());
+    bytes.into()
+}
+
+fn await_introduction(messenger: &mut Messenger, rank: usize) -> Result<(u8, Peer), LinkError> {
+    let since = Instant::now();
+    let mut pause = Pause::default();
+    while since.elapsed() < INTRODUCTIONS {
+        if let Some(bytes) = messenger.poll(rank).map_err(LinkError::Launch)? {
+            return read_introduction(rank, &bytes).ok_or_else(|| {
+                LinkError::Launch(format!(
+                    "rank {rank} does not run lightloom; start the job with `{HOW_TO_LAUNCH}`"
+                ))
+            });
+        }
+        pause.wait(messenger.is_moving());
+    }
+    let seconds = INTRODUCTIONS.as_secs();
+    Err(LinkError::Launch(format!(
+        "rank {rank} has not introduced itself in {seconds} s; see whether it started"
+    )))
+}
+
+fn read_introduction(rank: usize, bytes: &[u8]) -> Option<(u8, Peer)> {
+    let (&role, rest) = bytes.split_first()?;
+    let (process, host) = rest.split_first_chunk()?;
+    let host = std::str::from_utf8(host).ok()?.to_owned();
+    Some((role, Peer::new(rank, host, u32::from_le_bytes(*process))))
+}
+
+impl ClusterLink {
+    fn roster(&self) -> MutexGuard<'_, Roster> {
+        self.roster.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The bytes of one message that has arrived, of whichever back-end; the one after the last comes first.
+    fn poll(&mut self) -> Result<Option<(usize, Vec<u8>)>, LinkError> {
+        let backends = self.backends();
+        for turn in 0..backends {
+            let backend = (self.first_to_poll + turn) % backends;
+            let polled = self.messenger.poll(backend + 1);
+            if let Some(bytes) = polled.map_err(|how| LinkError::Ended { backend, how })? {
+                self.first_to_poll = (backend + 1) % backends;
+                self.gone_since[backend] = self.gone_since[backend].map(|_| Instant::now());
+                return Ok(Some((backend, bytes)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Names a back-end that is gone and whose last messages are in.
+    fn look_for_gone(&mut self) -> Result<(), LinkError> {
+        if self.last_look.elapsed() < LOOK_INTERVAL {
+            return Ok(());
+        }
+        self.last_look = Instant::now();
+        let gone = self.roster().gone();
+        for backend in gone {
+            if self.gone_since[backend].get_or_insert_with(Instant::now).elapsed() > LAST_MESSAGES {
+                return Err(LinkError::Ended { backend, how: WHAT_TO_DO.to_owned() });
+            }
+        }
+        Ok(())
+    }
+
+    fn post(&mut self, backend: usize, bytes: Arc<[u8]>) -> Result<(), LinkError> {
+        self.messenger.post(backend + 1, bytes).map_err(|how| LinkError::Ended { backend, how })
+    }
+}
+
+impl Link for ClusterLink {
+    fn backends(&self) -> usize {
+        self.gone_since.len()
+    }
+
+    fn name(&self, backend: usize) -> String {
+        self.roster().name(backend)
+    }
+
+    fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
+        self.post(backend, encode(message)?.into())
+    }
+
+    fn broadcast(&mut self, message: &FromFrontend) -> Result<(), LinkError> {
+        let bytes: Arc<[u8]> = encode(message)?.into();
+        (0..self.backends()).try_for_each(|backend| self.post(backend, Arc::clone(&bytes)))
+    }
+
+    fn receive(&mut self, timeout: Duration) -> Result<(usize, FromBackend), LinkError> {
+        let since = Instant::now();
+        let mut pause = Pause::default();
+        loop {
+            // An error in sending belongs to a back-end that is lost, and is noticed as such by its process or silence.
+            let is_moving = self.messenger.is_sending().unwrap_or(false) || self.messenger.is_moving();
+            if let Some((backend, bytes)) = self.poll()? {
+                let decoded = decode(&bytes).map_err(|error| LinkError::Garbled { backend, error })?;
+                return Ok((backend, decoded));
+            }
+            self.look_for_gone()?;
+            if since.elapsed() >= timeout {
+                return Err(LinkError::Silent);
+            }
+            pause.wait(is_moving);
+        }
+    }
+
+    fn set_activity(&mut self, activity: &str) {
+        self.roster().activity = activity.to_owned();
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), LinkError> {
+        let has_parted = watchdog::guard_parting("lightloom").map_err(LinkError::Launch)?;
+        while self.messenger.is_sending().map_err(LinkError::Launch)? {
+            std::thread::sleep(Duration::from_micros(100));
+        }
+        self.messenger.end();
+        has_parted.store(true, Ordering::SeqCst);
+        // Losing a back-end no longer matters from here on.
+        *self.roster() = Roster { activity: "working on what was drawn".to_owned(), ..Roster::default() };
+        Ok(())
+    }
+}
+
+/// A back-end's end, in its own rank.
+struct RankLink {
+    messenger: Messenger,
+    silence: Duration,
+    is_parting: Arc<AtomicBool>,
+}
+
+impl RankLink {
+    /// Joins the job as a back-end.
+    fn connect(silence: Duration) -> Result<Self, LinkError> {
+        let mut messenger = Messenger::start().map_err(LinkError::Launch)?;
+        if messenger.rank() == FRONTEND_RANK {
+            return Err(LinkError::Launch(format!(
+                "rank 0 must be the front-end; start with `{HOW_TO_LAUNCH}`"
+            )));
+        }
+        messenger.post(FRONTEND_RANK, introduction(IS_BACKEND)).map_err(LinkError::FrontendEnded)?;
+        let (_, frontend) = await_introduction(&mut messenger, FRONTEND_RANK)?;
+        let is_parting = Arc::new(AtomicBool::new(false));
+        watchdog::guard_backend(frontend, Arc::clone(&is_parting)).map_err(LinkError::Launch)?;
+        Ok(Self { messenger, silence, is_parting })
+    }
+
+    fn finish(mut self) -> Result<(), LinkError> {
+        self.is_parting.store(true, Ordering::SeqCst);
+        let has_parted = watchdog::guard_parting("lightloom-backend").map_err(LinkError::Launch)?;
+        self.messenger.end();
+        has_parted.store(true, Ordering::SeqCst);
+        Ok(())
+    }
+}
+
+impl WorkerLink for RankLink {
+    fn send(&mut self, message: FromBackend) -> Result<(), LinkError> {
+        self.messenger.post(FRONTEND_RANK, encode(&message)?.into()).map_err(LinkError::FrontendEnded)?;
+        let since = Instant::now();
+        let mut pause = Pause::default();
+        while self.messenger.is_sending().map_err(LinkError::FrontendEnded)? {
+            if since.elapsed() > self.silence {
+                return Err(LinkError::FrontendEnded("it takes no messages any more".to_owned()));
+            }
+            pause.wait(true);
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, timeout: Duration) -> Result<FromFrontend, LinkError> {
+        let since = Instant::now();
+        let mut pause = Pause::default();
+        loop {
+            if let Some(bytes) = self.messenger.poll(FRONTEND_RANK).map_err(LinkError::FrontendEnded)? {
+                return Ok(decode(&bytes)?);
+            }
+            if since.elapsed() >= timeout {
+                return Err(LinkError::Silent);
+            }
+            pause.wait(self.messenger.is_moving());
+        }
+    }
+
+    fn frontend_silence(&self) -> Duration {
+        self.silence
+    }
+}
+
+/// The whole life of a back-end process: joins the job, serves the front-end, takes leave. The front-end shows what
+/// the renderer could not do; this prints only what the front-end cannot know.
+pub fn work<M>(make: M, frontend_silence: Duration) -> ExitCode
+where
+    M: FnOnce(Setup) -> Result<Opened, String>,
+{
+    let ended = RankLink::connect(frontend_silence).map_err(WorkerError::from).and_then(|mut link| {
+        serve(&mut link, make)?;
+        Ok(link.finish()?)
+    });
+    match ended {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(WorkerError::Failed(_)) => ExitCode::FAILURE,
+        Err(error) => fail("lightloom-backend", &error.to_string()),
+    }
+}

@@ -1,0 +1,33 @@
+//! How messages travel: threads in one process, or MPI.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `session` | the front-end's side: set up, draw frames, name whoever is lost |
+//! | `worker` | a back-end's side: one loop over messages |
+//! | `threads` | back-ends as threads of this process |
+//! | `cluster` | back-ends as ranks of an MPI job |
+//! | `mpi` | bytes between ranks, the only file that calls MPI |
+//! | `roster`, `watchdog`, `process` | who takes part, and who is still there |
+//! | `launch` | how this process was started, and how it ends when a run cannot go on |
+
+#[cfg(feature = "mpi")]
+pub mod cluster;
+pub mod launch;
+mod link;
+#[cfg(feature = "mpi")]
+mod mpi;
+#[cfg(feature = "mpi")]
+mod pause;
+mod process;
+#[cfg(feature = "mpi")]
+mod roster;
+pub mod session;
+pub mod threads;
+#[cfg(feature = "mpi")]
+mod watchdog;
+pub mod worker;
+
+pub use launch::{Launch, fail, launch, under_mpi};
+pub use link::{Link, LinkError, WorkerLink};
+pub use session::{EventKind, Limits, Session, SessionError, SessionEvent};
+pub use worker::{Opened, WorkerError, serve};

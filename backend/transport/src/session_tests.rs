@@ -1,0 +1,258 @@
+//! A session with back-ends in threads, and with back-ends that follow a script.
+
+use super::*;
+use crate::threads::{self, ThreadLink};
+use crate::worker::Opened;
+use display_config::Display;
+use glam::{DAffine3, DVec3};
+use optics::{Curve, ExtinctionUnit, Optics, Quality};
+use protocol::{DeviceChoice, FilterChoice, Hello, Pace, Stages, VolumeRef};
+use protocol::{Draw, RenderEvent};
+use std::collections::VecDeque;
+
+const SHORT: Limits = Limits { opening: Duration::from_secs(1), drawing: Duration::from_secs(1) };
+
+fn setups(count: u32) -> Vec<Setup> {
+    let display = Display {
+        name: "fake".to_owned(),
+        width_m: 1.0,
+        height_m: 1.0,
+        pixel_size_m: 1e-3,
+        angular_accuracy: 0.01,
+        observer_in_display: DVec3::Z,
+        eta: 1.0,
+        projectors: Vec::new(),
+    };
+    let setup = |backend| Setup {
+        display: display.clone(),
+        projectors: vec![backend],
+        backend,
+        volume: VolumeRef::Store("fake.lloom".into()),
+        device: DeviceChoice::Cpu,
+        filter: FilterChoice::Exact,
+        cache_bytes: 0,
+        trace: None,
+    };
+    (0..count).map(setup).collect()
+}
+
+fn frame(index: u32) -> FrameState {
+    FrameState {
+        index,
+        time_s: 0.0,
+        observer_in_display: DVec3::Z,
+        eta: 1.0,
+        display_from_volume: DAffine3::IDENTITY,
+        optics: Optics {
+            domain: (0.0, 1.0),
+            extinction: Curve::constant(1.0),
+            extinction_unit: ExtinctionUnit::PerMetre,
+            colour: Curve::constant(DVec3::ONE),
+            mimda: None,
+            refraction: None,
+            materials: None,
+            enhancers: Vec::new(),
+        },
+        light: None,
+        quality: Quality::default(),
+        tool: None,
+        pace: Pace::Complete,
+        debug: None,
+    }
+}
+
+fn report(frame: u32, backend: u32) -> FrameReport {
+    FrameReport {
+        frame,
+        backend,
+        projectors: vec![backend],
+        rays: 1,
+        samples: 1,
+        bricks_wanted: 0,
+        bricks_resident: 0,
+        bricks_loaded: 0,
+        bytes_loaded: 0,
+        working_set_union: 0,
+        working_set_sum: 0,
+        complete: true,
+        shortfall: String::new(),
+        upkeep: None,
+        damaged_bricks: 0,
+        damaged: Vec::new(),
+        stages: Stages::default(),
+        total_ms: 0.0,
+    }
+}
+
+/// Draws a grey pixel; back-end 1 does `mischief` in frame 1.
+struct Fake {
+    backend: u32,
+    mischief: fn() -> Result<(), String>,
+}
+
+impl Draw for Fake {
+    fn draw(&mut self, frame: &FrameState, sink: &mut dyn FnMut(RenderEvent)) -> Result<FrameReport, String> {
+        if self.backend == 1 && frame.index == 1 {
+            (self.mischief)()?;
+        }
+        for done in 0..1000 {
+            sink(RenderEvent::Progress { done, total: 1000 });
+        }
+        let image = ProjectorImage { projector: self.backend, width: 1, height: 1, rgba: vec![0.5; 4] };
+        sink(RenderEvent::Image(image));
+        Ok(report(frame.index, self.backend))
+    }
+}
+
+fn device() -> DeviceInfo {
+    let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
+    DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 }
+}
+
+fn threads_with(mischief: fn() -> Result<(), String>) -> Box<ThreadLink> {
+    let open = move |setup: Setup| -> Result<Opened, String> {
+        Ok((Box::new(Fake { backend: setup.backend, mischief }), device()))
+    };
+    Box::new(threads::spawn(3, open).unwrap())
+}
+
+fn fate_of(mischief: fn() -> Result<(), String>) -> String {
+    let mut session = Session::start(threads_with(mischief), setups(3), SHORT).unwrap();
+    session.render(&frame(0), &mut |_| {}).unwrap();
+    session.render(&frame(1), &mut |_| {}).unwrap_err().to_string()
+}
+
+#[test]
+fn every_back_end_draws_every_frame_and_leaves() {
+    let mut session = Session::start(threads_with(|| Ok(())), setups(3), SHORT).unwrap();
+    assert_eq!(session.devices(), [device(), device(), device()]);
+    for index in 0..4 {
+        let mut drawn = Vec::new();
+        let reports = session.render(&frame(index), &mut |event| {
+            if let EventKind::Image(image) = event.kind {
+                drawn.push((event.backend, image.projector));
+            }
+        });
+        drawn.sort_unstable();
+        assert_eq!(drawn, [(0, 0), (1, 1), (2, 2)]);
+        assert_eq!(reports.unwrap(), [report(index, 0), report(index, 1), report(index, 2)]);
+    }
+    session.finish().unwrap();
+}
+
+#[test]
+fn a_failing_back_end_is_named_with_its_own_words() {
+    let sentence = fate_of(|| Err("the device is lost".to_owned()));
+    assert_eq!(
+        sentence,
+        "back-end 1 (a thread of this process) failed while drawing frame 1: the device is lost"
+    );
+    let sentence = fate_of(|| panic!("a fake {}", "fault"));
+    assert!(sentence.contains("back-end 1") && sentence.contains("panicked: a fake fault"), "{sentence}");
+}
+
+#[test]
+fn a_stuck_back_end_is_named_after_the_limit() {
+    let since = Instant::now();
+    let sentence = fate_of(|| {
+        std::thread::sleep(Duration::from_secs(20));
+        Ok(())
+    });
+    assert!(sentence.starts_with("back-end 1 ") && sentence.contains("nothing for 1 s"), "{sentence}");
+    assert!(since.elapsed() < Duration::from_secs(10));
+}
+
+#[test]
+fn as_many_setups_as_back_ends_are_needed() {
+    let error = Session::start(threads_with(|| Ok(())), setups(2), SHORT).map(drop).unwrap_err();
+    assert_eq!(error, SessionError::Count { setups: 2, backends: 3 });
+}
+
+/// Two back-ends whose messages are written down beforehand; back-end 0 then reports progress for ever.
+struct Script(VecDeque<(usize, FromBackend)>);
+
+impl Link for Script {
+    fn backends(&self) -> usize {
+        2
+    }
+    fn name(&self, backend: usize) -> String {
+        format!("back-end {backend}")
+    }
+    fn send(&mut self, _: usize, _: &FromFrontend) -> Result<(), LinkError> {
+        Ok(())
+    }
+    fn broadcast(&mut self, _: &FromFrontend) -> Result<(), LinkError> {
+        Ok(())
+    }
+    fn receive(&mut self, _: Duration) -> Result<(usize, FromBackend), LinkError> {
+        Ok(self.0.pop_front().unwrap_or_else(|| {
+            std::thread::sleep(Duration::from_millis(1));
+            (0, FromBackend::Progress { done: 0, total: 1 })
+        }))
+    }
+    fn set_activity(&mut self, _: &str) {}
+    fn finish(self: Box<Self>) -> Result<(), LinkError> {
+        Ok(())
+    }
+}
+
+fn hello(protocol: u32) -> FromBackend {
+    FromBackend::Hello(Hello { protocol, host: "a".to_owned(), process: 1 })
+}
+
+fn started(rest: Vec<(usize, FromBackend)>) -> Result<Session, SessionError> {
+    let start = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
+    Session::start(Box::new(Script(start.into_iter().chain(rest).collect())), setups(2), SHORT)
+}
+
+fn ready() -> Vec<(usize, FromBackend)> {
+    vec![(1, FromBackend::Ready(device())), (0, FromBackend::Ready(device()))]
+}
+
+#[test]
+fn one_that_talks_does_not_hide_one_that_is_stuck() {
+    let error = started(ready()).unwrap().render(&frame(0), &mut |_| {}).unwrap_err();
+    assert!(
+        matches!(&error, SessionError::Silent { name, seconds: 1, .. } if name == "back-end 1"),
+        "{error}"
+    );
+}
+
+#[test]
+fn answers_that_were_not_asked_for_are_refused() {
+    let twice = vec![(0, FromBackend::Ready(device())), (0, FromBackend::Ready(device()))];
+    let early = vec![(0, FromBackend::Done(Box::new(report(0, 0))))];
+    for script in [twice, early] {
+        assert!(
+            matches!(started(script).map(drop), Err(SessionError::Misfit { name, .. }) if name == "back-end 0")
+        );
+    }
+    let other_frame = ready().into_iter().chain([(1, FromBackend::Done(Box::new(report(7, 1))))]).collect();
+    let error = started(other_frame).unwrap().render(&frame(0), &mut |_| {}).unwrap_err();
+    assert!(matches!(error, SessionError::Misfit { .. }), "{error}");
+}
+
+#[test]
+fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
+    let end = |answer: FromBackend| {
+        let start = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
+        let end = [(0, FromBackend::Finished), (1, answer)];
+        let script = Script(start.into_iter().chain(ready()).chain(end).collect());
+        let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
+        let setups = setups(2).into_iter().map(traced).collect();
+        Session::start(Box::new(script), setups, SHORT).unwrap().finish().map_err(|error| error.to_string())
+    };
+    assert_eq!(end(FromBackend::Finished), Ok(()));
+    let full = end(FromBackend::Failed("the disk is full".to_owned()));
+    assert_eq!(full, Err("back-end 1 failed while finishing: the disk is full".to_owned()));
+    assert!(end(FromBackend::Ready(device())).is_err_and(|error| error.contains("does not fit")));
+    // Without traces nothing waits for answers, which this script would not give.
+    started(ready()).unwrap().finish().unwrap();
+}
+
+#[test]
+fn another_protocol_is_refused_at_the_hello() {
+    let script = Script([(0, hello(PROTOCOL_VERSION + 1))].into());
+    let error = Session::start(Box::new(script), setups(2), SHORT).map(drop).unwrap_err();
+    assert!(error.to_string().contains("from the same build"), "{error}");
+}

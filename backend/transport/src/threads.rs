@@ -1,0 +1,138 @@
+//! Back-ends as threads of this process.
+
+use super::link::{Link, LinkError, WorkerLink};
+use super::worker::{Opened, panic_sentence, serve};
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
+use protocol::{FromBackend, FromFrontend, Setup};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::thread::{Builder, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// Messages a back-end may be ahead of the front-end. Few, because each may be a picture; a back-end waits beyond.
+const AHEAD_PER_BACKEND: usize = 4;
+
+/// How long threads may take to quit; they only drop their renderer.
+const PARTING: Duration = Duration::from_secs(10);
+
+enum Parcel {
+    Message(FromBackend),
+    Ended(String),
+}
+
+/// The front-end's end of back-ends that are threads.
+pub struct ThreadLink {
+    outboxes: Vec<Sender<FromFrontend>>,
+    inbox: Receiver<(usize, Parcel)>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+struct ThreadWorkerLink {
+    backend: usize,
+    inbox: Receiver<FromFrontend>,
+    outbox: Sender<(usize, Parcel)>,
+}
+
+/// Starts `count` back-ends; each opens its renderer with `make`. When the link is dropped they end by themselves.
+pub fn spawn<M>(count: usize, make: M) -> Result<ThreadLink, LinkError>
+where
+    M: Fn(Setup) -> Result<Opened, String> + Send + Sync + 'static,
+{
+    let make = Arc::new(make);
+    let (outbox, inbox) = bounded(AHEAD_PER_BACKEND * count);
+    let mut link = ThreadLink { outboxes: Vec::new(), inbox, threads: Vec::new() };
+    for backend in 0..count {
+        let (to_worker, from_frontend) = unbounded();
+        let worker = ThreadWorkerLink { backend, inbox: from_frontend, outbox: outbox.clone() };
+        let make = Arc::clone(&make);
+        let thread = Builder::new().name(format!("back-end {backend}")).spawn(move || run(worker, &*make));
+        let unstarted =
+            |error| LinkError::Ended { backend, how: format!("no thread could be started: {error}") };
+        link.threads.push(thread.map_err(unstarted)?);
+        link.outboxes.push(to_worker);
+    }
+    Ok(link)
+}
+
+fn run(mut link: ThreadWorkerLink, make: &(dyn Fn(Setup) -> Result<Opened, String> + Send + Sync)) {
+    let how = match catch_unwind(AssertUnwindSafe(|| serve(&mut link, make))) {
+        Ok(Ok(())) => "its thread ended".to_owned(),
+        Ok(Err(error)) => error.to_string(),
+        Err(panic) => panic_sentence(panic.as_ref()),
+    };
+    // Fails only when the front-end has dropped its end, and then it does not matter.
+    let _ = link.outbox.send((link.backend, Parcel::Ended(how)));
+}
+
+impl Link for ThreadLink {
+    fn backends(&self) -> usize {
+        self.outboxes.len()
+    }
+
+    fn name(&self, backend: usize) -> String {
+        format!("back-end {backend} (a thread of this process)")
+    }
+
+    /// A thread that is gone has said so, or will, in a parcel of its own: that is reported, not this.
+    fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
+        let _ = self.outboxes[backend].send(message.clone());
+        Ok(())
+    }
+
+    fn broadcast(&mut self, message: &FromFrontend) -> Result<(), LinkError> {
+        (0..self.backends()).try_for_each(|backend| self.send(backend, message))
+    }
+
+    fn receive(&mut self, timeout: Duration) -> Result<(usize, FromBackend), LinkError> {
+        match self.inbox.recv_timeout(timeout) {
+            Ok((backend, Parcel::Message(message))) => Ok((backend, message)),
+            Ok((backend, Parcel::Ended(how))) => Err(LinkError::Ended { backend, how }),
+            Err(RecvTimeoutError::Timeout) => Err(LinkError::Silent),
+            Err(RecvTimeoutError::Disconnected) => {
+                Err(LinkError::Ended { backend: 0, how: "no back-end is left".to_owned() })
+            }
+        }
+    }
+
+    fn set_activity(&mut self, _: &str) {}
+
+    fn finish(self: Box<Self>) -> Result<(), LinkError> {
+        let Self { outboxes, inbox, threads } = *self;
+        drop((outboxes, inbox));
+        let since = Instant::now();
+        for (backend, thread) in threads.into_iter().enumerate() {
+            while !thread.is_finished() {
+                if since.elapsed() > PARTING {
+                    let how =
+                        format!("its thread still runs {} s after it was asked to end", PARTING.as_secs());
+                    return Err(LinkError::Ended { backend, how });
+                }
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl WorkerLink for ThreadWorkerLink {
+    fn send(&mut self, message: FromBackend) -> Result<(), LinkError> {
+        self.outbox.send((self.backend, Parcel::Message(message))).map_err(|_| frontend_dropped())
+    }
+
+    fn receive(&mut self, timeout: Duration) -> Result<FromFrontend, LinkError> {
+        self.inbox.recv_timeout(timeout).map_err(|error| match error {
+            RecvTimeoutError::Timeout => LinkError::Silent,
+            RecvTimeoutError::Disconnected => frontend_dropped(),
+        })
+    }
+
+    /// Without end: in one process the channel shows at once when the front-end is gone, and a program may well
+    /// leave its display idle for a day.
+    fn frontend_silence(&self) -> Duration {
+        Duration::from_secs(u32::MAX.into())
+    }
+}
+
+fn frontend_dropped() -> LinkError {
+    LinkError::FrontendEnded("it has dropped its end of the channel".to_owned())
+}

@@ -1,0 +1,172 @@
+//! The unpacked bytes of a volume's files, as if they were one.
+
+use super::data_files::DataFiles;
+use super::file::Packing;
+use super::text_numbers::TextNumbers;
+use bricks::volume::Element;
+use flate2::read::{MultiGzDecoder, ZlibDecoder};
+use std::fs::File;
+use std::io::{BufRead, BufReader, ErrorKind, Read, Result, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// Bytes read from a file at once.
+const READ_BUFFER_BYTES: usize = 1 << 18;
+
+/// What precedes the voxels, in each of the files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Start {
+    /// Bytes of the file, as it is.
+    pub header_bytes: u64,
+    /// Lines after these, as they are in the file.
+    pub lines: u32,
+    /// Bytes after these, once unpacked.
+    pub unpacked_bytes: u64,
+    /// Whether the voxels end with the file, whatever precedes them; only of [`Packing::Plain`].
+    pub is_from_end: bool,
+}
+
+/// The files and how to read them.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    pub files: DataFiles,
+    pub start: Start,
+    pub packing: Packing,
+    pub element: Element,
+    /// Bytes of voxels in each file, unpacked.
+    pub file_bytes: u64,
+}
+
+impl Source {
+    /// Bytes of a file before its (packed) voxels.
+    pub fn offset(&self, path: &Path) -> Result<u64> {
+        let start = &self.start;
+        if start.is_from_end {
+            return Ok(std::fs::metadata(path)?.len().saturating_sub(self.file_bytes));
+        }
+        if start.lines == 0 {
+            return Ok(start.header_bytes);
+        }
+        let mut file = BufReader::new(File::open(path)?);
+        let mut offset = file.seek(SeekFrom::Start(start.header_bytes))?;
+        for _ in 0..start.lines {
+            match file.skip_until(b'\n')? {
+                0 => break,
+                skipped => offset += skipped as u64,
+            }
+        }
+        Ok(offset)
+    }
+
+    fn open(&self, path: &Path) -> Result<Unpacked> {
+        let offset = self.offset(path)?;
+        let start = match self.packing {
+            Packing::Plain | Packing::Text => offset.saturating_add(self.start.unpacked_bytes),
+            Packing::Gzip | Packing::Zlib => offset,
+        };
+        let mut file = File::open(path)?;
+        file.seek(SeekFrom::Start(start))?;
+        let file = BufReader::with_capacity(READ_BUFFER_BYTES, file);
+        let mut stream: Box<dyn Read + Send> = match self.packing {
+            Packing::Plain => return Ok(Unpacked::Plain(file)),
+            Packing::Text => return Ok(Unpacked::Stream(Box::new(TextNumbers::new(file, self.element)))),
+            Packing::Gzip => Box::new(MultiGzDecoder::new(file)),
+            Packing::Zlib => Box::new(ZlibDecoder::new(file)),
+        };
+        skip(&mut stream, self.start.unpacked_bytes)?;
+        Ok(Unpacked::Stream(stream))
+    }
+}
+
+/// An open file.
+enum Unpacked {
+    /// Any place can be gone to.
+    Plain(BufReader<File>),
+    /// Only later places can.
+    Stream(Box<dyn Read + Send>),
+}
+
+/// The file that is open, and where it is read.
+struct Opened {
+    index: usize,
+    position: u64,
+    unpacked: Unpacked,
+}
+
+/// Reads from any place; cheap where the places ascend.
+pub(super) struct DataStream {
+    source: Source,
+    opened: Option<Opened>,
+}
+
+/// What went wrong with which file.
+pub(super) struct StreamError {
+    pub path: PathBuf,
+    pub cause: std::io::Error,
+}
+
+impl DataStream {
+    pub fn new(source: Source) -> Self {
+        Self { source, opened: None }
+    }
+
+    /// Fills `bytes` with those from `position` on, which may lie in several files.
+    pub fn read_at(&mut self, position: u64, bytes: &mut [u8]) -> std::result::Result<(), StreamError> {
+        let file_bytes = self.source.file_bytes;
+        let mut done = 0;
+        while done < bytes.len() {
+            let position = position + done as u64;
+            let (index, inside) = ((position / file_bytes) as usize, position % file_bytes);
+            let most = usize::try_from(file_bytes - inside).unwrap_or(usize::MAX);
+            let count = most.min(bytes.len() - done);
+            let part = &mut bytes[done..done + count];
+            self.read_in(index, inside, part).map_err(|cause| {
+                // What is known of a stream that failed is not to be relied on.
+                self.opened = None;
+                StreamError { path: self.source.files.path(index), cause }
+            })?;
+            done += count;
+        }
+        Ok(())
+    }
+
+    /// Fills `bytes` from one file.
+    fn read_in(&mut self, index: usize, position: u64, bytes: &mut [u8]) -> Result<()> {
+        let opened = match self.opened.take() {
+            Some(opened) if opened.can_go_to(index, position) => opened,
+            _ => {
+                let unpacked = self.source.open(&self.source.files.path(index))?;
+                Opened { index, position: 0, unpacked }
+            }
+        };
+        self.opened.insert(opened).read(position, bytes)
+    }
+}
+
+impl Opened {
+    fn can_go_to(&self, index: usize, position: u64) -> bool {
+        let is_ahead = position >= self.position || matches!(self.unpacked, Unpacked::Plain(_));
+        self.index == index && is_ahead
+    }
+
+    fn read(&mut self, position: u64, bytes: &mut [u8]) -> Result<()> {
+        match &mut self.unpacked {
+            Unpacked::Plain(file) => {
+                file.seek_relative(position as i64 - self.position as i64)?;
+                file.read_exact(bytes)?;
+            }
+            Unpacked::Stream(stream) => {
+                skip(stream, position - self.position)?;
+                stream.read_exact(bytes)?;
+            }
+        }
+        self.position = position + bytes.len() as u64;
+        Ok(())
+    }
+}
+
+fn skip(stream: &mut impl Read, bytes: u64) -> Result<()> {
+    match std::io::copy(&mut stream.take(bytes), &mut std::io::sink())? {
+        skipped if skipped == bytes => Ok(()),
+        _ => Err(ErrorKind::UnexpectedEof.into()),
+    }
+}

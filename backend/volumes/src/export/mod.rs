@@ -1,0 +1,100 @@
+//! A level of a store, or a part of it, as a file for other programs: NRRD, and OME-Zarr 0.5.
+
+mod error;
+mod grid;
+mod nrrd;
+mod numbers;
+mod part;
+#[cfg(test)]
+mod tests;
+mod zarr;
+
+pub use error::ExportError;
+
+use bricks::BrickSource;
+use bricks::volume::Element;
+use glam::UVec3;
+use part::Part;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// What to export, and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExportOptions {
+    /// Level, 0 = finest. None is the finest; of OME-Zarr all levels, where no part is asked for.
+    pub level: Option<u8>,
+    /// First voxel of the part, in voxels of the level; None is the level's first.
+    pub low: Option<UVec3>,
+    /// Voxels of the part along x, y, z; None reaches to the level's end.
+    pub size: Option<UVec3>,
+    /// The type of the numbers, to which they are rounded; None is the smallest that keeps them all as they are in the
+    /// store: f32, or integers of up to 32 bits.
+    pub element: Option<Element>,
+    /// Whether an NRRD file is packed with gzip; OME-Zarr is always packed.
+    pub is_packed: bool,
+}
+
+/// What an export did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportReport {
+    /// Voxels along x, y, z of each level that was written, the finest first.
+    pub levels: Vec<UVec3>,
+    /// The type of the numbers.
+    pub element: Element,
+    /// Bytes of what was written.
+    pub bytes: u64,
+    /// Whether the volume's directions in space are lost: OME-Zarr 0.5 keeps none.
+    pub has_lost_directions: bool,
+    /// Time it took.
+    pub duration: Duration,
+}
+
+/// Writes a `.nrrd` file or a `.zarr` folder from a store. It appears under its name only when it is complete;
+/// `progress` gets (done, total) in planes. The whole volume is never in memory.
+///
+/// # Errors
+/// A name of neither kind or of something that is there, a part that is not in the level, values that are beyond the
+/// type asked for, a damaged brick, and what the file system says.
+pub fn export(
+    source: &dyn BrickSource,
+    out: &Path,
+    options: &ExportOptions,
+    progress: &dyn Fn(u64, u64),
+) -> Result<ExportReport, ExportError> {
+    let started = Instant::now();
+    let is_zarr = match out.extension().and_then(|extension| extension.to_str()) {
+        Some("nrrd") => false,
+        Some("zarr") => true,
+        _ => return Err(ExportError::Name { path: out.into() }),
+    };
+    // A link to nowhere is there as well.
+    if out.symlink_metadata().is_ok() {
+        return Err(ExportError::Exists { path: out.into() });
+    }
+    let has_all_levels = is_zarr && (options.level, options.low, options.size) == (None, None, None);
+    let parts = match has_all_levels {
+        true => grid::all_levels(source),
+        false => vec![grid::part(source, options)?],
+    };
+    let element = match options.element {
+        Some(element) => element,
+        None => numbers::smallest_element(source, &parts)?,
+    };
+    let total: u64 = parts.iter().map(|part| u64::from(part.size.z)).sum();
+    let done = std::cell::Cell::new(0);
+    let wrote = |planes: u32| {
+        done.set(done.get() + u64::from(planes));
+        progress(done.get(), total);
+    };
+    let bytes = match is_zarr {
+        false => nrrd::write(source, &parts[0], element, out, options.is_packed, &wrote)?,
+        true => zarr::write(source, &parts, element, out, &wrote)?,
+    };
+    Ok(ExportReport {
+        levels: parts.iter().map(|part| part.size).collect(),
+        element,
+        bytes,
+        has_lost_directions: is_zarr && !grid::is_upright(&source.frame()),
+        duration: started.elapsed(),
+    })
+}

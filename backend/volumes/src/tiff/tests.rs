@@ -1,0 +1,231 @@
+//! The TIFF reader against files that tifffile wrote, and against damaged ones.
+
+use crate::reader_tests::{DIMS, VOXEL_SIZE_M, data, expected, ramp, some_values, values};
+use crate::{Selection, open};
+use bricks::volume::{Element, Samples, VolumeReader};
+use glam::{DVec3, UVec3};
+use std::path::{Path, PathBuf};
+
+fn file(name: &str) -> PathBuf {
+    data("tiff").join(name)
+}
+
+fn selected(name: &str, selection: &Selection) -> Box<dyn VolumeReader> {
+    open(&file(name), selection).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn check(name: &str, element: Element, value: impl Fn(f64, f64, f64) -> f64) {
+    let mut reader = selected(name, &Selection::default());
+    assert_eq!((reader.info().dims, reader.info().element), (DIMS, element), "{name}");
+    assert_eq!(values(reader.as_mut()).unwrap(), expected(DIMS, value), "{name}");
+}
+
+fn said_of(name: &str, selection: &Selection) -> String {
+    let said = open(&file(name), selection).and_then(|mut reader| values(reader.as_mut()));
+    let said = said.expect_err(name).to_string();
+    assert!(said.contains(name) && !said.contains('\n'), "{said}");
+    said
+}
+
+fn half(x: f64, y: f64, z: f64) -> f64 {
+    (ramp(x, y, z) / 2.0).floor()
+}
+
+#[test]
+fn every_type_and_packing() {
+    for packing in ["plain", "lzw", "zlib", "packbits", "zstd"] {
+        let name = |element: &str| format!("{element}_{packing}.tif");
+        check(&name("uint8"), Element::U8, half);
+        check(&name("int8"), Element::I8, |x, y, z| half(x, y, z) % 120.0);
+        check(&name("uint16"), Element::U16, ramp);
+        check(&name("int16"), Element::I16, ramp);
+        check(&name("uint32"), Element::U32, ramp);
+        check(&name("int32"), Element::I32, ramp);
+        check(&name("float32"), Element::F32, ramp);
+        check(&name("float64"), Element::F64, ramp);
+    }
+}
+
+#[test]
+fn byte_orders_strips_and_predictors() {
+    check("big_endian.tif", Element::U16, ramp);
+    check("big_endian_lzw.tif", Element::F32, ramp);
+    check("big_tiff.tif", Element::U16, ramp);
+    check("big_tiff_big_endian.tif", Element::U16, ramp);
+    check("strips.tif", Element::U16, ramp);
+    check("predictor.tif", Element::U16, ramp);
+    check("predictor_float.tif", Element::F32, ramp);
+    check("thumbnail.tif", Element::U16, ramp);
+}
+
+#[test]
+fn tiles_that_do_not_divide_the_page() {
+    let dims = UVec3::new(37, 20, 2);
+    for name in ["tiled.tif", "tiled_float.tif"] {
+        let mut reader = selected(name, &Selection::default());
+        assert_eq!(reader.info().dims, dims);
+        let expected = expected(dims, |x, y, z| x + 100.0 * y + 1000.0 * z);
+        assert_eq!(values(reader.as_mut()).unwrap(), expected, "{name}");
+    }
+}
+
+#[test]
+fn numbers_stay_whatever_they_look_like() {
+    check("white_uint8.tif", Element::U8, half);
+    check("white_uint16.tif", Element::U16, ramp);
+    check("white_int16.tif", Element::I16, ramp);
+    check("white_float32.tif", Element::F32, ramp);
+    check("palette.tif", Element::U8, half);
+}
+
+#[test]
+fn a_channel_of_coloured_pages_is_chosen() {
+    for name in ["rgb.tif", "rgb_planes.tif"] {
+        assert!(said_of(name, &Selection::default()).contains("3 channels: choose the channel, 0 to 2"));
+        for channel in 0..3 {
+            let selection = Selection { channel: Some(channel), ..Default::default() };
+            let value = |x, y, z| ramp(x, y, z) + 1000.0 * f64::from(channel);
+            assert_eq!(values(selected(name, &selection).as_mut()).unwrap(), expected(DIMS, value), "{name}");
+        }
+        let selection = Selection { channel: Some(3), ..Default::default() };
+        assert!(said_of(name, &selection).contains("there are 3"));
+    }
+}
+
+#[test]
+fn hyperstacks() {
+    for name in ["imagej.tif", "czt.ome.tif", "zct.ome.tif"] {
+        let said = said_of(name, &Selection::default());
+        assert!(said.contains("2 channels") && said.contains("3 points in time"), "{said}");
+        for (channel, time) in [(0, 0), (1, 2), (0, 1)] {
+            let selection = Selection { channel: Some(channel), time: Some(time), ..Default::default() };
+            let mut reader = selected(name, &selection);
+            let value = |x, y, z| ramp(x, y, z) + 1000.0 * f64::from(channel) + 10000.0 * f64::from(time);
+            assert_eq!(values(reader.as_mut()).unwrap(), expected(DIMS, value), "{name} {channel} {time}");
+            let size = reader.info().frame.voxel_size_m();
+            assert!(size.abs_diff_eq(VOXEL_SIZE_M, 1e-9), "{name}: {size}");
+        }
+    }
+}
+
+#[test]
+fn stacks_of_imagej() {
+    for name in ["imagej_stack.tif", "imagej_one_page.tif", "imagej_one_page_big_endian.tif"] {
+        check(name, Element::U16, ramp);
+        let size = selected(name, &Selection::default()).info().frame.voxel_size_m();
+        assert!(size.abs_diff_eq(VOXEL_SIZE_M, 1e-9), "{name}: {size}");
+    }
+}
+
+#[test]
+fn edges_of_voxels() {
+    let size = |name: &str, spacing_mm| {
+        let selection = Selection { spacing_mm, ..Default::default() };
+        selected(name, &selection).info().frame.voxel_size_m() * 1e3
+    };
+    assert_eq!(size("uint8_plain.tif", None), DVec3::ONE);
+    assert!(size("resolution.tif", None).abs_diff_eq(DVec3::new(0.5e-3, 1e-3, 0.5e-3), 1e-12));
+    let given = DVec3::new(1.0, 2.0, 3.0);
+    assert!(size("imagej_stack.tif", Some(given)).abs_diff_eq(given, 1e-12));
+}
+
+#[test]
+fn files_of_a_folder_are_slices_in_natural_order() {
+    check("slices", Element::U16, ramp);
+    let said = said_of("mixed", &Selection::default());
+    assert!(said.contains("b.tiff") && said.contains("5 × 3") && said.contains("a.tif is 5 × 6"), "{said}");
+}
+
+#[test]
+fn what_is_not_read_is_said() {
+    let said = |name| said_of(name, &Selection::default());
+    assert!(said("uneven.tif").contains("page 2 is 5 × 3"));
+    assert!(said("half.tif").contains("16 bits"));
+}
+
+#[test]
+fn slabs_are_read_in_any_order() {
+    for name in ["uint16_lzw.tif", "imagej_one_page.tif", "slices"] {
+        let mut reader = selected(name, &Selection::default());
+        let mut slab = Samples::new(reader.info().element, 30);
+        for z in [2, 3, 0, 3, 1] {
+            reader.read_slab(z, &mut slab).unwrap();
+            assert_eq!(slab.get(7), ramp(2.0, 1.0, z.into()), "{name} slab {z}");
+        }
+    }
+}
+
+const DAMAGED: [&str; 9] = [
+    "uint16_plain.tif",
+    "uint16_lzw.tif",
+    "float32_zlib.tif",
+    "int16_packbits.tif",
+    "uint8_zstd.tif",
+    "tiled_float.tif",
+    "big_tiff_big_endian.tif",
+    "imagej_one_page.tif",
+    "rgb_planes.tif",
+];
+
+fn read_bytes(folder: &Path, bytes: &[u8]) -> Result<Vec<f64>, String> {
+    let path = folder.join("stack.tif");
+    std::fs::write(&path, bytes).unwrap();
+    let selection = Selection { channel: Some(0), ..Default::default() };
+    let read = open(&path, &selection).and_then(|mut reader| some_values(reader.as_mut()));
+    read.map_err(|error| error.to_string())
+}
+
+#[test]
+fn files_cut_short_at_any_place_are_survived() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in DAMAGED {
+        let bytes = std::fs::read(file(name)).unwrap();
+        for length in (0..bytes.len() - 1).step_by(7) {
+            match read_bytes(folder.path(), &bytes[..length]) {
+                Ok(values) => {
+                    assert_eq!(values, read_bytes(folder.path(), &bytes).unwrap(), "{name} {length}")
+                }
+                Err(said) => {
+                    assert!(
+                        said.contains(&*folder.path().to_string_lossy()) && !said.contains('\n'),
+                        "{said}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wrong_byte_anywhere_is_survived() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in DAMAGED {
+        let bytes = std::fs::read(file(name)).unwrap();
+        for at in (0..bytes.len()).step_by(5) {
+            for wrong in [0x00, 0x7f, 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[at] = wrong;
+                // Wrong numbers are read, or a sentence comes back; nothing else may happen.
+                let _ = read_bytes(folder.path(), &damaged);
+            }
+        }
+    }
+}
+
+#[test]
+fn memory_is_not_taken_for_what_the_file_cannot_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bytes = std::fs::read(file("uint16_plain.tif")).unwrap();
+    // The count of the values of the first tag.
+    let page = u32::from_le_bytes([4, 5, 6, 7].map(|at| bytes[at])) as usize;
+    bytes[page + 6..page + 10].copy_from_slice(&0x7fff_ffffu32.to_le_bytes());
+    let said = read_bytes(folder.path(), &bytes).unwrap_err();
+    assert!(said.contains("has 2147483647 values"), "{said}");
+    // A second page that starts within the tags of the first.
+    let mut bytes = [0; 80];
+    for (at, value) in [(0, *b"II*\0"), (4, [8, 0, 0, 0]), (8, [4, 0, 4, 0]), (58, [10, 0, 0, 0])] {
+        bytes[at..at + 4].copy_from_slice(&value);
+    }
+    let said = read_bytes(folder.path(), &bytes).unwrap_err();
+    assert!(said.contains("its pages overlap"), "{said}");
+}
