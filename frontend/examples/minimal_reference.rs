@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let frame = scene.frame(0, &display, &VolumeFacts::of(volume.as_ref()))?;
 
     // The rule of detail says which levels the display asks for; the reference samples the very same ones.
-    let rule = LodRule::new(&display, &frame);
+    let rule = LodRule::new(&display, frame.display_from_volume, frame.quality.lod_scale);
     let reference = Reference::new(volume, &frame, &rule, Integrator::default())?;
 
     // The ray of the middle pixel of a projector, as the model defines it.
