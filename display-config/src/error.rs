@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-/// Why a ray or an eye has no meaning.
+/// Why a ray or an eye is meaningless.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RayError {
     /// A coordinate or η is NaN or infinite, or so extreme that the ray's coefficients are.

@@ -29,7 +29,7 @@ pub struct BeamLaw {
     observer_z: f64,
 }
 
-/// A denominator smaller than its terms by this factor is their rounding: a zero.
+/// A denominator smaller than its terms by this factor is only their rounding, and counts as zero.
 const ZERO: f64 = 4.0 * f64::EPSILON;
 
 impl BeamLaw {

@@ -4,8 +4,8 @@ use crate::Display;
 use crate::beams::Beams;
 use glam::DVec2;
 
-/// Screen points looked at along each axis, edges included. Where every projector covers the whole screen the edges
-/// alone decide, and the zone is exact; where rasters tile the screen it is as fine as this grid.
+/// Screen points sampled along each axis, edges included. If every projector covers the whole screen, the edges alone
+/// decide and the zone is exact; if rasters tile the screen, it is as fine as this grid.
 const SAMPLES: u32 = 33;
 
 impl Display {

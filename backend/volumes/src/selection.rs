@@ -1,4 +1,4 @@
-//! Which volume of those in a file, and what the file itself does not tell.
+//! Which volume of those in a file, and what the file itself does not say.
 
 use super::RawLayout;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! A store in a file: any brick reads alone, and many processes read at once.
+//! A store in a file: any brick can be read alone, and many processes can read at once.
 
 use super::bytes::checksum;
 use super::entry::{Checksums, Entry, Extent};
@@ -13,8 +13,8 @@ use crate::{NodeKey, NodeSummary, OctreeShape};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// An open store. Opening reads the header alone, whatever the size; tables and bricks are checked as they are read,
-/// and damage of one is an error of that one.
+/// An open store. Opening reads only the header, whatever the size; tables and bricks are checked as they are read, and
+/// damage affects only the entry or brick it lies in.
 pub struct Store {
     path: PathBuf,
     version: u32,
@@ -109,7 +109,7 @@ impl Store {
         self.file_bytes
     }
 
-    /// Nodes that the table lists; it leaves out what is one value throughout.
+    /// Nodes that the table lists; it leaves out nodes of a single value.
     pub fn listed_nodes(&self) -> u64 {
         self.table.count()
     }

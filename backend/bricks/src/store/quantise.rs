@@ -60,7 +60,7 @@ pub(super) fn quantise_within(samples: &[f32], (low, high): (f32, f32), bits: Co
         CodeBits::Sixteen => step == 1.0,
     };
     let per_step = if step > 0.0 { 1.0 / f64::from(step) } else { 0.0 };
-    // Adding a half and cutting off is rounding, for numbers that are not negative.
+    // For non-negative numbers, adding a half and truncating is rounding.
     let long = |v: f32| (f64::from(v) - f64::from(low)) * per_step + 0.5;
     let largest = f64::from(bits.largest());
     let per_short_step = per_step as f32;
@@ -108,7 +108,7 @@ fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     down.max(f32::from_bits(1))
 }
 
-/// Whether all samples, of magnitudes that i32 has, are whole numbers.
+/// Whether all samples, which must fit i32, are whole numbers.
 fn are_whole(samples: &[f32]) -> bool {
     let is_whole = |v: f32| (v as i32) as f32 == v;
     let (lanes, rest) = samples.as_chunks::<LANES>();

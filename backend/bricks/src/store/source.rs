@@ -20,7 +20,7 @@ pub struct NodeSummary {
 pub struct BrickError {
     /// One sentence that names the file and the brick.
     pub sentence: String,
-    /// Whether to ask for it again makes sense.
+    /// Whether asking for it again makes sense.
     pub kind: BrickErrorKind,
 }
 
@@ -29,7 +29,7 @@ pub struct BrickError {
 pub enum BrickErrorKind {
     /// What was read is not a brick: another read finds the same.
     Damaged,
-    /// It could not be read: the disk or the network may answer another time.
+    /// It could not be read: the disk or the network may answer later.
     Unavailable,
 }
 

@@ -7,7 +7,7 @@ use crate::{BrickSource, CellRanges, NodeKey};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Longest list of damages.
+/// The most damages that are listed.
 pub const MOST_DAMAGES: usize = 100;
 /// Bricks between two reports of progress.
 const BRICKS_AT_ONCE: usize = 1024;
@@ -68,7 +68,7 @@ impl Store {
     }
 }
 
-/// A header that reads well holds no other bytes than it is written with.
+/// A valid header has no bytes other than those written.
 fn check_header_bytes(store: &Store, found: &mut Verification) {
     let mut bytes = vec![0; store.header.length() as usize];
     if store.file.read_at(0, &mut bytes).is_err() || bytes != store.header.to_bytes() {
@@ -134,7 +134,7 @@ fn pass_on(
     found: &mut Verification,
 ) {
     let octants = (0..8u32).filter(|octant| entry.children >> octant & 1 == 1);
-    // The table lets no entry pass whose children lie outside it.
+    // The table rejects entries whose children lie outside it.
     for (octant, slot) in octants.zip(&mut keys[entry.first_child as usize..]) {
         if slot.is_some() {
             found.note(format!("entry {place} of the table shares a child with another entry"));
