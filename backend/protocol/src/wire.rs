@@ -37,7 +37,7 @@ pub enum WireError {
     /// It does not start like a message.
     #[error("these {0} bytes are not a lightloom message; is every rank a lightloom program?")]
     Foreign(usize),
-    /// The other end is another version.
+    /// The other end has another version.
     #[error(
         "the other end speaks protocol {theirs} and this program {PROTOCOL_VERSION}; start lightloom and \
          lightloom-backend from the same build"
@@ -46,7 +46,7 @@ pub enum WireError {
         /// The other end's version.
         theirs: u32,
     },
-    /// It ends early, goes on too long, or says what no message says.
+    /// It ends early, is too long, or has impossible contents.
     #[error("a message is damaged: {0}")]
     Damaged(String),
     /// It is over a limit.

@@ -20,7 +20,7 @@ pub enum Launch {
 pub fn launch() -> Result<Launch, String> {
     let launch = if under_mpi() { Launch::Cluster } else { Launch::OneProcess };
     if launch == Launch::Cluster && !cfg!(feature = "mpi") {
-        // Rank 0 speaks for all: it ends the job before the others get a word in.
+        // Rank 0 speaks for all: it ends the job before the others can print anything.
         if rank_in(|name| std::env::var(name).ok()) != Some(0) {
             std::thread::sleep(Duration::from_secs(2));
         }
@@ -33,7 +33,7 @@ pub fn launch() -> Result<Launch, String> {
     Ok(launch)
 }
 
-/// Whether a launcher started this process as one of several ranks. It asks the environment alone, so a plain start
+/// Whether a launcher started this process as one of several ranks. It reads only the environment, so a plain start
 /// never initialises MPI. A single rank is a plain start.
 pub fn under_mpi() -> bool {
     ranks_in(|name| std::env::var(name).ok()).is_some_and(|ranks| ranks > 1)
@@ -68,7 +68,7 @@ pub(super) fn is_first_to_say() -> bool {
     !SAID.swap(true, Ordering::SeqCst)
 }
 
-/// Ends the run: prints `program: sentence` on standard error, and takes the other ranks along where there are any.
+/// Ends the run: prints `program: sentence` on standard error, and ends the other ranks too, if there are any.
 /// Call it from the main thread. The exit code is 1.
 pub fn fail(program: &str, sentence: &str) -> ! {
     if is_first_to_say() {

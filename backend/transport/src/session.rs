@@ -120,7 +120,7 @@ enum Answer<T> {
     Misfit(&'static str),
 }
 
-/// How often silence is looked at, and a back-end's death at the latest.
+/// How often to check for silence, and at the latest for a back-end's death.
 const TICK: Duration = Duration::from_millis(200);
 
 /// How often the front-end says that it is alive while it waits.
@@ -170,8 +170,8 @@ impl Session {
         &self.devices
     }
 
-    /// Has all back-ends draw one frame; pictures and progress go to `on_event` as they come. The reports are in
-    /// the order of the back-ends.
+    /// Lets all back-ends draw one frame; pictures and progress go to `on_event` as they arrive. The reports are in the
+    /// order of the back-ends.
     pub fn render(
         &mut self,
         frame: &FrameState,
@@ -235,7 +235,7 @@ impl Session {
             self.keep_alive()?;
             let since = Instant::now();
             let received = self.link.receive(TICK);
-            // Taking in a large picture may last longer than a tick; that is this end's time, not their silence.
+            // Receiving a large picture may take longer than a tick; that is this end's time, not their silence.
             let listened = since.elapsed().min(TICK);
             silences.iter_mut().for_each(|silence| *silence += listened);
             match received {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Messages a back-end may be ahead of the front-end. Few, because each may be a picture; a back-end waits beyond.
+/// How many messages a back-end may be ahead of the front-end before it waits. Few, because each may be a picture.
 const AHEAD_PER_BACKEND: usize = 4;
 
 /// How long threads may take to quit; they only drop their renderer.
@@ -73,7 +73,7 @@ impl Link for ThreadLink {
         format!("back-end {backend} (a thread of this process)")
     }
 
-    /// A thread that is gone has said so, or will, in a parcel of its own: that is reported, not this.
+    /// A thread that is gone has sent, or will send, a parcel that says so: that is reported, not this.
     fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
         let _ = self.outboxes[backend].send(message.clone());
         Ok(())

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
-/// How often the front-end's process is looked for.
+/// How often to check that the front-end's process runs.
 const LOOK_INTERVAL: Duration = Duration::from_millis(250);
 
 /// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; one that
@@ -54,14 +54,14 @@ pub fn guard_frontend(roster: Arc<Mutex<Roster>>) -> Result<(), String> {
             say("lightloom", &sentence);
             exit(1);
         }
-        // The main thread is saying it. It ends the process, or this does.
+        // The main thread is printing the sentence. It ends the process, or this thread does.
         sleep(STAY);
         exit(1);
     })
 }
 
 /// In a back-end: stays a moment when the launcher ends the job, and ends when the front-end's process is gone, also
-/// in the middle of a frame. `is_parting` calls it off.
+/// in the middle of a frame. `is_parting` cancels this.
 pub fn guard_backend(frontend: Peer, is_parting: Arc<AtomicBool>) -> Result<(), String> {
     on_termination(|| {
         sleep(STAY);
@@ -84,7 +84,7 @@ pub fn guard_backend(frontend: Peer, is_parting: Arc<AtomicBool>) -> Result<(), 
 }
 
 /// Ends the process when finalising MPI does not return, because a rank was lost on the way out. What it returns
-/// calls it off.
+/// cancels this.
 pub fn guard_parting(program: &'static str) -> Result<Arc<AtomicBool>, String> {
     let has_parted = Arc::new(AtomicBool::new(false));
     let watched = Arc::clone(&has_parted);

@@ -29,8 +29,8 @@ pub enum WorkerError {
 /// Progress is sent at most this often; the renderer may report each tile.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// How long a back-end that failed stays for the front-end to read why. Were it gone at once, the launcher could end
-/// the job before the sentence is shown.
+/// How long a failed back-end stays so that the front-end can read why. If it left at once, the launcher could end the
+/// job before the sentence is shown.
 const LAST_WORDS: Duration = Duration::from_secs(5);
 
 /// Serves one front-end until it says Quit. `make` opens the renderer once the setup is known. Errors and panics of
@@ -123,7 +123,7 @@ fn fail(link: &mut dyn WorkerLink, sentence: String) -> Result<(), WorkerError> 
     Err(WorkerError::Failed(sentence))
 }
 
-/// The result of `work`, with a panic made into a sentence.
+/// The result of `work`, with a panic turned into a sentence.
 fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panic_sentence(panic.as_ref())))
 }

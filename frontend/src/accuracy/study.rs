@@ -40,7 +40,7 @@ pub struct Study {
 pub struct Outcome {
     /// The device.
     pub device: DeviceInfo,
-    /// How the truth was come by.
+    /// How the truth was computed.
     pub truth: TruthSummary,
     /// All settings; the default comes first.
     pub measured: Vec<Measured>,

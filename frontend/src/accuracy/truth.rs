@@ -26,7 +26,7 @@ pub(super) struct Truth {
     pub(super) summary: TruthSummary,
 }
 
-/// How the truth was come by.
+/// How the truth was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TruthSummary {
     /// Pixels compared.

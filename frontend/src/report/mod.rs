@@ -49,7 +49,7 @@ pub struct Report {
     pub eyes: Vec<EyeSummary>,
     /// The frames.
     pub frames: Vec<FrameSummary>,
-    /// All frames added up.
+    /// The sum of all frames.
     pub total: Totals,
     /// Peak memory of this process, bytes; None if the system does not say.
     pub peak_memory_bytes: Option<u64>,
@@ -115,7 +115,7 @@ pub struct EyeSummary {
     pub position_m: [f64; 3],
     /// How many projectors it sees at all.
     pub projectors_seen: usize,
-    /// Where it is outside the viewing zone: a sentence that says so.
+    /// A sentence that says so if it is outside the viewing zone.
     pub warning: Option<String>,
 }
 

@@ -65,7 +65,7 @@ fn count_of(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }
 
-/// What a person must not overlook.
+/// Warnings for people.
 fn notes(report: &Report) -> String {
     let incomplete = report.frames.iter().filter(|frame| !frame.total.complete);
     let shortfalls = incomplete

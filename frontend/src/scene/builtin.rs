@@ -108,7 +108,7 @@ fn default_light(volume: &VolumeSource) -> Light {
     }
 }
 
-/// Turned so that there is something to see: into the shells, along the ripples, onto the tree.
+/// Turned to give a good view: into the shells, along the ripples, onto the tree.
 fn default_placement(volume: &VolumeSource) -> Placement {
     let (deg, share) = match procedural_name(volume) {
         Some("shells") => (DVec3::new(20.0, -35.0, 0.0), 1.0),

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-/// Something that can be between two of its values.
+/// Something that can be interpolated between two of its values.
 pub trait Tween: Copy {
     /// From `self` at share 0 to `to` at share 1.
     fn tween(self, to: Self, share: f64) -> Self;
@@ -63,7 +63,7 @@ impl<T: Tween> Track<T> {
     }
 }
 
-/// The tracks of a scene; an empty one leaves its thing where the scene puts it.
+/// The tracks of a scene; an empty one leaves its subject where the scene puts it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// The virtual observer, metres.

@@ -50,7 +50,7 @@ pub fn load_display(name_or_path: &str) -> Result<Display, FrontendError> {
 pub struct EyeOptics {
     /// (projector, weight) pairs at a screen point, metres; they add to 1 if there are any.
     pub weights: Box<dyn Fn(DVec2) -> Vec<(usize, f64)>>,
-    /// Where the eye is outside the viewing zone: a sentence that says so.
+    /// A sentence that says so if the eye is outside the viewing zone.
     pub warning: Option<String>,
 }
 

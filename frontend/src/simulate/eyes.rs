@@ -14,7 +14,7 @@ pub struct Eye {
     pub position_m: DVec3,
     /// What it sees of which projector.
     pub plan: EyePlan,
-    /// Where it is outside the viewing zone: a sentence that says so.
+    /// A sentence that says so if it is outside the viewing zone.
     pub warning: Option<String>,
 }
 
@@ -30,11 +30,11 @@ impl Eye {
     }
 }
 
-/// The views of all eyes of one frame, in the making: takes pictures from several threads, in any order.
+/// The views of all eyes of one frame while they are made: takes pictures from several threads, in any order.
 pub(crate) struct EyeViews<'a> {
     display: &'a Display,
     views: Vec<Mutex<EyeView<'a>>>,
-    /// Which projectors' pictures have come.
+    /// Which projectors' pictures have arrived.
     seen: Mutex<Vec<bool>>,
 }
 
@@ -59,7 +59,7 @@ impl<'a> EyeViews<'a> {
         Ok(())
     }
 
-    /// All pictures have come: the views, or what is missing.
+    /// Once all pictures have arrived: the views, or what is missing.
     pub fn finish(&self, frame: u32) -> Result<Vec<Picture>, FrontendError> {
         let missing: Vec<usize> =
             hold(&self.seen).iter().enumerate().filter(|(_, seen)| !**seen).map(|(p, _)| p).collect();

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 /// Pictures that may wait for a writer: more would only take memory.
 const WAITING_PICTURES: usize = 2;
-/// Writers at most; a renderer on the same machine wants the cores too.
+/// The most writers; a renderer on the same machine needs the cores, too.
 const MOST_WRITERS: usize = 4;
 
 impl Job {
@@ -59,7 +59,7 @@ impl Job {
     }
 }
 
-/// Renders on this thread while others write. A failed write lets the frame end first: back-ends know no half frames.
+/// Renders on this thread while others write. After a failed write the frame still ends: back-ends draw whole frames.
 fn render_and_write(
     source: &mut dyn FrameSource,
     frame: &FrameState,
@@ -76,7 +76,7 @@ fn render_and_write(
         let mut parts = Vec::new();
         let reports = source.render(frame, &mut |event| match event {
             Event::Progress { backend, done, total } => show(part_done(&mut parts, backend, done, total)),
-            // Sending fails only where all writers are gone: then the picture is missed, and said to be, at the end.
+            // Sending fails only if all writers are gone: then the picture is reported as missing at the end.
             Event::Image(image) => drop(send.send(image)),
         });
         drop(send);

@@ -28,7 +28,7 @@ pub fn shows(view: DebugView) -> &'static str {
     }
 }
 
-/// The values that are marked; the last stands for what is larger, too, where there can be any.
+/// The values that are marked; the last also stands for larger ones, if there can be any.
 pub fn marks(view: DebugView) -> Vec<f64> {
     match view {
         DebugView::Lod | DebugView::Deficit => {

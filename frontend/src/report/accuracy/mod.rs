@@ -44,7 +44,7 @@ pub struct AccuracyReport {
     pub frame: u32,
     /// The projectors whose pictures were compared and timed.
     pub projectors: Vec<u32>,
-    /// How the truth was come by.
+    /// How the truth was computed.
     pub truth: TruthSummary,
     /// How often each setting was timed.
     pub repetitions: u32,
@@ -78,7 +78,7 @@ impl AccuracyReport {
         }
     }
 
-    /// What a person must not overlook.
+    /// Warnings for people.
     pub fn notes(&self) -> Vec<String> {
         let truth = &self.truth;
         let mut notes = Vec::new();
@@ -118,7 +118,7 @@ impl AccuracyReport {
     }
 }
 
-/// Writes JSON and page into a folder that is there, each whole or not at all.
+/// Writes JSON and page into an existing folder, each whole or not at all.
 pub fn write(report: &AccuracyReport, out: &Path) -> Result<(), FrontendError> {
     write_text(&out.join(JSON), &serde_json::to_string_pretty(report)?)?;
     write_text(&out.join(HTML), &page::page(report))?;

@@ -46,7 +46,7 @@ impl EnhancerKind {
     }
 }
 
-/// Keys that say what the tool says of an enhancer that it carries.
+/// Keys that a tool overrides for an enhancer that it carries.
 const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];
 
 type Key = (&'static str, Range<usize>);
