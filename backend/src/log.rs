@@ -1,4 +1,4 @@
-//! The log of a program, which both programs keep alike: a run tells the same whether it is one process or many.
+//! The log of a program, the same for both programs: a run logs the same whether it is one process or many.
 
 use std::io::{IsTerminal, stderr};
 use tracing_subscriber::EnvFilter;

@@ -3,7 +3,7 @@
 use crate::{Display, Projector, RasterInverse};
 use glam::DVec2;
 
-/// Beams closer than this in angle, radians, are one direction lit twice.
+/// Beams closer than this in angle, radians, count as one direction lit twice.
 pub(crate) const COINCIDENT: f64 = 1e-9;
 
 /// The projectors of a display as sources of beams, prepared for many screen points.

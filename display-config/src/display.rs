@@ -40,7 +40,7 @@ impl Display {
     /// See [`BeamLaw::new`].
     ///
     /// # Panics
-    /// Where there is no such projector, as a slice does.
+    /// If there is no such projector, as a slice does.
     pub fn beam_law(&self, projector: usize, observer: DVec3, eta: f64) -> Result<BeamLaw, RayError> {
         BeamLaw::new(self.projectors[projector].centre_in_display, observer, eta)
     }
@@ -48,7 +48,7 @@ impl Display {
     /// The screen point of the centre of pixel (x, y) of a projector, metres.
     ///
     /// # Panics
-    /// Where there is no such projector, as a slice does.
+    /// If there is no such projector, as a slice does.
     pub fn pixel_on_screen(&self, projector: usize, x: u32, y: u32) -> DVec2 {
         self.projectors[projector].raster.pixel_on_screen(x, y)
     }

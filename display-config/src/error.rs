@@ -3,15 +3,15 @@
 use std::fmt;
 use std::path::PathBuf;
 
-/// Why a ray or an eye has no meaning.
+/// Why a ray or an eye is meaningless.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RayError {
     /// A coordinate or η is NaN or infinite, or so extreme that the ray's coefficients are.
-    #[error("a coordinate or η is not finite; give ordinary numbers of metres")]
+    #[error("a coordinate or η is infinite or not a number; give ordinary numbers of metres")]
     NotFinite,
     /// Ez = 0.
     #[error(
-        "the projector's centre lies in the screen plane; move it behind (z < 0) or before the screen (z > 0)"
+        "the projector's centre lies in the screen plane; move it behind the screen (z < 0) or in front of it (z > 0)"
     )]
     ProjectorInScreenPlane,
     /// Vz ≤ 0.
@@ -46,7 +46,7 @@ pub enum Clip {
     #[error("no single ray of the projector passes through the point")]
     NoImage,
     /// A coordinate of the point is NaN or infinite.
-    #[error("a coordinate of the point is not finite")]
+    #[error("a coordinate of the point is infinite or not a number")]
     NotFinite,
 }
 
@@ -67,7 +67,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a display cannot be had. Each is one sentence that says where, what, and what to do.
+/// Why a display cannot be read. Each is one sentence that says where, what, and what to do.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message beside each variant says what its fields are")]
 pub enum ConfigError {
@@ -90,7 +90,7 @@ pub enum ConfigError {
     #[error("{place} cannot have this value ({message}); give what it expects")]
     WrongType { place: Place, message: String },
     /// NaN or infinity.
-    #[error("{place} has a number that is not finite; give an ordinary number")]
+    #[error("{place} has an infinite number or NaN; give an ordinary number")]
     NotFinite { place: Place },
     /// A number outside its range.
     #[error("{place} is {value}; give {expected}")]
@@ -104,11 +104,11 @@ pub enum ConfigError {
     )]
     NoProjectors { place: Place },
     /// Both ways of listing projectors at once.
-    #[error("{place} stands beside [[projector]] entries; keep one of the two")]
+    #[error("{place} and [[projector]] entries exclude each other; keep one of the two")]
     TwoLists { place: Place },
     /// Ez = 0.
     #[error(
-        "{place} puts a projector in the screen plane (z = 0); move it behind (z < 0) or before the screen (z > 0)"
+        "{place} puts a projector in the screen plane (z = 0); move it behind the screen (z < 0) or in front of it (z > 0)"
     )]
     ProjectorInScreenPlane { place: Place },
     /// No or several placements of a raster.
@@ -117,9 +117,7 @@ pub enum ConfigError {
     )]
     Placement { place: Place, count: usize },
     /// A raster that falls on a line, on a point, or across the horizon.
-    #[error(
-        "{place} is singular: the raster does not fall on the screen as a quadrilateral of some area; measure it again"
-    )]
+    #[error("{place} is singular: the raster has no area on the screen; measure it again")]
     SingularRaster { place: Place },
     /// Two projectors of one name.
     #[error("{place} `{name}` is already the name of another projector; give each its own")]

@@ -19,7 +19,7 @@ impl EyeModel {
     /// The model for an eye, metres in the display frame.
     ///
     /// # Errors
-    /// An eye in the screen plane or behind it, or not finite.
+    /// An eye in the screen plane or behind it, or with a non-finite coordinate.
     pub fn new(display: &Display, eye_in_display: DVec3) -> Result<Self, RayError> {
         if !eye_in_display.is_finite() {
             return Err(RayError::NotFinite);
@@ -59,17 +59,17 @@ impl EyeModel {
         weights
     }
 
-    /// Where the eye is outside the viewing zone: a sentence that says so, for people.
+    /// A sentence for people that says so, if the eye is outside the viewing zone.
     pub fn outside_zone(&self) -> Option<String> {
         let DVec3 { x, z, .. } = self.eye_in_display;
         match zone_of(self.screen_size, &self.beams, z) {
             Some((low, high)) if (low..=high).contains(&x) => None,
             Some((low, high)) => Some(format!(
                 "The eye at x = {x:.2} m is outside the viewing zone, which reaches from {low:.2} to {high:.2} m at \
-                 {z:.2} m from the screen: it sees a part of the screen dark."
+                 {z:.2} m from the screen: part of the screen stays dark for it."
             )),
             None => Some(format!(
-                "At {z:.2} m from the screen there is no viewing zone: an eye there sees a part of the screen dark, \
+                "At {z:.2} m from the screen there is no viewing zone: part of the screen stays dark for an eye there, \
                  wherever it stands."
             )),
         }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Homography(pub DMat3);
 
 impl Homography {
-    /// The image of a point. Not finite for a point on the map's horizon (third component zero).
+    /// The image of a point. Infinite or NaN for a point on the map's horizon (third component zero).
     pub fn apply(&self, point: DVec2) -> DVec2 {
         let image = self.0 * point.extend(1.0);
         image.truncate() / image.z
@@ -30,7 +30,7 @@ impl Homography {
     }
 
     /// The map of a raster of `pixels` onto four points: the images of its top left corner and on, clockwise in the
-    /// raster (Heckbert 1989, square to quadrilateral). None where three of the points lie on a line.
+    /// raster (Heckbert 1989, square to quadrilateral). None if three of the points lie on a line.
     pub fn of_corners(pixels: DVec2, corners: [DVec2; 4]) -> Option<Self> {
         let [p0, p1, p2, p3] = corners;
         let (to_p1, to_p3, skew) = (p1 - p2, p3 - p2, p0 - p1 + p2 - p3);
@@ -42,7 +42,7 @@ impl Homography {
         square.is_finite().then(|| Self(square * DMat3::from_diagonal((1.0 / pixels).extend(1.0))))
     }
 
-    /// The map back. None where the matrix is singular to rounding or not finite.
+    /// The map back. None if the matrix is singular to rounding, or has a non-finite number.
     pub fn inverse(&self) -> Option<Self> {
         // The adjugate needs no division, and a map is the same map at any scale: so rows and columns of very
         // different magnitude (pixels and metres) cost no accuracy.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Projector {
     /// Its name, unique in the display.
     pub name: String,
-    /// E: its centre of projection, z < 0 behind the screen or z > 0 before it, never in the screen plane.
+    /// E: its centre of projection, z < 0 behind the screen or z > 0 in front of it, never in the screen plane.
     pub centre_in_display: DVec3,
     /// Its pixels.
     pub raster: Raster,

@@ -34,7 +34,7 @@ impl Raster {
         self.screen_from_pixel.apply(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5))
     }
 
-    /// The pixel coordinates of a screen point, also outside the raster. None where the point has no pixel (beyond
+    /// The pixel coordinates of a screen point, also outside the raster. None if the point has no pixel (beyond
     /// the horizon of the calibration, or a singular calibration). For many points, keep [`Raster::inverse`].
     pub fn pixel_from_screen(&self, screen: DVec2) -> Option<DVec2> {
         self.inverse()?.pixel(screen)
@@ -94,7 +94,7 @@ pub struct RasterInverse {
 }
 
 impl RasterInverse {
-    /// The pixel coordinates of a screen point; None where it has none.
+    /// The pixel coordinates of a screen point; None if it has none.
     pub fn pixel(&self, screen: DVec2) -> Option<DVec2> {
         let image = self.pixel_from_screen.0 * screen.extend(1.0);
         let pixel = image.truncate() / image.z;

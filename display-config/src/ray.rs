@@ -29,14 +29,14 @@ pub struct BeamLaw {
     observer_z: f64,
 }
 
-/// A denominator smaller than its terms by this factor is their rounding: a zero.
+/// A denominator smaller than its terms by this factor is only their rounding, and counts as zero.
 const ZERO: f64 = 4.0 * f64::EPSILON;
 
 impl BeamLaw {
     /// The law for projector centre E, observer V (both in metres, display frame) and η in [0, 1].
     ///
     /// # Errors
-    /// Ez = 0, Vz ≤ 0, η outside [0, 1], numbers that are not finite, or so extreme that A or B is not.
+    /// Ez = 0, Vz ≤ 0, η outside [0, 1], non-finite numbers, or numbers so extreme that A or B overflows.
     pub fn new(projector_centre: DVec3, observer: DVec3, eta: f64) -> Result<Self, RayError> {
         if !projector_centre.is_finite() || !observer.is_finite() || !eta.is_finite() {
             return Err(RayError::NotFinite);
@@ -85,7 +85,7 @@ impl BeamLaw {
     /// through it. With m = (Vz − Qz) / Vz: Sx = (Qx − A (1 − m)) / (B (1 − m) + m), Sy = Vy + (Qy − Vy) / m.
     ///
     /// # Errors
-    /// A point at or behind the observer's plane, a point through which no single ray passes, numbers that are not finite.
+    /// A point at or behind the observer's plane, a point through which no single ray passes, non-finite numbers.
     pub fn screen_from_point(&self, point: DVec3) -> Result<DVec2, Clip> {
         if !point.is_finite() {
             return Err(Clip::NotFinite);

@@ -4,13 +4,13 @@ use crate::Display;
 use crate::beams::Beams;
 use glam::DVec2;
 
-/// Screen points looked at along each axis, edges included. Where every projector covers the whole screen the edges
-/// alone decide, and the zone is exact; where rasters tile the screen it is as fine as this grid.
+/// Screen points sampled along each axis, edges included. If every projector covers the whole screen, the edges alone
+/// decide and the zone is exact; if rasters tile the screen, it is as fine as this grid.
 const SAMPLES: u32 = 33;
 
 impl Display {
-    /// The x interval, metres, at a distance from the screen from which the whole screen is lit: an eye there lies,
-    /// for every screen point, between the outermost beams through it. None where there is no such place.
+    /// The x interval, metres, from which the whole screen is lit at a distance from it: an eye there lies,
+    /// for every screen point, between the outermost beams through it. None if there is no such place.
     pub fn viewing_zone(&self, distance_m: f64) -> Option<(f64, f64)> {
         zone_of(DVec2::new(self.width_m, self.height_m), &Beams::new(self), distance_m)
     }

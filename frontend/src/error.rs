@@ -35,7 +35,7 @@ pub enum FrontendError {
         /// How many damages there are.
         damages: u64,
     },
-    /// The system does not tell of signals.
+    /// The system does not report signals.
     #[error("cannot listen for the signals that end a program: {0}")]
     Signals(std::io::Error),
     /// A back-end cannot go on; the sentence is its own.
@@ -72,7 +72,7 @@ pub enum FrontendError {
     Trace(String),
     /// A display that no eye at the observer's distance sees whole.
     #[error(
-        "{distance_m} m before this display there is no viewing zone to spread eyes over; choose another display or another observer"
+        "{distance_m} m from this display there is no viewing zone to spread eyes over; choose another display or another observer"
     )]
     NoViewingZone {
         /// The observer's distance from the screen, metres.

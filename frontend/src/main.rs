@@ -1,4 +1,4 @@
-//! `lightloom`: parses the command line, runs the command, and says in one sentence why it could not.
+//! `lightloom`: parses the command line, runs the command, and prints one sentence if it fails.
 
 use clap::Parser;
 use frontend::FrontendError;
@@ -13,7 +13,7 @@ fn main() -> ExitCode {
     backend::start_log();
     match frontend::command::run(&cli.command) {
         Ok(()) => ExitCode::SUCCESS,
-        // Nothing but this process works then, so nothing else has to be ended.
+        // Only this process is at work then, so nothing else has to be ended.
         Err(error @ (FrontendError::Stopped(_) | FrontendError::Accuracy(AccuracyError::Stopped))) => {
             complain(&error.to_string());
             std::process::exit(INTERRUPTED)
@@ -32,7 +32,7 @@ fn usage(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code())
 }
 
-/// Prints on standard error. Unlike `eprintln!` it does not panic where nobody reads it any more.
+/// Prints on standard error. Unlike `eprintln!` it does not panic if the reader is gone.
 fn complain(sentence: &str) {
     let _ = writeln!(std::io::stderr(), "lightloom: {sentence}");
 }

@@ -15,7 +15,7 @@ const LETTERS: [(char, DVec3); 6] = [
     ('I', DVec3::NEG_Z),
 ];
 
-/// An axis that is further than this from a patient's direction is told with its angle, degrees.
+/// An axis that deviates from a patient's direction by more than this is reported with its angle, degrees.
 const STRAIGHT_DEG: f64 = 0.5;
 
 /// A volume's frame, for reports.

@@ -1,14 +1,14 @@
-//! A progress bar for what takes longer than a moment.
+//! A progress bar for long work.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::{Duration, Instant};
 
-/// Work that is done sooner shows no bar.
+/// Shorter work shows no bar.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Steps of a bar: it shows parts of the whole.
 const STEPS: u64 = 10_000;
 
-/// A bar on standard error that appears after two seconds, and only where somebody looks.
+/// A bar on standard error that appears after two seconds, and only on a terminal.
 pub struct Progress {
     started: Instant,
     is_shown: bool,

@@ -1,4 +1,4 @@
-//! The picture, told twice: WGSL modules in `wgsl/`, and beside each its Rust twin, generic over f32 and f64.
+//! The picture, written twice: WGSL modules in `wgsl/`, and beside each its Rust twin, generic over f32 and f64.
 //!
 //! This crate knows how a kernel is composed. It knows no GPU library, no file and no process: a device in the
 //! back-end runs what is composed here.

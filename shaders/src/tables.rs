@@ -13,13 +13,13 @@ pub const TABLE_ENTRIES: usize = 1024;
 pub struct Tables {
     /// (τ c, τ).
     pub optics: Vec<OpticsEntry>,
-    /// ι; empty where importance plays no part.
+    /// ι; empty if importance plays no part.
     pub importance: Vec<ImportanceEntry>,
     /// Rows of as many entries as that table: row j holds at i the largest importance of the 2^j nodes from node i on.
     pub importance_most: Vec<f32>,
-    /// ν, which is the integral of its own slope; empty where light is not bent. A jump becomes the slope of one cell.
+    /// ν, which is the integral of its own slope; empty if light is not bent. A jump becomes the slope of one cell.
     pub index: Vec<f32>,
-    /// Ambient, diffuse, specular, shininess; empty where all scalars have the light's own.
+    /// Ambient, diffuse, specular, shininess; empty if all scalars have the light's own.
     pub materials: Vec<[f32; 4]>,
     /// See [`occupancy`].
     pub occupied: Vec<u32>,
@@ -97,8 +97,8 @@ pub fn importance_table(importance: &Curve<f64>) -> Vec<ImportanceEntry> {
         .collect()
 }
 
-/// How many table cells below each node change a picture: cells with any extinction, and those for which `acts` tells that
-/// something else does. So cells a to b together change nothing where the counts at a and b + 1 are equal.
+/// How many table cells below each node change a picture: cells with any extinction, and those for which `acts` is true.
+/// So cells a to b together change nothing if the counts at a and b + 1 are equal.
 pub fn occupancy(optics: &[OpticsEntry], acts: impl Fn(usize) -> bool) -> Vec<u32> {
     let has_extinction = |a: &OpticsEntry, b: &OpticsEntry| {
         let grows = b.integral[3] > a.integral[3] || b.integral_rest[3] != a.integral_rest[3];

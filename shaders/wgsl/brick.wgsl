@@ -15,7 +15,7 @@ fn pairs_across(brick: Brick, middle: vec3<f32>, length: f32) -> f32 {
     return clamp(ceil(min(way.x, min(way.y, way.z)) / length), 1.0, 1e6);
 }
 
-// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something. A cell
+// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something. A cell
 // is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points of a pair
 // are asked as leave none of it farther than a voxel.
 fn pairs_unseen(brick: Brick, t: f32, length: f32) -> f32 {
@@ -122,7 +122,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
     return front;
 }
 
-// Adds a pair of steps that meets nothing but scalars within `range`: the first along one straight way, the second along
+// Adds a pair of steps that meets nothing but scalars within `range`: the first along one straight path, the second along
 // another, which is the same where light is not bent. Yields the number of parts that each was cut into.
 fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
     t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>) -> f32 {

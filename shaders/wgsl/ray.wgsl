@@ -65,7 +65,7 @@ fn point_in_display(ray: Ray, t: f32) -> vec3<f32> {
     return ray.origin_in_display + ray.direction_in_display * t;
 }
 
-// The part of the ray inside the volume; empty where x >= y.
+// The part of the ray inside the volume; empty if x >= y.
 fn clip_to_volume(ray: Ray) -> vec2<f32> {
     var span = vec2<f32>(ray.start, FAR);
     for (var axis = 0u; axis < 3u; axis++) {

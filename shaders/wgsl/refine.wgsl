@@ -1,6 +1,6 @@
-// How many parts a step is cut into, by what a pair of steps tells of its own error.
+// How many parts a step is split into, from what a pair of steps estimates of its own error.
 
-// A step is cut into this many parts at most.
+// A step is split into this many parts at most.
 const MOST_PARTS: f32 = 16.0;
 // Steps grow to this many voxels at most.
 const LONGEST_STEP: f32 = 1.0;
@@ -63,9 +63,9 @@ fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>) -> Pair {
 
 // Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
 // `spread` how much enhancers make samples vary within a step.
-// Three things err: where the scalar bends, `both` differs from the mean of the two steps, and something between the
-// samples may not have been seen at all; where colours differ, light taken as if it came from anywhere in a step errs by
-// up to the product of both depths; and so does what varies with the place. The first falls with the square of the parts.
+// Three things cause errors. Where the scalar bends, `both` differs from the mean of the two steps, and something between
+// the samples may have been missed. Where colours differ, light taken as if it came from anywhere in a step is off by up
+// to the product of both depths; so is whatever varies with the place. The first falls with the square of the parts.
 fn parts_of_step(pair: Pair, thickness: f32, visible: f32, spread: f32) -> f32 {
     let first = pair.first.k;
     let second = pair.second.k;

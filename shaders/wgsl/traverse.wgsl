@@ -55,8 +55,8 @@ fn leaf_at(point: vec3<f32>, ray: Ray) -> u32 {
     return at;
 }
 
-// The leaf beyond the face that the ray leaves `node` through, or NO_NODE. Down to the node's own depth the way is
-// told by its cell alone, so that it does not depend on where in the tree the link led; below, by the point.
+// The leaf beyond the face that the ray leaves `node` through, or NO_NODE. Down to the node's own depth the way
+// follows from its cell alone, so that it does not depend on where in the tree the link led; below, from the point.
 fn leaf_beyond(node: NodeRecord, axis: u32, point: vec3<f32>, ray: Ray) -> u32 {
     let forward = is_forward(ray, axis);
     let links = node.neighbours;

@@ -1,4 +1,4 @@
-//! All 72 views of holo72, of a CT-like volume: seconds and samples per second, next to the error they were had at.
+//! All 72 views of holo72, of a CT-like volume: seconds and samples per second, next to the error at which they were measured.
 //!
 //! `cargo bench -p lightloom-tests --bench all_views`; LIGHTLOOM_BENCH_VIEWS=n takes n views, evenly spread, and
 //! LIGHTLOOM_BENCH_DEVICES=cpu,gpu the devices named.
@@ -9,10 +9,10 @@ use bricks::volume::{ByteOrder, Element};
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::head::head;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::{compare, draw, scenes};
 use optics::{Light, Optics, Quality};
-use protocol::RenderEvent;
-use protocol::{FrameState, ProjectorImage};
+use protocol::{DeviceChoice, FrameState, ProjectorImage, RenderEvent};
 use renderer::Renderer;
 use std::path::Path;
 use std::sync::Arc;
@@ -100,7 +100,54 @@ fn measure(renderer: &mut Renderer, frame: &FrameState, keep: &[u32]) -> Measure
     }
 }
 
-fn main() {
+/// Which views are drawn, and what of them is compared.
+struct Plan {
+    display: Display,
+    source: Arc<dyn BrickSource>,
+    projectors: Vec<u32>,
+    keep: Vec<u32>,
+}
+
+/// Draws all scenes at all settings with one device.
+fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Result<(), String> {
+    let Plan { display, source, projectors, keep } = plan;
+    let mut results = Results::new(Program::Bench("all_views"), "all_views", part);
+    let place = scenes::placed(&**source, 0.75, DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
+    let one_voxel =
+        Quality { step_voxels: 1.0, tolerance: f64::INFINITY, lod_scale: 0.0, ..Quality::default() };
+    let settings = [("default", Quality::default()), ("one-voxel steps, finest level", one_voxel)];
+    results.line(format!("{} of 72 views\n", projectors.len()));
+    results.line(
+        "| scene | setting | seconds | Msamples/s | Gsamples | RMS, 99.9 %, largest error of 255 | peak MiB |",
+    );
+    results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
+    for (scene, optics, light) in
+        [("semi-transparent", semi_transparent(), None), ("opaque, shaded", opaque(), Some(Light::default()))]
+    {
+        for (setting, quality) in settings {
+            let mut frame = scenes::frame(display, place, optics.clone(), light);
+            frame.quality = quality;
+            let with = draw::With { cache_bytes: 512 << 20, ..draw::With::device(device) };
+            let (mut renderer, info) = draw::renderer(display, source, projectors, with);
+            results.drawn_by(&info.adapter);
+            let Measured { seconds, samples, complete, images, peak_mib } =
+                measure(&mut renderer, &frame, keep);
+            drop(renderer);
+            let truth = compare::truth(display, &frame, source, keep, COMPARED_STRIDE);
+            let errors = compare::errors(&images, &truth);
+            let rate = samples as f64 / seconds / 1e6;
+            let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
+            let whole = if complete { "" } else { ", INCOMPLETE" };
+            results.line(format!(
+                "| {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {rms:.3}, {p999:.2}, {max:.2}{whole} | {peak_mib:.0} |",
+                samples as f64 / 1e9,
+            ));
+        }
+    }
+    results.finish()
+}
+
+fn main() -> Result<(), String> {
     let views: usize =
         std::env::var("LIGHTLOOM_BENCH_VIEWS").ok().and_then(|n| n.parse().ok()).unwrap_or(72).clamp(1, 72);
     let wanted = std::env::var("LIGHTLOOM_BENCH_DEVICES").unwrap_or_else(|_| "cpu,gpu".into());
@@ -111,45 +158,13 @@ fn main() {
         .collect();
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let source: Arc<dyn BrickSource> = Arc::new(store(folder.path()));
-    let place = scenes::placed(&*source, 0.75, DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
-    let one_voxel =
-        Quality { step_voxels: 1.0, tolerance: f64::INFINITY, lod_scale: 0.0, ..Quality::default() };
-    let settings = [("default", Quality::default()), ("one-voxel steps, finest level", one_voxel)];
-    println!(
-        "{views} views of 800 × 600, {} × {} × {} voxels at 8 bits, 0.75 m wide",
-        DIMS.x, DIMS.y, DIMS.z
-    );
-    println!(
-        "device | scene | setting | seconds | Msamples/s | Gsamples | error of 255: RMS, 99.9 %, max | peak MiB"
-    );
+    println!("{} × {} × {} voxels at 8 bits, 0.75 m wide", DIMS.x, DIMS.y, DIMS.z);
+    let plan = Plan { display, source, projectors, keep };
     for device in draw::devices() {
-        let name = format!("{device:?}").to_lowercase();
-        if !wanted.contains(&name) {
-            continue;
-        }
-        for (scene, optics, light) in [
-            ("semi-transparent", semi_transparent(), None),
-            ("opaque, lit", opaque(), Some(Light::default())),
-        ] {
-            for (setting, quality) in settings {
-                let mut frame = scenes::frame(&display, place, optics.clone(), light);
-                frame.quality = quality;
-                let with = draw::With { cache_bytes: 512 << 20, ..draw::With::device(device) };
-                let (mut renderer, info) = draw::renderer(&display, &source, &projectors, with);
-                let Measured { seconds, samples, complete, images, peak_mib } =
-                    measure(&mut renderer, &frame, &keep);
-                drop(renderer);
-                let truth = compare::truth(&display, &frame, &source, &keep, COMPARED_STRIDE);
-                let errors = compare::errors(&images, &truth);
-                let rate = samples as f64 / seconds / 1e6;
-                let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
-                let whole = if complete { "" } else { ", INCOMPLETE" };
-                println!(
-                    "{} | {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {rms:.3}, {p999:.2}, {max:.2}{whole} | {peak_mib:.0}",
-                    info.adapter,
-                    samples as f64 / 1e9,
-                );
-            }
+        let part = if device == DeviceChoice::Cpu { "cpu" } else { "gpu" };
+        if wanted.contains(part) {
+            measure_device(&plan, device, part)?;
         }
     }
+    Ok(())
 }

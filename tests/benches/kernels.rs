@@ -10,6 +10,7 @@ use bricks::BrickSource;
 use bricks::store::CodeBits;
 use display_config::Display;
 use glam::DVec3;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::{compare, data, draw};
 use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Light, Probe, Quality, Ramp, Trapezoid};
@@ -35,6 +36,7 @@ const FIRST_PICTURE: &str = "LIGHTLOOM_BENCH_FIRST_PICTURE";
 struct Contender {
     renderer: Renderer,
     frame: FrameState,
+    adapter: String,
     is_on_processor: bool,
 }
 
@@ -43,7 +45,7 @@ impl Contender {
     fn new(display: &Display, scene: &TestScene, frame: FrameState, with: draw::With) -> Self {
         let (renderer, info) = draw::renderer(display, &scene.source, &PROJECTORS, with);
         let is_on_processor = info.adapter.starts_with("cpu") || info.adapter.contains("llvmpipe");
-        let mut contender = Self { renderer, frame, is_on_processor };
+        let mut contender = Self { renderer, frame, adapter: info.adapter, is_on_processor };
         contender.draw();
         contender
     }
@@ -83,7 +85,8 @@ fn rounds() -> usize {
 }
 
 /// Lets two contenders take turns, and prints a row.
-fn compare(what: &str, baseline: &mut Contender, other: &mut Contender) {
+fn compare(results: &mut Results, what: &str, baseline: &mut Contender, other: &mut Contender) {
+    results.drawn_by(&baseline.adapter);
     let (mut times, mut ratios) = ([vec![], vec![]], vec![]);
     for round in 0..rounds() {
         // Who is first changes, so that neither always finds the caches of the other.
@@ -101,16 +104,16 @@ fn compare(what: &str, baseline: &mut Contender, other: &mut Contender) {
     let difference = compare::errors_between(&other.draw().1, &baseline.draw().1);
     let [a, b] = times.map(|times| quartiles(times)[1]);
     let [low, ratio, high] = quartiles(ratios);
-    println!(
+    results.line(format!(
         "| {what} | {a:.1} | {b:.1} | {ratio:.3} ({low:.3} to {high:.3}) | {:.4} |",
         255.0 * difference.max
-    );
+    ));
 }
 
-fn head(title: &str) {
-    println!("\n{title}; median of {} rounds\n", rounds());
-    println!("| what | without, ms | with, ms | ratio (quartiles) | largest difference of 255 |");
-    println!("| --- | ---: | ---: | ---: | ---: |");
+fn head(results: &mut Results, title: &str) {
+    results.line(format!("\n{title}; median of {} rounds\n", rounds()));
+    results.line("| what | without, ms | with, ms | ratio (quartiles) | largest difference of 255 |");
+    results.line("| --- | ---: | ---: | ---: | ---: |");
 }
 
 /// The scenes, plain and lit.
@@ -126,11 +129,11 @@ fn devices() -> Vec<DeviceChoice> {
 
 /// The composed kernel of a scene that needs nothing, against the one that was frozen.
 #[cfg(feature = "gpu")]
-fn unused(display: &Display) {
+fn unused(results: &mut Results, display: &Display) {
     if !devices().contains(&DeviceChoice::Gpu) {
         return;
     }
-    head("The composed kernel against one written without what it can do");
+    head(results, "The composed kernel against one written without what it can do");
     let with = draw::With { filter: FilterChoice::Hardware, ..draw::With::device(DeviceChoice::Gpu) };
     for scene in all(display) {
         // A scene whose levels blend needs something that the frozen kernel does not know.
@@ -140,12 +143,12 @@ fn unused(display: &Display) {
         assert!(frozen.renderer.substitute_kernel(FROZEN), "a GPU runs WGSL");
         frozen.draw();
         let mut composed = Contender::new(display, &scene, frame, with);
-        compare(&format!("{}, plain", scene.name), &mut frozen, &mut composed);
+        compare(results, &format!("{}, plain", scene.name), &mut frozen, &mut composed);
     }
 }
 
 #[cfg(not(feature = "gpu"))]
-fn unused(_: &Display) {
+fn unused(_: &mut Results, _: &Display) {
     println!("SKIPPED: a build without the gpu feature runs no WGSL");
 }
 
@@ -192,9 +195,9 @@ fn idle_enhancers() -> Vec<(&'static str, Vec<Enhancer>)> {
     ]
 }
 
-fn enhancers(display: &Display) {
+fn enhancers(results: &mut Results, display: &Display) {
     for device in devices() {
-        head(&format!("Enhancers that change nothing, {device:?}"));
+        head(results, &format!("Enhancers that change nothing, {device:?}"));
         let with = draw::With::device(device);
         for scene in all(display) {
             for (kind, light) in [("plain", None), ("lit", Some(Light::default()))] {
@@ -204,7 +207,8 @@ fn enhancers(display: &Display) {
                     let mut frame = frame.clone();
                     frame.optics.enhancers = chain;
                     let mut enhanced = Contender::new(display, &scene, frame, with);
-                    compare(&format!("{}, {kind}: {name}", scene.name), &mut without, &mut enhanced);
+                    let what = format!("{}, {kind}: {name}", scene.name);
+                    compare(results, &what, &mut without, &mut enhanced);
                 }
             }
         }
@@ -212,11 +216,11 @@ fn enhancers(display: &Display) {
 }
 
 /// Eight fetches against the texture unit, with what each errs.
-fn filters(display: &Display) {
+fn filters(results: &mut Results, display: &Display) {
     if !devices().contains(&DeviceChoice::Gpu) {
         return;
     }
-    head("The exact filter (with) against the texture unit's (without)");
+    head(results, "The exact filter (with) against the texture unit's (without)");
     let Some(scene) = scenes::cranium(display) else { return };
     let mut errors = Vec::new();
     for bits in [CodeBits::Eight, CodeBits::Sixteen] {
@@ -231,16 +235,16 @@ fn filters(display: &Display) {
                 let with = draw::With { filter, ..draw::With::device(DeviceChoice::Gpu) };
                 Contender::new(display, &scene, scene.frame.clone(), with)
             });
-            compare(&name, &mut hardware, &mut exact);
+            compare(results, &name, &mut hardware, &mut exact);
             let error = |contender: &mut Contender| compare::errors(&contender.draw().1, &truth);
             errors.push(format!(
-                "{name}: texture unit {}; exact {}",
+                "- {name}: texture unit {}; exact {}",
                 error(&mut hardware),
                 error(&mut exact)
             ));
         }
     }
-    println!("\nAgainst the reference: \n{}", errors.join("\n"));
+    results.line(format!("\nAgainst the reference:\n\n{}", errors.join("\n")));
 }
 
 /// What the process of [`compiling`] does: opens the GPU, draws one picture of few pixels, and prints how long it took.
@@ -260,7 +264,7 @@ fn first_picture(display: &Display) {
 
 /// New processes until their first picture: without a cache, with an empty one, with one that has the kernel. The drivers'
 /// own caches are switched off.
-fn compiling() {
+fn compiling(results: &mut Results) {
     if !devices().contains(&DeviceChoice::Gpu) {
         return;
     }
@@ -270,8 +274,8 @@ fn compiling() {
         command.env("MESA_SHADER_CACHE_DISABLE", "true").env("__GL_SHADER_DISK_CACHE", "0");
         command.env("LIGHTLOOM_NO_CACHE", if is_off { "1" } else { "" });
         let output = command.output().expect("the bench runs itself");
-        let told = String::from_utf8_lossy(&output.stdout).into_owned();
-        told.lines().last().and_then(|ms| ms.parse::<f64>().ok()).unwrap_or_else(|| panic!("{output:?}"))
+        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        printed.lines().last().and_then(|ms| ms.parse::<f64>().ok()).unwrap_or_else(|| panic!("{output:?}"))
     };
     let mut times = [vec![], vec![], vec![]];
     let mut kept = 0;
@@ -284,31 +288,43 @@ fn compiling() {
         let files = std::fs::read_dir(pipelines).into_iter().flatten().flatten();
         kept = files.filter_map(|file| file.metadata().ok()).map(|m| m.len()).sum();
     }
-    println!(
-        "\nA new process until its first picture of 8 × 8 pixels; median of {} rounds (quartiles)\n",
+    results.line(format!(
+        "A new process until its first picture of 8 × 8 pixels; median of {} rounds (quartiles)\n",
         rounds()
-    );
+    ));
     for (what, times) in ["no cache", "an empty cache", "the cache of the run before"].iter().zip(times) {
         let [low, median, high] = quartiles(times);
-        println!("{what}: {median:.0} ms ({low:.0} to {high:.0})");
+        results.line(format!("- {what}: {median:.0} ms ({low:.0} to {high:.0})"));
     }
-    println!("the cache then holds {kept} bytes");
+    results.line(format!("\nThe cache then holds {kept} bytes."));
 }
 
-fn main() {
+fn main() -> Result<(), String> {
     let display = Display::load("desk8").expect("a preset");
     if std::env::var_os(FIRST_PICTURE).is_some() {
-        return first_picture(&display);
+        first_picture(&display);
+        return Ok(());
     }
     let display = with_raster(&display, RASTER[0], RASTER[1]);
     println!("{} × {} pixels of {} projectors of desk8", RASTER[0], RASTER[1], PROJECTORS.len());
     for part in variable("LIGHTLOOM_BENCH_PARTS", "unused,enhancers,filter,compile").split(',') {
+        let results = |part| Results::new(Program::Bench("kernels"), "kernels", part);
+        let mut results = match part {
+            "unused" => results("unused"),
+            "enhancers" => results("enhancers"),
+            "filter" => results("filter"),
+            "compile" => results("compile"),
+            other => {
+                return Err(format!("there is no part {other}: take unused, enhancers, filter or compile"));
+            }
+        };
         match part {
-            "unused" => unused(&display),
-            "enhancers" => enhancers(&display),
-            "filter" => filters(&display),
-            "compile" => compiling(),
-            other => panic!("there is no part {other}: take unused, enhancers, filter or compile"),
+            "unused" => unused(&mut results, &display),
+            "enhancers" => enhancers(&mut results, &display),
+            "filter" => filters(&mut results, &display),
+            _ => compiling(&mut results),
         }
+        results.finish()?;
     }
+    Ok(())
 }

@@ -1,5 +1,5 @@
 //! Building and reading stores: voxels and bricks per second, next to the rate of moving the same bytes with nothing in
-//! between, and next to the errors they were had at.
+//! between, and next to the errors at which they were measured.
 //!
 //! `cargo bench -p lightloom-tests --bench store`; LIGHTLOOM_BENCH_EDGE=n takes n³ voxels (1024), LIGHTLOOM_BENCH_HUGE=n
 //! builds n³ voxels of procedural:sparse-vessels instead (4096: an hour and more on a slow machine, and room for the
@@ -11,6 +11,7 @@ use bricks::{BrickSource, NodeKey};
 use glam::{DVec3, UVec3};
 use lightloom_tests::head::head;
 use lightloom_tests::random::Random;
+use lightloom_tests::results::{Program, Results};
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{BufWriter, Read, Write};
@@ -31,26 +32,32 @@ fn number(variable: &str) -> Option<u32> {
     std::env::var(variable).ok().map(|text| text.parse().expect("the variable is a number"))
 }
 
-fn main() {
+fn main() -> Result<(), String> {
     let folder = match std::env::var_os("LIGHTLOOM_BENCH_DIR") {
         Some(folder) => tempfile::tempdir_in(folder),
         None => tempfile::tempdir(),
     }
     .expect("a folder for the files can be made");
-    println!("{} threads", rayon::current_num_threads());
+    let program = Program::Bench("store");
     match number("LIGHTLOOM_BENCH_HUGE") {
-        Some(edge) => huge(folder.path(), edge),
+        Some(edge) => {
+            let mut results = Results::new(program, "store", "huge");
+            huge(&mut results, folder.path(), edge);
+            results.finish()
+        }
         None => {
-            let edge = number("LIGHTLOOM_BENCH_EDGE").unwrap_or(1024);
-            build_rates(folder.path(), edge);
+            let mut results = Results::new(program, "store", "build");
+            build_rates(&mut results, folder.path(), number("LIGHTLOOM_BENCH_EDGE").unwrap_or(1024));
+            results.finish()
         }
     }
 }
 
-fn build_rates(folder: &Path, edge: u32) {
-    println!("\n{edge}³ voxels of a synthetic head CT, raw, in the page cache; median of {RUNS} runs\n");
-    println!("| stored | Mvoxel/s | copying alone | store, MiB | peak, MiB | CPU, s | RMS | largest |");
-    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+fn build_rates(results: &mut Results, folder: &Path, edge: u32) {
+    let threads = rayon::current_num_threads();
+    results.line(format!("{edge}³ voxels; median of {RUNS} runs, {threads} threads\n"));
+    results.line("| stored | Mvoxel/s | copying alone | store, MiB | peak, MiB | CPU, s | RMS | largest |");
+    results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     let mut last = None;
     for element in [Element::U8, Element::I16] {
         let (raw, selection) = raw_head(folder, edge, element);
@@ -67,19 +74,19 @@ fn build_rates(folder: &Path, edge: u32) {
             let (measured, report) = median_build(&raw, &selection, &out, bits, codec);
             let copying = copying_rate(&raw, &out, folder, edge);
             let (rate, bits) = (rate(edge, measured.wall_s), bits.bits());
-            println!(
+            results.line(format!(
                 "| {element} as {bits} bit, {codec:?} | {rate:.0} | {copying:.0} | {:.0} | {:.0} | {:.1} | {:.3} | {:.3} |",
                 report.store_bytes as f64 / MIB,
                 measured.peak_mib,
                 measured.cpu_s,
                 report.rms_error,
                 report.max_error,
-            );
+            ));
             last = Some(out);
         }
         std::fs::remove_file(&raw).expect("a file of this program can be removed");
     }
-    read_rates(&last.expect("something was built"));
+    read_rates(results, &last.expect("something was built"));
 }
 
 fn rate(edge: u32, seconds: f64) -> f64 {
@@ -185,34 +192,31 @@ fn copying_rate(raw: &Path, store: &Path, folder: &Path, edge: u32) -> f64 {
 }
 
 /// Opening, and bricks at random: first from the disk, then from the page cache.
-fn read_rates(path: &Path) {
-    println!("\n| reading | |\n| --- | ---: |");
+fn read_rates(results: &mut Results, path: &Path) {
+    results.line("\n| reading | |\n| --- | ---: |");
     let is_cold = forget(path);
     let started = Instant::now();
     let store = Store::open(path).expect("the store opens");
     let state = if is_cold { "cold" } else { "perhaps warm: the page cache cannot be emptied here" };
-    println!("| opening, {state} | {:.2} ms |", started.elapsed().as_secs_f64() * 1e3);
+    results.line(format!("| opening, {state} | {:.2} ms |", started.elapsed().as_secs_f64() * 1e3));
     let nodes = stored_nodes(&store);
     for name in [state, "warm"] {
         let started = Instant::now();
         for &node in &nodes {
             store.brick(node).expect("the brick is whole");
         }
-        println!(
-            "| bricks/s at random, one thread, {name} | {:.0} |",
-            nodes.len() as f64 / started.elapsed().as_secs_f64()
-        );
+        let rate = nodes.len() as f64 / started.elapsed().as_secs_f64();
+        results.line(format!("| bricks/s at random, one thread, {name} | {rate:.0} |"));
     }
     let started = Instant::now();
     nodes.par_iter().for_each(|&node| drop(store.brick(node).expect("the brick is whole")));
-    println!(
-        "| bricks/s at random, all threads, warm | {:.0} |",
-        nodes.len() as f64 / started.elapsed().as_secs_f64()
-    );
+    let rate = nodes.len() as f64 / started.elapsed().as_secs_f64();
+    results.line(format!("| bricks/s at random, all threads, warm | {rate:.0} |"));
     let started = Instant::now();
     let found = store.verify(&|_, _| {});
     assert!(found.damages.is_empty(), "{:?}", found.damages);
-    println!("| checking all | {:.0} MiB/s |", found.bytes as f64 / MIB / started.elapsed().as_secs_f64());
+    let rate = found.bytes as f64 / MIB / started.elapsed().as_secs_f64();
+    results.line(format!("| checking all | {rate:.0} MiB/s |"));
 }
 
 /// Bricks of the finest level that hold several values, and so take bytes, drawn at random from a fixed seed.
@@ -239,7 +243,7 @@ fn forget(path: &Path) -> bool {
         && std::fs::write("/proc/sys/vm/drop_caches", "3").is_ok()
 }
 
-fn huge(folder: &Path, edge: u32) {
+fn huge(results: &mut Results, folder: &Path, edge: u32) {
     let out = folder.join("vessels.lloom");
     let build = BuildOptions { memory_bytes: 1 << 30, ..Default::default() };
     let options = ImportOptions { build, procedural_dims: UVec3::splat(edge), ..Default::default() };
@@ -253,19 +257,19 @@ fn huge(folder: &Path, edge: u32) {
         import("procedural:sparse-vessels", &Selection::default(), &out, &options, &progress)
             .expect("it builds")
     });
-    println!("\n{edge}³ voxels of sparse vessels, 8 bit, LZ4\n\n| | |\n| --- | ---: |");
-    println!("| time | {:.0} s |", measured.wall_s);
-    println!("| rate | {:.0} Mvoxel/s |", rate(edge, measured.wall_s));
-    println!("| store | {:.1} MiB |", report.store_bytes as f64 / MIB);
-    println!("| bricks stored | {} of {} |", report.stored_bricks, report.nodes);
-    println!("| peak memory | {:.0} MiB |", measured.peak_mib);
+    results.line(format!("{edge}³ voxels of sparse vessels, 8 bits, LZ4\n\n| | |\n| --- | ---: |"));
+    results.line(format!("| time | {:.0} s |", measured.wall_s));
+    results.line(format!("| rate | {:.0} Mvoxel/s |", rate(edge, measured.wall_s)));
+    results.line(format!("| store | {:.1} MiB |", report.store_bytes as f64 / MIB));
+    results.line(format!("| bricks stored | {} of {} |", report.stored_bricks, report.nodes));
+    results.line(format!("| peak memory | {:.0} MiB |", measured.peak_mib));
     for (level, error) in report.levels.iter().enumerate() {
         let of_16_bits = 65535.0 / (report.value_range.1 - report.value_range.0);
-        println!(
+        results.line(format!(
             "| level {level}: RMS, largest error, in 1/65535 of the range | {:.2}, {:.1} |",
             error.rms * of_16_bits,
             error.max * of_16_bits
-        );
+        ));
     }
-    read_rates(&out);
+    read_rates(results, &out);
 }

@@ -1,7 +1,7 @@
 //! The time of a whole update of the working set on one core: feedback, priorities, restriction, weights.
 //!
 //! `cargo bench -p lightloom-tests --bench working_set`; LIGHTLOOM_BENCH_ROUNDS=n measures n frames of each size (60). The
-//! volume is a box of solid values that moves to and fro before the screen; every leaf is met by rays, a tenth of them
+//! volume is a box of solid values that moves to and fro in front of the screen; rays meet every leaf, a tenth of the leaves
 //! changes its depth in a second, and every brick comes at once.
 
 use bricks::LodRule;
@@ -99,15 +99,16 @@ fn settled(shape: &OctreeShape, optics: &Optics, nodes: usize) -> (f64, WorkingS
     }
 }
 
-fn main() {
+fn main() -> Result<(), String> {
+    let mut results = Results::new(Program::Bench("working_set"), "working_set", "updates");
     let rounds: u32 = std::env::var("LIGHTLOOM_BENCH_ROUNDS")
         .map_or(60, |text| text.parse().expect("the number of rounds is a whole number"));
     let (shape, optics) = (OctreeShape::new(UVec3::splat(EDGE)), optics());
-    println!("One update on one core, the median and the largest of {rounds} frames\n");
-    println!(
-        "| nodes | families that came or went a frame | choosing, ms | showing, ms | weights, ms | all, ms | 90 %, ms | ns per n log2 n |"
+    results.line(format!("One update on one core, the median and the 90th percentile of {rounds} frames\n"));
+    results.line(
+        "| nodes | families that came or went a frame | choosing, ms | showing, ms | weights, ms | all, ms | 90 %, ms | ns per n log2 n |",
     );
-    println!("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    results.line("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for size in SIZES {
         let (scale, mut set) = settled(&shape, &optics, size);
         let (mut times, mut nodes, mut changes) = (Vec::new(), 0, 0);
@@ -122,14 +123,15 @@ fn main() {
         let [choosing, showing, weighing] =
             [0, 1, 2].map(|part| quantile(times.iter().map(|parts: &[f64; 3]| parts[part]), 0.5));
         let all = |share| quantile(times.iter().map(|parts| parts.iter().sum()), share);
-        println!(
+        results.line(format!(
             "| {nodes:.0} | {:.1} | {choosing:.3} | {showing:.3} | {weighing:.3} | {:.3} | {:.3} | {:.1} |",
             changes as f64 / f64::from(rounds),
             all(0.5),
             all(0.9),
             1e6 * all(0.5) / (nodes * nodes.log2())
-        );
+        ));
     }
+    results.finish()
 }
 
 /// What a share of some numbers stays within.

@@ -5,6 +5,7 @@
 use display_config::Display;
 use lightloom_tests::blending_scenes::{self, is_split};
 use lightloom_tests::presented::{Presented, picture};
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{Curve, Light};
@@ -29,7 +30,12 @@ fn median(mut numbers: Vec<f64>) -> f64 {
 }
 
 /// Rows of a scene: each contender against the first.
-fn compare(display: &Display, scene: &TestScene, contenders: &[(&str, TwinScene, Needs)]) {
+fn compare(
+    results: &mut Results,
+    display: &Display,
+    scene: &TestScene,
+    contenders: &[(&str, TwinScene, Needs)],
+) {
     let view = view(display, PROJECTOR, &scene.frame, &*scene.source).rounded();
     let rays = f64::from(view.rays.raster[0] * view.rays.raster[1]);
     let mut devices: Vec<Device> = contenders
@@ -51,21 +57,22 @@ fn compare(display: &Display, scene: &TestScene, contenders: &[(&str, TwinScene,
     }
     let ratios = |i: usize| times[i].iter().zip(&times[0]).map(|(a, b)| a / b).collect();
     for (i, (what, ..)) in contenders.iter().enumerate() {
-        println!(
+        results.line(format!(
             "| {} | {what} | {:.1} | {:.1} | {:.3} |",
             scene.name,
             samples[i] as f64 / rays,
             median(times[i].clone()),
             median(ratios(i))
-        );
+        ));
     }
 }
 
-fn main() {
+fn main() -> Result<(), String> {
     let display = Display::load("desk8").expect("a preset");
     let display = with_raster(&display, 240, 180);
-    println!("| scene | how | samples per ray | processor time, ms | ratio |");
-    println!("| --- | --- | ---: | ---: | ---: |");
+    let mut results = Results::new(Program::Study("blending"), "blending", "blending");
+    results.line("| scene | how | samples per ray | processor time, ms | ratio |");
+    results.line("| --- | --- | ---: | ---: | ---: |");
     for (base, light) in
         [(blending_scenes::busy as fn(&Display) -> TestScene, true), (blending_scenes::half_hidden, false)]
     {
@@ -85,8 +92,9 @@ fn main() {
             let lit = Needs::of(optics, Some(&Light::default()), &scene.frame.quality);
             everything.tables = shaders::tables::Tables::new(optics, &lit);
             let all = Needs { has_materials: true, ..plain };
-            println!("{}", if light.is_some() { "| Phong |||||" } else { "| plain |||||" });
+            results.line(if light.is_some() { "| Phong |||||" } else { "| plain |||||" });
             compare(
+                &mut results,
                 &display,
                 &scene,
                 &[
@@ -98,4 +106,5 @@ fn main() {
             );
         }
     }
+    results.finish()
 }

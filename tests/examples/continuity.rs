@@ -26,6 +26,7 @@ use lightloom_tests::motion::{
     standing_still, steps,
 };
 use lightloom_tests::remembered::Remembered;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, with_raster};
 use optics::{Light, Optics};
 use protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
@@ -246,6 +247,7 @@ fn write_pictures(folder: &Path, name: &str, images: &[ProjectorImage], at: usiz
 }
 
 fn row(
+    results: &mut Results,
     name: &str,
     whole: Continuity,
     surface: Continuity,
@@ -256,7 +258,7 @@ fn row(
     let of = |steps: fn(&BorderSteps) -> Spread, kind: usize| {
         borders.map_or_else(|| "-".to_owned(), |b| format!("{} ({})", steps(&b), b.pairs[kind]))
     };
-    println!(
+    results.line(format!(
         "| {name} | {} | {} | {} | {} | {} | {} | {} | {last} | {} | {} | {:.1} |",
         whole.step,
         surface.step,
@@ -268,7 +270,7 @@ fn row(
         outcome.bricks_loaded,
         outcome.live,
         outcome.seconds
-    );
+    ));
 }
 
 /// What both measures must find: pictures whose leaves of even depth are too coarse by three levels, and from the middle
@@ -292,6 +294,7 @@ fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[P
 }
 
 fn measure(
+    results: &mut Results,
     stage: &Stage,
     (motion, start): (&str, Start),
     frames: &[FrameState],
@@ -310,7 +313,7 @@ fn measure(
         let name = format!("{motion}, {name}");
         let ends = outcome.images.last().zip(truth.last());
         let last = ends.map_or_else(Vec::new, |(image, truth)| steps(image, truth));
-        row(&name, whole, found, borders, Spread::of(last), outcome);
+        row(results, &name, whole, found, borders, Spread::of(last), outcome);
         match &stage.out {
             Some(folder) => write_pictures(folder, &name, &outcome.images, found.pops_at),
             None => Ok(()),
@@ -330,17 +333,20 @@ fn measure(
 }
 
 /// Cold starts of a view, one for each fade.
-fn cold_starts(stage: &Stage, frame: &FrameState, fades_s: &[f64], upload_bytes: u64) {
-    println!("| fade, s | step of any pixel | step on surfaces | at rest after, s | frames |");
-    println!("| ---: | ---: | ---: | ---: | ---: |");
+fn cold_starts(stage: &Stage, frame: &FrameState, fades_s: &[f64], upload_bytes: u64) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("continuity"), "continuity", "fades");
+    results.line("| fade, s | step of any pixel | step on surfaces | at rest after, s | frames |");
+    results.line("| ---: | ---: | ---: | ---: | ---: |");
     let surface = &surfaces(stage, std::slice::from_ref(frame))[0];
     for &fade_s in fades_s {
         let mut live = FrameState { pace: Pace::Live { upload_bytes, fade_s }, ..frame.clone() };
         live.quality.blended = true;
         let found = cold_start(&mut renderer(stage), &live, MOST_COLD, |pixel| surface[pixel].is_some());
         let rest = found.rest_s.map_or_else(|| "-".to_owned(), |rest_s| format!("{rest_s:.2}"));
-        println!("| {fade_s} | {} | {} | {rest} | {} |", found.step, found.step_on_surfaces, found.frames);
+        let (step, on_surfaces, frames) = (found.step, found.step_on_surfaces, found.frames);
+        results.line(format!("| {fade_s} | {step} | {on_surfaces} | {rest} | {frames} |"));
     }
+    results.finish()
 }
 
 /// Shells of one colour: what changes in a picture is where they are and how they end, not what they wear.
@@ -376,17 +382,18 @@ fn main() -> Result<(), String> {
     let is_asked_for = |manner: &Manner| blended.is_none_or(|b| b == manner.blended);
     let manners: Vec<Manner> = [blends, jumps].into_iter().filter(is_asked_for).collect();
     if !fades_s.is_empty() {
-        cold_starts(&stage, &moving[0], &fades_s, upload_mib << 20);
-        return Ok(());
+        return cold_starts(&stage, &moving[0], &fades_s, upload_mib << 20);
     }
-    println!(
+    let mut results = Results::new(Program::Study("continuity"), "continuity", "sequences");
+    results.line(format!(
         "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
         raster.0, raster.1
+    ));
+    results.line(
+        "| sequence | step of any pixel | step on surfaces | pop on surfaces | at frame | excess inside leaves (pairs) | across leaves of a level | across levels | last frame against complete | bricks loaded | live frames | seconds |",
     );
-    println!(
-        "| sequence | step of any pixel | step on surfaces | pop on surfaces | at frame | excess inside leaves (pairs) | across leaves of a level | across levels | last frame against complete | bricks loaded | live frames | seconds |"
-    );
-    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
-    measure(&stage, ("moving", Start::AtRest), &moving, &manners)?;
-    measure(&stage, ("still", Start::AtRoot), &standing_still(&moving), &manners)
+    results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    measure(&mut results, &stage, ("moving", Start::AtRest), &moving, &manners)?;
+    measure(&mut results, &stage, ("still", Start::AtRoot), &standing_still(&moving), &manners)?;
+    results.finish()
 }

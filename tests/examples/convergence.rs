@@ -1,7 +1,7 @@
 //! How the error falls with the step, where steps have one length: a table, and a plot for each kind of scene.
 //!
 //! ```text
-//! cargo run --release -p lightloom-tests --example convergence -- -o DIR
+//! cargo run --release -p lightloom-tests --example convergence -- [-o DIR]
 //! ```
 //!
 //! Smooth fields of 64³ voxels, sampled and then seen as stored: plain, shaded, and with both forms of MImDA. The steps are
@@ -15,6 +15,7 @@ use frontend::report::plot::{Chart, Mark, Point, Series, Stroke};
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::lod_rule;
+use lightloom_tests::results::{self, Program, Results};
 use lightloom_tests::scenes::{frame, optics, placed};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use optics::{Curve, Light, Mimda, MimdaForm, Quality};
@@ -22,7 +23,7 @@ use protocol::FrameState;
 use rayon::prelude::*;
 use reference::{Errors, Field, Integrator, Radiance, Ray, Reference, Segmentation};
 use shaders::twin::Real;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Step lengths, voxels: halved from the length of the shortest wave's bend down to where f32 rounding takes over.
@@ -176,16 +177,15 @@ fn both(display: &Display, case: &Case, against: &str, truths: &[Vec<[f64; 4]>])
     ]
 }
 
-fn table(curves: &[Curves]) {
-    print!("{:<46}", "RMS of 255 at steps of");
-    STEPS_VOXELS.iter().for_each(|step| print!("{step:>10}"));
-    println!("{:>8}", "order");
+fn table(results: &mut Results, curves: &[Curves]) {
+    let steps: String = STEPS_VOXELS.iter().map(|step| format!(" {step} |")).collect();
+    results.line(format!("| RMS of 255 at steps of |{steps} order |"));
+    results.line(format!("| --- |{} ---: |", " ---: |".repeat(STEPS_VOXELS.len())));
     for one in curves {
-        print!("{:<46}", one.name);
-        one.errors.iter().for_each(|error| print!("{error:>10.2e}"));
-        println!("{:>8.2}", one.order());
+        let errors: String = one.errors.iter().map(|error| format!(" {error:.2e} |")).collect();
+        results.line(format!("| {} |{errors} {:.2} |", one.name, one.order()));
     }
-    println!();
+    results.line("");
 }
 
 fn chart(title: &str, curves: &[Curves]) -> Chart {
@@ -229,24 +229,36 @@ fn published(display: &Display) -> Vec<Curves> {
     curves
 }
 
-fn folder() -> Result<PathBuf, String> {
+/// The folder for the plots: the one given, or that of the results; None if there is neither.
+fn folder() -> Result<Option<PathBuf>, String> {
     match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
-        [flag, folder] if flag == "-o" => Ok(PathBuf::from(folder)),
-        _ => Err("give -o and a folder".to_owned()),
+        [] => Ok(results::folder()),
+        [flag, folder] if flag == "-o" => Ok(Some(PathBuf::from(folder))),
+        _ => Err("give nothing, or -o and a folder for the plots".to_owned()),
     }
+}
+
+fn write_chart(folder: &Path, file: &str, chart: &Chart) -> Result<(), String> {
+    let path = folder.join(file);
+    let write = || {
+        std::fs::create_dir_all(folder)?;
+        std::fs::write(&path, chart.svg())
+    };
+    write().map_err(|error: std::io::Error| format!("{}: {error}", path.display()))
 }
 
 fn main() -> Result<(), String> {
     let out = folder()?;
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
-    std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let mut results = Results::new(Program::Study("convergence"), "convergence", "convergence");
     for (file, title, curves) in [
         ("convergence.svg", "Error against step length (and its order)", compositing(&display)),
         ("convergence-mimda.svg", "MImDA as published (and its order)", published(&display)),
     ] {
-        table(&curves);
-        let path = out.join(file);
-        std::fs::write(&path, chart(title, &curves).svg()).map_err(|e| format!("{}: {e}", path.display()))?;
+        table(&mut results, &curves);
+        if let Some(folder) = &out {
+            write_chart(folder, file, &chart(title, &curves))?;
+        }
     }
-    Ok(())
+    results.finish()
 }

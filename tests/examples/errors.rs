@@ -8,6 +8,7 @@
 //! shading, which tells the errors of shading from those of compositing. `--with`: with one of the illustrative techniques.
 
 use display_config::Display;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES};
 use lightloom_tests::{compare, draw};
@@ -61,20 +62,23 @@ fn arguments() -> Result<Arguments, String> {
     Ok(found)
 }
 
-fn table(display: &Display, scene: &TestScene, device: DeviceChoice) {
+fn table(results: &mut Results, display: &Display, scene: &TestScene, device: DeviceChoice) {
     let started = Instant::now();
     let truth = compare::traced(display, &scene.frame, &scene.source, &PROJECTORS, STRIDE);
-    println!("{}: reference {:.1} s", scene.name, started.elapsed().as_secs_f64());
+    eprintln!("{}: reference {:.1} s", scene.name, started.elapsed().as_secs_f64());
     for (step_voxels, tolerance) in SETTINGS {
         let mut frame = scene.frame.clone();
         (frame.quality.step_voxels, frame.quality.tolerance) = (step_voxels, tolerance);
         let drawn = draw::draw(display, &frame, &scene.source, &PROJECTORS, draw::With::device(device));
-        println!(
-            "  step {step_voxels:4} tolerance {tolerance:.1e}: {}   cast {:.0} ms, {:.1} million samples per second",
-            compare::errors(&drawn.images, &truth),
+        results.drawn_by(&drawn.info.adapter);
+        let errors = compare::errors(&drawn.images, &truth);
+        let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|error| 255.0 * error);
+        results.line(format!(
+            "| {} | {step_voxels} | {tolerance:.1e} | {rms:.4} / {p999:.3} / {max:.2} | {:.0} | {:.1} |",
+            scene.name,
             drawn.report.stages.cast_ms,
             drawn.report.samples as f64 / drawn.report.stages.cast_ms / 1e3
-        );
+        ));
     }
 }
 
@@ -82,6 +86,10 @@ fn main() -> Result<(), String> {
     let Arguments { scene: name, device, has_light, technique } = arguments()?;
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
     let all = std::iter::once(techniques::bumps(&display)).chain(scenes::all(&display));
+    let mut results = Results::new(Program::Study("errors"), "errors", "errors");
+    results
+        .line("| scene | step, voxels | tolerance | RMS / 99.9 % / largest of 255 | cast, ms | Msamples/s |");
+    results.line("| --- | ---: | ---: | ---: | ---: | ---: |");
     for mut scene in all.filter(|scene| scene.name.contains(&name)) {
         if !has_light {
             scene.frame.light = None;
@@ -89,7 +97,7 @@ fn main() -> Result<(), String> {
         if let Some(technique) = technique {
             scene = techniques::with(&scene, technique);
         }
-        table(&display, &scene, device);
+        table(&mut results, &display, &scene, device);
     }
-    Ok(())
+    results.finish()
 }

@@ -11,6 +11,7 @@ use glam::{DQuat, EulerRot, UVec3};
 use lightloom_tests::compare;
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::remembered::Remembered;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, with_raster};
 use optics::{Light, Quality};
 use protocol::{DeviceChoice, FrameState};
@@ -43,12 +44,14 @@ fn main() -> Result<(), String> {
     settings.extend([2.0, 1.0, 0.5, 0.25].map(|step| ("one length in each node", uniform(step))));
     settings.extend([4.0, 2.0, 1.0, 0.5].map(|step| ("one length along the ray", finest(step))));
 
-    println!("| steps | longest, voxels | samples per ray | RMS / 99.9 % / largest of 255 |");
-    println!("| --- | ---: | ---: | ---: |");
+    let mut results = Results::new(Program::Study("sampling"), "sampling", "sampling");
+    results.line("| steps | longest, voxels | samples per ray | RMS / 99.9 % / largest of 255 |");
+    results.line("| --- | ---: | ---: | ---: |");
     for (name, quality) in settings {
         let frame = FrameState { quality, ..frame.clone() };
         let with = With { cache_bytes: 2 << 30, ..With::device(DeviceChoice::Cpu) };
-        let (mut renderer, _) = draw::renderer(&display, &source, &PROJECTORS, with);
+        let (mut renderer, info) = draw::renderer(&display, &source, &PROJECTORS, with);
+        results.drawn_by(&info.adapter);
         draw_with(&mut renderer, &frame);
         let (images, report) = draw_with(&mut renderer, &frame);
         if !report.complete {
@@ -57,14 +60,14 @@ fn main() -> Result<(), String> {
         let pixels: u64 = images.iter().map(|image| u64::from(image.width) * u64::from(image.height)).sum();
         let truth = compare::truth(&display, &frame, &source, &PROJECTORS, STRIDE);
         let errors = compare::errors(&images, &truth);
-        println!(
+        results.line(format!(
             "| {name} | {} | {:.1} | {:.3} / {:.2} / {:.1} |",
             quality.step_voxels,
             report.samples as f64 / pixels as f64,
             255.0 * errors.rms,
             255.0 * errors.p999,
             255.0 * errors.max
-        );
+        ));
     }
-    Ok(())
+    results.finish()
 }

@@ -18,6 +18,7 @@ use lightloom_tests::data;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::ideal_cut::{IdealCut, ideal_cut};
 use lightloom_tests::remembered::Remembered;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, Colours, Points, scaled, with_raster};
 use optics::Optics;
 use protocol::{DeviceChoice, FrameReport, FrameState};
@@ -119,6 +120,7 @@ struct Need {
     report: FrameReport,
     /// Mean opacity of the pixels that show anything.
     opacity: f64,
+    adapter: String,
     seconds: f64,
 }
 
@@ -137,7 +139,8 @@ fn need(
     let opacities = drawn.images.iter().flat_map(|image| image.rgba.chunks_exact(4)).map(|p| f64::from(p[3]));
     let (sum, shown) =
         opacities.filter(|&a| a > 0.0).fold((0.0, 0.0), |(sum, shown), a| (sum + a, shown + 1.0));
-    Need { report: drawn.report, opacity: sum / shown, seconds: started.elapsed().as_secs_f64() }
+    let seconds = started.elapsed().as_secs_f64();
+    Need { report: drawn.report, opacity: sum / shown, adapter: drawn.info.adapter, seconds }
 }
 
 /// One perspective picture; the detail wanted is one voxel per pixel at any depth.
@@ -150,28 +153,28 @@ fn window(holo: &Display) -> Display {
     display
 }
 
-fn row(view: &str, subject: &Subject, opacity: &str, ideal: &IdealCut, need: &Need) {
+fn row(results: &mut Results, view: &str, subject: &Subject, opacity: &str, ideal: &IdealCut, need: &Need) {
     let (leaves, held) = (ideal.leaves.len() as u64, ideal.held as u64);
     let (seen, resident) = (need.report.working_set_union, need.report.bricks_resident);
-    println!(
+    results.line(format!(
         "| {view} | {} | {opacity} ({:.2}) | {leaves} | {seen} | {:.2} | {held} | {resident} | {:.2} |",
         subject.name,
         need.opacity,
         seen as f64 / leaves as f64,
         resident as f64 / held as f64,
-    );
+    ));
     eprintln!("{view}, {}, {opacity}: {:.1} s", subject.name, need.seconds);
 }
 
 /// Figure 11.
-fn visibility(holo: &Display, subjects: &[Subject], device: DeviceChoice) {
-    println!("## Bricks without and with visibility feedback\n");
-    println!(
-        "| view | volume | transfer function (mean opacity) | leaves without | with | ratio | held without | with | ratio |"
+fn visibility(holo: &Display, subjects: &[Subject], device: DeviceChoice) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("working_set"), "visibility", "bricks");
+    results.line(
+        "| view | volume | transfer function (mean opacity) | leaves without | with | ratio | held without | with | ratio |",
     );
-    println!("| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
-    println!("| window 1024 × 576 | the paper's, 4K | almost opaque | 4553 | 1554 | 0.34 | | | |");
-    println!("| window 1024 × 576 | the paper's, 4K | more transparent | 4620 | 3290 | 0.71 | | | |");
+    results.line("| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+    results.line("| window 1024 × 576 | the paper's, 4K | almost opaque | 4553 | 1554 | 0.34 | | | |");
+    results.line("| window 1024 × 576 | the paper's, 4K | more transparent | 4620 | 3290 | 0.71 | | | |");
     let views =
         [("window 1024 × 576, η = 0", window(holo), 0.0, 0), ("holo72, projector 36", holo.clone(), 1.0, 36)];
     for (view, display, eta, projector) in &views {
@@ -180,11 +183,12 @@ fn visibility(holo: &Display, subjects: &[Subject], device: DeviceChoice) {
                 let frame = FrameState { eta: *eta, ..subject.frame(display, factor) };
                 let ideal = ideal_cut(&*subject.source, display, &frame, &[*projector]);
                 let need = need(display, &frame, &subject.source, &[*projector], device);
-                row(view, subject, opacity, &ideal, &need);
+                results.drawn_by(&need.adapter);
+                row(&mut results, view, subject, opacity, &ideal, &need);
             }
         }
     }
-    println!();
+    results.finish()
 }
 
 /// Section 6: the load of each back-end.
@@ -203,15 +207,16 @@ fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) {
                 let frame = subject.frame(&display, *factor);
                 need(&display, &frame, &subject.source, &shares[backend], device).report.working_set_union
             });
-            println!("| {opacity} | {backend} | {} | {} | {} |", counts[0], counts[1], counts[2]);
+            results
+                .line(format!("| {opacity} | {backend} | {} | {} | {} |", counts[0], counts[1], counts[2]));
         }
     }
-    println!("\nAll back-ends, at {} × {}:\n", COUNTED.0, COUNTED.1);
-    println!(
-        "| transfer function | leaves, mean | largest | largest / mean | union / sum of the two views | held, mean | largest | ideal cut, mean |"
+    results.line(format!("\nAll back-ends, at {} × {}:\n", COUNTED.0, COUNTED.1));
+    results.line(
+        "| transfer function | leaves, mean | largest | largest / mean | union / sum of the two views | held, mean | largest | ideal cut, mean |",
     );
-    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
-    println!("| the paper's | 1549 | 2087 | 1.35 | | | | |");
+    results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    results.line("| the paper's | 1549 | 2087 | 1.35 | | | | |");
     let display = with_raster(holo, COUNTED.0, COUNTED.1);
     for (opacity, factor) in &OPACITIES[..2] {
         let frame = subject.frame(&display, *factor);
@@ -231,16 +236,16 @@ fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) {
         let (held, most_held) = of(&|n| n.0.bricks_resident);
         let (sum, _) = of(&|n| n.0.working_set_sum);
         let (ideal, _) = of(&|n| n.1 as u64);
-        println!(
+        results.line(format!(
             "| {opacity} | {mean:.0} | {largest} | {:.2} | {:.2} | {held:.0} | {most_held} | {ideal:.0} |",
             largest as f64 / mean,
             mean / sum,
-        );
+        ));
         let sizes: BTreeMap<u32, u64> =
             needs.iter().map(|n| (n.0.projectors[0] / 2, n.0.working_set_union)).collect();
         eprintln!("{opacity}, by back-end: {sizes:?}");
     }
-    println!();
+    results.finish()
 }
 
 fn arguments() -> Result<(DeviceChoice, String), String> {
@@ -265,9 +270,9 @@ fn main() -> Result<(), String> {
             .flatten()
             .filter(|subject| subject.name.contains(&only))
             .collect();
-    visibility(&holo, &subjects, device);
+    visibility(&holo, &subjects, device)?;
     for subject in [shells(2048, holo.height_m)].into_iter().filter(|subject| subject.name.contains(&only)) {
-        back_ends(&holo, &subject, device);
+        back_ends(&holo, &subject, device)?;
     }
     Ok(())
 }

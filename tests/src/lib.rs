@@ -21,6 +21,7 @@ mod program_list;
 pub mod random;
 pub mod random_scene;
 pub mod remembered;
+pub mod results;
 pub mod scenes;
 pub mod techniques;
 pub mod twin_scene;

@@ -4,7 +4,7 @@ use crate::{NodeKey, OWN_EDGE, OctreeShape};
 use display_config::Display;
 use glam::{DAffine3, DVec3};
 
-/// The level of detail a picture asks for. It depends on where a node floats, never on who looks: so every
+/// The level of detail a picture asks for. It depends on where a node floats, never on the viewer: so every
 /// projector of every back-end converges to the same cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LodRule {
@@ -19,7 +19,7 @@ pub struct LodRule {
 }
 
 impl LodRule {
-    /// What is asked of a volume that stands in a display, at a [`lod_scale`](optics::Quality::lod_scale).
+    /// The rule for a volume placed in a display, at a [`lod_scale`](optics::Quality::lod_scale).
     pub fn new(display: &Display, display_from_volume: DAffine3, lod_scale: f64) -> Self {
         Self {
             display_from_volume,
@@ -29,12 +29,12 @@ impl LodRule {
         }
     }
 
-    /// Levels that `node` is too coarse by: log2(voxel edge / (lod_scale · s(z))) with s(z) = s0 + 2 |z| tan(Φ/2) at
+    /// How many levels too coarse `node` is: log2(voxel edge / (lod_scale · s(z))) with s(z) = s0 + 2 |z| tan(Φ/2) at
     /// the |z| of the node's region nearest to the screen, and the longest voxel edge. At or below 0 it is fine
     /// enough. +∞ where the finest level is asked for.
     ///
-    /// Where lod_scale · s(z) rises with |z| faster than a restricted cut can follow, its slope is held to what it can:
-    /// see [`LodRule::steepest`].
+    /// If lod_scale · s(z) rises with |z| faster than a restricted cut can follow, its slope is limited: see
+    /// [`LodRule::steepest`].
     pub fn deficit(&self, shape: &OctreeShape, node: NodeKey) -> f64 {
         self.measured().deficit(shape, node)
     }
@@ -64,7 +64,7 @@ impl LodRule {
         self.finest_voxel_m() / (OWN_EDGE as f64 * along_z)
     }
 
-    /// Whether the same depth is wanted everywhere in the volume: then no borders between levels are to be seen.
+    /// Whether the same depth is wanted everywhere in the volume: then there are no borders between levels to see.
     pub fn is_uniform(&self, shape: &OctreeShape) -> bool {
         let measured = self.measured();
         let (nearest, farthest) = measured.depths_m(shape, NodeKey::ROOT);
@@ -110,7 +110,7 @@ impl MeasuredRule {
         self.wanted_at_screen_m + self.slope * z_m
     }
 
-    /// The least and the largest distance between the screen plane and the node's region, metres; the least is 0 where
+    /// The least and the largest distance between the screen plane and the node's region, metres; the least is 0 if
     /// the screen cuts it.
     fn depths_m(&self, shape: &OctreeShape, node: NodeKey) -> (f64, f64) {
         let (low, high) = shape.region(node);

@@ -1,10 +1,10 @@
-//! Working files beside what they are to become.
+//! Working files beside their final places.
 
 use std::io;
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile, TempDir};
 
-/// A file that deletes itself unless it is given a name; readable as any other file of the user would be.
+/// A file that deletes itself unless it is given a name; readable like any other file of the user.
 ///
 /// # Errors
 /// Those of the file system, without the working file's own path.
@@ -16,7 +16,7 @@ pub fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder).map_err(without_path)
 }
 
-/// A folder that deletes itself and all in it unless it is kept; readable as any other folder of the user would be.
+/// A folder that deletes itself and all in it unless it is kept; readable like any other folder of the user.
 ///
 /// # Errors
 /// Those of the file system, without the working folder's own path.
@@ -28,7 +28,7 @@ pub fn temporary_folder_in(folder: &Path) -> io::Result<TempDir> {
     builder.tempdir_in(folder).map_err(without_path)
 }
 
-/// The error without the working file's path that `tempfile` puts behind it: the user knows the file to be, not this.
+/// The error without the working file's path that `tempfile` appends: the user knows only the final file.
 fn without_path(error: io::Error) -> io::Error {
     let text = error.to_string();
     let plain = text.split(" at path \"").next().unwrap_or(&text);

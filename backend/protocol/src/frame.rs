@@ -33,7 +33,7 @@ pub enum Pace {
     /// It waits until nothing is missing.
     #[default]
     Complete,
-    /// It shows what there is; detail comes with later frames.
+    /// It shows what is there; detail comes with later frames.
     Live {
         /// Bytes of bricks that one frame may move to the device.
         upload_bytes: u64,
@@ -65,7 +65,7 @@ pub struct FrameState {
     pub tool: Option<Tool>,
     /// How it gets its detail.
     pub pace: Pace,
-    /// What is shown of the working set in place of the pictures.
+    /// What is shown of the working set instead of the pictures.
     pub debug: Option<DebugView>,
 }
 

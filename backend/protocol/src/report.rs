@@ -1,4 +1,4 @@
-//! What a back-end tells of one frame.
+//! What a back-end reports of one frame.
 
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ pub struct Upkeep {
     pub cancelled: u64,
     /// Leaves whose blend is on its way because detail comes or goes, there or beside them.
     pub fading: u64,
-    /// The largest level-of-detail deficit that a ray met, levels; 0 where none was too coarse.
+    /// The largest level-of-detail deficit that a ray met, levels; 0 if none was too coarse.
     pub largest_deficit: f64,
     /// The mean over all rays and the leaves they met, levels; what is fine enough counts 0.
     pub mean_deficit: f64,

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DeviceChoice {
-    /// The GPU, or the CPU where there is no Vulkan driver but one in software.
+    /// A hardware GPU if there is one, the CPU otherwise.
     #[default]
     Auto,
     /// The GPU or nothing.

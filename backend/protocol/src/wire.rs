@@ -35,9 +35,9 @@ const BYTES_PER_PIXEL: usize = 4 * size_of::<f32>();
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WireError {
     /// It does not start like a message.
-    #[error("these {0} bytes are no lightloom message; is every rank a lightloom program?")]
+    #[error("these {0} bytes are not a lightloom message; is every rank a lightloom program?")]
     Foreign(usize),
-    /// The other end is another version.
+    /// The other end has another version.
     #[error(
         "the other end speaks protocol {theirs} and this program {PROTOCOL_VERSION}; start lightloom and \
          lightloom-backend from the same build"
@@ -46,7 +46,7 @@ pub enum WireError {
         /// The other end's version.
         theirs: u32,
     },
-    /// It ends early, goes on too long, or says what no message says.
+    /// It ends early, is too long, or has impossible contents.
     #[error("a message is damaged: {0}")]
     Damaged(String),
     /// It is over a limit.
@@ -162,10 +162,7 @@ fn decode_body<M: DeserializeOwned>(body: &[u8]) -> Result<M, WireError> {
     if used == body.len() {
         Ok(message)
     } else {
-        Err(WireError::Damaged(format!(
-            "its body has {} bytes, and {used} of them mean something",
-            body.len()
-        )))
+        Err(WireError::Damaged(format!("its body has {} bytes, of which {used} mean something", body.len())))
     }
 }
 
@@ -206,7 +203,7 @@ fn numbers_of(pixels: &[u8]) -> Vec<f32> {
 
 fn take_pixels(image: &mut ProjectorImage, pixels: &[u8]) -> Result<(), WireError> {
     if !image.rgba.is_empty() {
-        return Err(WireError::Damaged("a picture's numbers stand in its body".to_owned()));
+        return Err(WireError::Damaged("the numbers of a picture must be in its body".to_owned()));
     }
     if pixel_bytes_of_raster(image) != Some(pixels.len()) {
         let (width, height) = (image.width, image.height);

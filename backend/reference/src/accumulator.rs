@@ -36,7 +36,7 @@ pub struct Scene<'a> {
     pub integrator: Integrator,
     /// The optics, as the chain leaves them.
     pub medium: &'a Medium,
-    /// The chain of enhancers, told of the ray.
+    /// The chain of enhancers, prepared for the ray.
     pub chain: &'a Chain,
     /// Bounds every shaded colour component.
     pub brightest: f64,

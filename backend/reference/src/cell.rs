@@ -7,7 +7,7 @@ use glam::{DVec3, IVec3};
 /// Strides of the codes along x, y and z.
 const STRIDES: [usize; 3] = [1, BRICK_EDGE, BRICK_EDGE * BRICK_EDGE];
 
-/// A cell of a brick, with the straight way through it from `enter` to `leave`, both in [0, 1]³.
+/// A cell of a brick, with the straight path through it from `enter` to `leave`, both in [0, 1]³.
 pub struct Cell<'a> {
     voxels: &'a Voxels,
     first: usize,
@@ -49,7 +49,7 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// A trilinear function along a straight way is a cubic: its Bernstein coefficients are the means, over the corners of
+/// A trilinear function along a straight path is a cubic: its Bernstein coefficients are the means, over the corners of
 /// the box spanned by `enter` and `leave`, of those with 0, 1, 2 or 3 coordinates of `leave`.
 fn along(mut f: [f64; 8], enter: DVec3, leave: DVec3) -> Cubic {
     for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! A line's way through the cells of one grid.
+//! A line's path through the cells of one grid.
 
 use super::cell::Cell;
 use super::cut::{Grid, Voxels};

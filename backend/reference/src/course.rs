@@ -1,4 +1,4 @@
-//! A straight way on which light is gathered.
+//! A straight path along which light is gathered.
 
 use super::Ray;
 use super::enhancer::Chain;
@@ -6,11 +6,11 @@ use super::shading::Shading;
 use glam::DMat3;
 use optics::Light;
 
-/// A straight way, with all that depends on its direction.
+/// A straight path, with all that depends on its direction.
 pub struct Course {
     /// The way itself; pieces give their t along it.
     pub way: Ray,
-    /// The light's answer for who looks along it.
+    /// The light's answer for a viewer looking along it.
     pub shading: Option<Shading>,
     /// The t at which the chain's laws are not smooth, in rising order.
     pub breaks: Vec<f64>,

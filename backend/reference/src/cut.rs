@@ -247,7 +247,7 @@ fn read(source: &dyn BrickSource, key: NodeKey) -> Result<Voxels, BrickError> {
     Ok(Voxels { codes, low: f64::from(brick.low), step: f64::from(brick.step) })
 }
 
-/// The weights of a leaf's corners: 0 where a coarser leaf touches that shows anything.
+/// The weights of a leaf's corners: 0 where a coarser leaf that shows anything touches.
 fn weights_of(source: &dyn BrickSource, rule: &LodRule, optics: &Optics, leaf: NodeKey) -> [f64; 8] {
     let shape = source.shape();
     let is_coarse = |cell: NodeKey| {

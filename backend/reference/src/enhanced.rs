@@ -16,7 +16,7 @@ pub struct Enhanced<'a> {
     pub chain: &'a Chain,
     /// Which parts of its laws hold on the span.
     pub zones: &'a Zones,
-    /// Where the span lies: a straight way, and the t of its ends.
+    /// Where the span lies: a straight path, and the t of its ends.
     pub way: &'a Ray,
     /// See `way`.
     pub t: (f64, f64),

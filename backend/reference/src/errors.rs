@@ -22,7 +22,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Errors of pairs (found, true) of colour and opacity; None where there is no pair. A NaN is an error of NaN.
+    /// Errors of pairs (found, true) of colour and opacity; None if there is no pair. A NaN is an error of NaN.
     pub fn of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Option<Self> {
         let (mut squares, mut worst, mut lit) = (0.0, Vec::new(), 0);
         for (found, truth) in pairs {
@@ -51,7 +51,7 @@ impl fmt::Display for Errors {
     }
 }
 
-/// The larger of two errors; NaN where either is.
+/// The larger of two errors; NaN if either is.
 fn largest_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

@@ -16,7 +16,7 @@ struct Rung<'a> {
     voxels: &'a Voxels,
 }
 
-/// A leaf's samples, its parent's and its grandparent's, as far as there are such.
+/// A leaf's samples, its parent's and its grandparent's, as far as these exist.
 pub struct Ladder<'a> {
     rungs: Vec<Rung<'a>>,
 }
@@ -25,7 +25,7 @@ pub struct Ladder<'a> {
 struct Way<'a> {
     ladder: &'a Ladder<'a>,
     line: &'a Line,
-    /// What blends, and None where it is the same all the way.
+    /// What blends, and None if it is the same all the way.
     blending: Option<Blending<'a>>,
     /// The level above the leaf's at its middle.
     above: f64,

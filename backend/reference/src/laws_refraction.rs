@@ -1,4 +1,4 @@
-//! The laws that light on bent ways must keep.
+//! The laws that light on bent paths must keep.
 
 use super::test_scene::*;
 use super::{AnalyticField, Field, Integrator, Radiance, Ray, Reference, Segmentation, StoredField, Tracer};

@@ -11,8 +11,8 @@
 //! γ = 0 is plain emission and absorption. A *piece* is a part of the ray on which the data value is one cubic of t; a
 //! *span* is a part of a piece on which all curves of the optics are linear in the scalar. So optical depth is known
 //! in closed form on a span, and only colour is integrated numerically. Where a chain of enhancers acts, depth depends
-//! on place and gradient too: such a span is cut wherever a law of the chain is not smooth, and integrated as a
-//! differential equation. Where a refraction index bends light, t is the length of the bent way, which is laid as chords;
+//! on place and gradient too: such a span is cut at every place where a law of the chain is not smooth, and integrated as a
+//! differential equation. Where a refraction index bends light, t is the length of the bent path, which is laid as chords;
 //! enhancers still know the direction in which the ray left the eye, and the light sees the direction of the chord.
 //!
 //! How errors keep to the tolerance ε, of which [`Radiance::error_estimate`] is the sum:
@@ -22,7 +22,7 @@
 //! | colour of a span | ε/2 per unit of the span's opacity, by Gauss–Kronrod's estimate |
 //! | a span with a rise or a chain | ε/4 per unit of light exchanged on each step, by halving the step |
 //! | the rest of an opaque ray | ε/10, bounded |
-//! | a bent way | by laying it twice: see `refraction::bent_light` |
+//! | a bent path | by laying it twice: see `refraction::bent_light` |
 //! | cubics fitted to a field that is none | 1e-10 of the domain; not in the estimate |
 //!
 //! | file | what it is |

@@ -6,7 +6,7 @@ use super::enhancer::Chain;
 use glam::DVec4;
 use optics::{Curve, Material, MimdaForm, Optics};
 
-/// How strongly importance erases what lies before it.
+/// How strongly importance erases what lies in front of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Erasure {
     /// γ in (0, 1].

@@ -84,7 +84,7 @@ impl<'p> Stretch<'p> {
 }
 
 impl Shown<'_> {
-    /// The span as the chain leaves it; None where the chain leaves it alone.
+    /// The span as the chain leaves it; None if the chain leaves it alone.
     pub fn enhanced(&self) -> Option<Enhanced<'_>> {
         let Stretch { passage, chain, zones, .. } = &self.stretch;
         self.acts.then(|| Enhanced {

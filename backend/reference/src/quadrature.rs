@@ -24,7 +24,7 @@ pub struct Estimate {
 pub fn integrate(f: &impl Fn(f64) -> DVec3, (a, b): (f64, f64), tolerance: f64, max_depth: u32) -> Estimate {
     let whole = rule(f, a, b);
     let middle = 0.5 * (a + b);
-    // Written so that what is not a number ends here too.
+    // Written so that NaN ends here too.
     let wants_more = whole.error > tolerance;
     if !wants_more || max_depth == 0 || middle <= a || middle >= b {
         return whole;

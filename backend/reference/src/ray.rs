@@ -1,4 +1,4 @@
-//! A ray in the display frame, with the line it is in the volume frame.
+//! A ray in the display frame, with its line in the volume frame.
 
 use glam::{DAffine3, DVec3};
 
@@ -75,7 +75,7 @@ impl Line {
         exit
     }
 
-    /// The part of `within` that lies in the closed box [0, `high`]; None where it is empty or a single point.
+    /// The part of `within` that lies in the closed box [0, `high`]; None if it is empty or a single point.
     pub fn clip(&self, high: DVec3, within: (f64, f64)) -> Option<(f64, f64)> {
         let (mut start, mut end) = within;
         for axis in 0..3 {

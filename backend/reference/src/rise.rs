@@ -51,7 +51,7 @@ pub trait Emitter {
 /// A span on which importance does not fall: dA = −A p + (1 − A) τ, dC = −C p + (1 − A) e, with p = dP/dx.
 pub struct Rise<'a, E> {
     emitter: &'a E,
-    /// How importance erases; None where it does not.
+    /// How importance erases; None if it does not.
     erasure: Option<Erasure>,
     /// Error allowed per unit of what is added or erased. Errors are erased and covered as the light itself is, so the
     /// sum never exceeds a small multiple of it.
@@ -83,7 +83,7 @@ impl<'a, E: Emitter> Rise<'a, E> {
         let allowed = (self.tolerance * turnover).max(ROUNDING * twice.rgb.max_element().max(1.0));
         self.steps.set(self.steps.get() + 1);
         let is_spent = max_depth == 0 || self.steps.get() > MOST_STEPS;
-        // Written so that what is not a number ends here too.
+        // Written so that NaN ends here too.
         let wants_more = error > allowed;
         if !wants_more || is_spent || middle <= a || middle >= b {
             return State { error: state.error + error, ..twice };

@@ -19,7 +19,7 @@ pub struct Segmentation {
 pub enum SegmentationError {
     /// A boundary is not a number, or lies before the one ahead of it.
     #[error(
-        "segment boundary {index} is not finite, or lies before the one ahead of it; sort the boundaries"
+        "segment boundary {index} is infinite or NaN, or lies before the previous one; sort the boundaries"
     )]
     NotRising {
         /// Which boundary, from 0.
@@ -62,7 +62,7 @@ impl<'a> Segment<'a> {
         Self { light: light.without_importance(), ends: None, is_opaque: false }
     }
 
-    /// Its light, and the data values at its start and end; None where it met nothing.
+    /// Its light, and the data values at its start and end; None if it met nothing.
     pub fn seen(&self) -> Option<(Radiance, (f64, f64))> {
         self.ends.map(|ends| (self.light.radiance(), ends))
     }

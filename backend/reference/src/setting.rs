@@ -22,7 +22,7 @@ pub struct Setting {
     pub integrator: Integrator,
     /// The optics, without enhancers.
     pub medium: Medium,
-    /// What bends light; None where it goes straight.
+    /// What bends light; None if it goes straight.
     pub index: Option<Index>,
     /// What shades.
     pub light: Option<Light>,
@@ -38,7 +38,7 @@ pub struct Setting {
 pub struct View<'a> {
     /// What other rays share.
     pub setting: &'a Setting,
-    /// None where no enhancer changes the medium.
+    /// None if no enhancer changes the medium.
     medium: Option<Medium>,
     chain: Chain,
 }
@@ -82,7 +82,7 @@ impl View<'_> {
         Scene { integrator, medium, chain: &self.chain, brightest, levels }
     }
 
-    /// A straight way of such a ray.
+    /// A straight path of such a ray.
     pub fn course(&self, way: &Ray) -> Course {
         let setting = self.setting;
         let (low, high) = setting.medium.optics().domain;

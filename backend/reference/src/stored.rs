@@ -34,7 +34,7 @@ impl StoredField {
         Self::new(source, rule).filtered(rule)
     }
 
-    /// The same around bricks that cannot be read: as the renderer does, it takes the parent in place of a family of
+    /// The same around bricks that cannot be read: as the renderer does, it takes the parent instead of a family of
     /// which a brick that `optics` show is damaged.
     pub fn around_damage(source: Arc<dyn BrickSource>, rule: &LodRule, optics: &Optics) -> Self {
         Self { cut: Cut::around_damage(source, rule, optics), filter: None }

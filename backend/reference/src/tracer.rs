@@ -12,9 +12,9 @@ use optics::OpticsError;
 use protocol::FrameState;
 use std::sync::Arc;
 
-/// What a scene with refraction answers to who asks for segments of it.
+/// The error for segments of a scene with refraction.
 const BENT_SEGMENTS: &str =
-    "segments are parts of a straight ray; take the refraction out of the scene, or ask for the whole ray";
+    "segments are parts of a straight ray; remove the refraction from the scene, or ask for the whole ray";
 
 /// Why a frame has no reference picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -24,7 +24,7 @@ pub enum ReferenceError {
     Optics(#[from] OpticsError),
     /// The volume's placement has no inverse.
     #[error(
-        "the volume's placement in the display frame flattens it or is not finite; give it three independent axes"
+        "the volume's placement in the display frame flattens it or has a non-finite number; give it three independent axes"
     )]
     Placement,
     /// The tolerance is not a positive number.

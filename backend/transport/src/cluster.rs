@@ -1,7 +1,7 @@
 //! Back-ends as ranks of an MPI job: rank 0 is the front-end, rank i + 1 is back-end i.
 //!
 //! The first message between two ranks is an introduction: role (1 byte), process number (4 bytes, little-endian),
-//! host name (the rest). It tells who claims to be what before anybody waits for anything, and whose process to look
+//! host name (the rest). It says which rank claims to be what before anything waits, and whose process to look
 //! for later.
 
 use super::launch::{HOW_TO_LAUNCH, fail};
@@ -25,13 +25,13 @@ const IS_BACKEND: u8 = 2;
 /// How long the introductions may take; the launcher may start the ranks one after another.
 const INTRODUCTIONS: Duration = Duration::from_secs(60);
 
-/// How often back-ends' processes are looked for.
+/// How often to check that back-ends' processes run.
 const LOOK_INTERVAL: Duration = Duration::from_millis(200);
 
-/// How long messages of a back-end that is gone may still come in before it is given up.
+/// How long messages of a dead back-end may still arrive before it counts as lost.
 const LAST_MESSAGES: Duration = Duration::from_millis(300);
 
-/// How long a back-end goes on without a word from the front-end. Two minutes, because a front-end may be busy with
+/// How long a back-end goes on without hearing from the front-end. Two minutes, because a front-end may be busy with
 /// pictures between two frames; in longer work it calls [`super::Session::keep_alive`]. A front-end that dies on the
 /// same host is noticed in a second whatever this says.
 pub const FRONTEND_SILENCE: Duration = Duration::from_secs(120);
@@ -78,7 +78,7 @@ fn two_frontends(rank: usize) -> String {
     format!("ranks 0 and {rank} are both a front-end; one is enough: `{HOW_TO_LAUNCH}`")
 }
 
-/// Tells rank 0, which says the sentence and ends the job; says it itself if that does not come to pass.
+/// Sends the sentence to rank 0, which prints it and ends the job; prints it itself if that does not happen.
 fn second_frontend(messenger: &mut Messenger, rank: usize) -> LinkError {
     let told = messenger.post(FRONTEND_RANK, introduction(IS_FRONTEND));
     let since = Instant::now();
@@ -102,7 +102,7 @@ fn await_introduction(messenger: &mut Messenger, rank: usize) -> Result<(u8, Pee
         if let Some(bytes) = messenger.poll(rank).map_err(LinkError::Launch)? {
             return read_introduction(rank, &bytes).ok_or_else(|| {
                 LinkError::Launch(format!(
-                    "rank {rank} is no lightloom program; start the job with `{HOW_TO_LAUNCH}`"
+                    "rank {rank} does not run lightloom; start the job with `{HOW_TO_LAUNCH}`"
                 ))
             });
         }
@@ -126,7 +126,7 @@ impl ClusterLink {
         self.roster.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The bytes of one message that has arrived, of whichever back-end; the one after the last comes first.
+    /// The bytes of one message that has arrived, from any back-end; the search starts after the last one served.
     fn poll(&mut self) -> Result<Option<(usize, Vec<u8>)>, LinkError> {
         let backends = self.backends();
         for turn in 0..backends {
@@ -141,7 +141,7 @@ impl ClusterLink {
         Ok(None)
     }
 
-    /// Names a back-end that is gone and whose last messages are in.
+    /// Names a back-end that is gone and whose last messages have arrived.
     fn look_for_gone(&mut self) -> Result<(), LinkError> {
         if self.last_look.elapsed() < LOOK_INTERVAL {
             return Ok(());
@@ -208,7 +208,7 @@ impl Link for ClusterLink {
         }
         self.messenger.end();
         has_parted.store(true, Ordering::SeqCst);
-        // Back-ends that are gone from now on are no loss.
+        // Losing a back-end no longer matters from here on.
         *self.roster() = Roster { activity: "working on what was drawn".to_owned(), ..Roster::default() };
         Ok(())
     }
@@ -279,8 +279,8 @@ impl WorkerLink for RankLink {
     }
 }
 
-/// The whole life of a back-end process: joins the job, serves the front-end, takes leave. The front-end shows what
-/// the renderer could not do; this prints only what the front-end cannot know.
+/// The whole life of a back-end process: joins the job, serves the front-end, leaves. The front-end shows the
+/// renderer's errors; this prints only what the front-end cannot know.
 pub fn work<M>(make: M, frontend_silence: Duration) -> ExitCode
 where
     M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,

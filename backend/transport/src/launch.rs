@@ -20,7 +20,7 @@ pub enum Launch {
 pub fn launch() -> Result<Launch, String> {
     let launch = if under_mpi() { Launch::Cluster } else { Launch::OneProcess };
     if launch == Launch::Cluster && !cfg!(feature = "mpi") {
-        // Rank 0 speaks for all: it ends the job before the others get a word in.
+        // Rank 0 speaks for all: it ends the job before the others can print anything.
         if rank_in(|name| std::env::var(name).ok()) != Some(0) {
             std::thread::sleep(Duration::from_secs(2));
         }
@@ -33,13 +33,13 @@ pub fn launch() -> Result<Launch, String> {
     Ok(launch)
 }
 
-/// Whether a launcher started this process as one of several ranks. It asks the environment alone, so a plain start
+/// Whether a launcher started this process as one of several ranks. It reads only the environment, so a plain start
 /// never initialises MPI. A single rank is a plain start.
 pub fn under_mpi() -> bool {
     ranks_in(|name| std::env::var(name).ok()).is_some_and(|ranks| ranks > 1)
 }
 
-/// The number of ranks by an environment; None where no launcher is at work. PMIx tells a process its rank alone:
+/// The number of ranks by an environment; None without a launcher. PMIx gives a process only its rank:
 /// the number is then Slurm's, or counts as several.
 fn ranks_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
     let number = |name| variable(name).and_then(|text| text.parse().ok());
@@ -74,7 +74,7 @@ fn rank_in(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
 
 static SAID: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, who reads it, is gone, and
+/// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, which reads it, is gone, and
 /// writes the line at once, so that lines of several ranks do not mix.
 pub(super) fn say(program: &str, sentence: &str) {
     let _ = std::io::stderr().write_all(format!("{program}: {sentence}\n").as_bytes());
@@ -86,7 +86,7 @@ pub(super) fn is_first_to_say() -> bool {
     !SAID.swap(true, Ordering::SeqCst)
 }
 
-/// Ends the run: prints `program: sentence` on standard error, and takes the other ranks along where there are any.
+/// Ends the run: prints `program: sentence` on standard error, and ends the other ranks too, if there are any.
 /// Call it from the main thread. The exit code is 1.
 pub fn fail(program: &str, sentence: &str) -> ! {
     if is_first_to_say() {

@@ -4,10 +4,10 @@ use protocol::wire::WireError;
 use protocol::{FromBackend, FromFrontend};
 use std::time::Duration;
 
-/// Why a message did not travel.
+/// Why a message was not delivered.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
-    /// Nothing came in the time allowed; the link is as good as before.
+    /// Nothing came in the time allowed; the link still works.
     #[error("no message came in time")]
     Silent,
     /// A back-end is gone.
@@ -21,7 +21,7 @@ pub enum LinkError {
     /// The front-end is gone.
     #[error("the front-end ended: {0}")]
     FrontendEnded(String),
-    /// What came from a back-end is no message.
+    /// What came from a back-end is not a message.
     #[error("back-end {backend} cannot be understood: {error}")]
     Garbled {
         /// Which, from 0.
@@ -29,7 +29,7 @@ pub enum LinkError {
         /// What is wrong with the bytes.
         error: WireError,
     },
-    /// A message does not become bytes, or bytes from the front-end no message.
+    /// A message cannot be encoded, or bytes from the front-end cannot be decoded.
     #[error(transparent)]
     Wire(#[from] WireError),
     /// The programs were started in a way that cannot work: a sentence that says how to start them.

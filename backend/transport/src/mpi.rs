@@ -1,7 +1,7 @@
 //! Bytes between the ranks of an MPI job.
 //!
-//! Point to point only. A collective waits for every rank and so hangs for good when one is lost; here nothing waits
-//! for anybody: a send is posted and looked after later, a receive asks whether something has come. What is sent to
+//! Point to point only. A collective waits for every rank and so hangs for good when one is lost; here nothing
+//! blocks: a send is posted and completed later, a receive asks whether something has arrived. What is sent to
 //! many ranks is encoded once, and its bytes are shared by all the sends.
 //!
 //! One message is one MPI message, whose length the receiver asks for before it takes it. The limit on a message is
@@ -44,7 +44,7 @@ pub struct Messenger {
 }
 
 impl Messenger {
-    /// Initialises MPI. Errors are returned from now on, where MPI's habit is to end the process.
+    /// Initialises MPI. From now on errors are returned; by default MPI ends the process.
     pub fn start() -> Result<Self, String> {
         let (universe, _) = mpi::initialize_with_threading(mpi::Threading::Funneled)
             .ok_or("MPI was initialised twice in one process")?;
@@ -68,7 +68,7 @@ impl Messenger {
         self.receiving.len()
     }
 
-    /// Posts `bytes` to rank `to`; [`Messenger::is_sending`] tells when they are gone.
+    /// Posts `bytes` to rank `to`; [`Messenger::is_sending`] says when they are gone.
     pub fn post(&mut self, to: usize, bytes: Arc<[u8]>) -> Result<(), String> {
         let mut request = MaybeUninit::uninit();
         // SAFETY: the bytes live in `self.sending` until the request is complete, and beyond if it never is.
@@ -88,7 +88,7 @@ impl Messenger {
         self.is_sending().map(drop)
     }
 
-    /// Moves what is on its way, and says whether something still is.
+    /// Advances pending messages, and returns whether any are left.
     pub fn is_sending(&mut self) -> Result<bool, String> {
         let mut index = 0;
         while index < self.sending.len() {
@@ -101,12 +101,12 @@ impl Messenger {
         Ok(!self.sending.is_empty())
     }
 
-    /// Whether a message is on its way in or out: then it pays to come back soon.
+    /// Whether a message is on its way in or out: then it pays to check again soon.
     pub fn is_moving(&self) -> bool {
         !self.sending.is_empty() || self.receiving.iter().any(Option::is_some)
     }
 
-    /// The next message from rank `from`, where it has arrived.
+    /// The next message from rank `from`, if it has arrived.
     pub fn poll(&mut self, from: usize) -> Result<Option<Vec<u8>>, String> {
         if self.receiving[from].is_none() {
             self.receiving[from] = self.begin(from)?;
@@ -118,7 +118,7 @@ impl Messenger {
         Ok(self.receiving[from].take().map(|complete| complete.bytes))
     }
 
-    /// Starts to take a message from rank `from`, where one is coming.
+    /// Starts receiving a message from rank `from`, if one is coming.
     fn begin(&self, from: usize) -> Result<Option<Receiving>, String> {
         let mut is_coming: c_int = 0;
         let mut status = MaybeUninit::uninit();
@@ -151,7 +151,7 @@ impl Messenger {
         Ok(Some(Receiving { request, bytes }))
     }
 
-    /// Finalises MPI, which waits for all ranks to do the same. The last call of all.
+    /// Finalises MPI, which waits for all ranks to do the same. Nothing may be called after it.
     pub fn end(&mut self) {
         let universe = self.universe.take().map(ManuallyDrop::into_inner);
         drop(universe);
@@ -159,14 +159,14 @@ impl Messenger {
 }
 
 impl Drop for Messenger {
-    /// MPI may still read or write the memory of unfinished requests, so it is left to it.
+    /// MPI may still read or write the memory of unfinished requests, so that memory is leaked.
     fn drop(&mut self) {
         std::mem::forget(std::mem::take(&mut self.sending));
         std::mem::forget(std::mem::take(&mut self.receiving));
     }
 }
 
-/// Ends all ranks, where MPI is running; call it from the thread that started MPI.
+/// Ends all ranks if MPI is running; call it from the thread that started MPI.
 pub fn abort_if_running(exit_code: c_int) {
     let (mut is_up, mut is_down): (c_int, c_int) = (0, 0);
     // SAFETY: these three may be called at any time; abort only between initialising and finalising.

@@ -1,4 +1,4 @@
-//! The wait between two looks at whether a message has come.
+//! The pause between two checks for a message.
 
 use std::time::Duration;
 
@@ -6,8 +6,8 @@ const YIELDS: u32 = 100;
 const SHORTEST: Duration = Duration::from_micros(20);
 const LONGEST: Duration = Duration::from_millis(1);
 
-/// Waits that grow from nothing to a millisecond: a quick answer is met at once, and a long wait leaves the cores to
-/// those who draw.
+/// Waits that grow from nothing to a millisecond: a quick answer is seen at once, and a long wait leaves the cores to
+/// the back-ends that draw.
 #[derive(Default)]
 pub struct Pause {
     yields: u32,
@@ -15,7 +15,7 @@ pub struct Pause {
 }
 
 impl Pause {
-    /// Waits; `is_moving` keeps the wait short, for a transfer goes on only while both ends look at it.
+    /// Waits; `is_moving` keeps the wait short, because a transfer advances only while both ends poll it.
     pub fn wait(&mut self, is_moving: bool) {
         if self.yields < YIELDS {
             self.yields += 1;

@@ -1,4 +1,4 @@
-//! Whether a process of this machine is still there.
+//! Whether a process of this machine still runs.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ pub fn host() -> String {
     }
 }
 
-/// Whether a process runs on this host: None where the system does not tell. One that has died and waits for its
+/// Whether a process runs on this host: None if the system does not say. One that has died and waits for its
 /// parent to notice does not run.
 #[cfg(any(feature = "mpi", test))]
 pub fn is_running(process: u32) -> Option<bool> {

@@ -12,7 +12,7 @@ pub struct Peer {
     /// Its number on that host.
     pub process: u32,
     /// Whether this process can see it: it is on the same host, and was seen when it introduced itself. Hosts in
-    /// containers may share a name and not their processes, so the name alone does not do.
+    /// containers may share a name but not their processes, so the name alone is not enough.
     is_visible: bool,
 }
 
@@ -54,13 +54,13 @@ impl Roster {
         (0..self.backends.len()).filter(|&backend| self.backends[backend].is_gone()).collect()
     }
 
-    /// One sentence that names those who are gone.
+    /// One sentence that names those that are gone.
     pub fn obituary(&self, gone: &[usize]) -> String {
         let names: Vec<String> = gone.iter().map(|&backend| self.name(backend)).collect();
         format!("{} ended while {}: {WHAT_TO_DO}", names.join(" and "), self.activity)
     }
 }
 
-/// What is known of a process that vanished, and what helps.
+/// What is known of a process that vanished, and what to do.
 pub const WHAT_TO_DO: &str = "its process is gone without a word; see what it printed above and whether the system \
      killed it for memory (dmesg), then start the run again";

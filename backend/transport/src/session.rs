@@ -30,7 +30,7 @@ pub enum SessionError {
     /// There is not one setup for each back-end.
     #[error(
         "there are {setups} back-ends to set up and {backends} were started; start as many back-ends as the \
-         display is assigned to, or assign it anew"
+         display is assigned to, or assign it again"
     )]
     Count {
         /// Setups given.
@@ -91,14 +91,14 @@ pub enum SessionError {
     },
 }
 
-/// What a message means to the one who waits for an answer of each back-end.
+/// What a message means while the session waits for an answer from each back-end.
 enum Answer<T> {
     Given(T),
     Pending,
     Misfit(&'static str),
 }
 
-/// How often silence is looked at, and a back-end's death at the latest.
+/// How often to check for silence, and at the latest for a back-end's death.
 const TICK: Duration = Duration::from_millis(200);
 
 /// How often the front-end says that it is alive while it waits.
@@ -137,7 +137,7 @@ impl Session {
         }
         session.devices = session.gather(limits.opening, |_, message| match message {
             FromBackend::Ready(info) => Answer::Given(info),
-            _ => Answer::Misfit("it answered the setup with something else than ready"),
+            _ => Answer::Misfit("it answered the setup with something other than ready"),
         })?;
         session.set_activity("waiting for the next frame".to_owned());
         Ok(session)
@@ -178,7 +178,7 @@ impl Session {
         Ok(reports)
     }
 
-    /// Tells the back-ends that the front-end is alive. Call it now and then in long work between frames.
+    /// Shows the back-ends that the front-end is alive. Call it now and then in long work between frames.
     pub fn keep_alive(&mut self) -> Result<(), SessionError> {
         if self.last_alive.elapsed() < ALIVE_INTERVAL {
             return Ok(());
@@ -194,7 +194,7 @@ impl Session {
             self.link.broadcast(&FromFrontend::Finish).map_err(|error| self.lost(error))?;
             self.gather(self.limits.drawing, |_, message| match message {
                 FromBackend::Finished => Answer::Given(()),
-                _ => Answer::Misfit("it answered the end with something else than its own"),
+                _ => Answer::Misfit("it answered the end with something other than its own"),
             })?;
         }
         self.link.broadcast(&FromFrontend::Quit).map_err(|error| self.lost(error))?;
@@ -213,7 +213,7 @@ impl Session {
             self.keep_alive()?;
             let since = Instant::now();
             let received = self.link.receive(TICK);
-            // Taking in a large picture may last longer than a tick; that is this end's time, not their silence.
+            // Receiving a large picture may take longer than a tick; that is this end's time, not their silence.
             let listened = since.elapsed().min(TICK);
             silences.iter_mut().for_each(|silence| *silence += listened);
             match received {

@@ -10,10 +10,10 @@ use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Messages a back-end may be ahead of the front-end. Few, because each may be a picture; a back-end waits beyond.
+/// How many messages a back-end may be ahead of the front-end before it waits. Few, because each may be a picture.
 const AHEAD_PER_BACKEND: usize = 4;
 
-/// How long threads that were told to quit may take; they only drop their renderer.
+/// How long threads may take to quit; they only drop their renderer.
 const PARTING: Duration = Duration::from_secs(10);
 
 enum Parcel {
@@ -64,7 +64,7 @@ where
         Ok(Err(error)) => error.to_string(),
         Err(panic) => panic_sentence(panic.as_ref()),
     };
-    // Fails only when the front-end has dropped its end, and then nobody asks.
+    // Fails only when the front-end has dropped its end, and then it does not matter.
     let _ = link.outbox.send((link.backend, Parcel::Ended(how)));
 }
 
@@ -77,7 +77,7 @@ impl Link for ThreadLink {
         format!("back-end {backend} (a thread of this process)")
     }
 
-    /// A thread that is gone has said so, or will, in a parcel of its own: that is reported, not this.
+    /// A thread that is gone has sent, or will send, a parcel that says so: that is reported, not this.
     fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
         let _ = self.outboxes[backend].send(message.clone());
         Ok(())
@@ -109,7 +109,8 @@ impl Link for ThreadLink {
         for (backend, thread) in threads.into_iter().enumerate() {
             while !thread.is_finished() {
                 if since.elapsed() > PARTING {
-                    let how = format!("it has not, {} s after it was told to", PARTING.as_secs());
+                    let how =
+                        format!("its thread still runs {} s after it was asked to end", PARTING.as_secs());
                     return Err(LinkError::Ended { backend, how });
                 }
                 std::thread::sleep(Duration::from_millis(1));
@@ -131,7 +132,7 @@ impl WorkerLink for ThreadWorkerLink {
         })
     }
 
-    /// Without end: in one process the channel tells at once when the front-end is gone, and a program may well
+    /// Without end: in one process the channel shows at once when the front-end is gone, and a program may well
     /// leave its display idle for a day.
     fn frontend_silence(&self) -> Duration {
         Duration::from_secs(u32::MAX.into())

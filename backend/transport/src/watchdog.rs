@@ -1,4 +1,4 @@
-//! A thread that ends this process when the run is over and the main thread may be too busy to see it.
+//! A thread that ends this process when the run is over, even if the main thread is too busy to notice.
 
 use super::launch::{is_first_to_say, say};
 use super::roster::{Peer, Roster};
@@ -10,11 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
-/// How often the front-end's process is looked for.
+/// How often to check that the front-end's process runs.
 const LOOK_INTERVAL: Duration = Duration::from_millis(250);
 
-/// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; who
-/// stays a little can be told from who died first.
+/// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; one that
+/// stays a little can then be distinguished from the one that died first.
 const STAY: Duration = Duration::from_millis(700);
 
 /// How long the front-end looks for a dead back-end after that signal. Short: the launcher sends the signal because it
@@ -43,7 +43,7 @@ pub fn guard_frontend(roster: Arc<Mutex<Roster>>) -> Result<(), String> {
             if since.elapsed() > LOOK_FOR_DEAD {
                 let activity = &roster.activity;
                 break format!(
-                    "the launcher ended the run (SIGTERM) while {activity}: it was told to, or a back-end on another \
+                    "the launcher ended the run (SIGTERM) while {activity}: it was asked to, or a back-end on another \
                      host ended; see what the launcher and that host say"
                 );
             }
@@ -54,14 +54,14 @@ pub fn guard_frontend(roster: Arc<Mutex<Roster>>) -> Result<(), String> {
             say("lightloom", &sentence);
             exit(1);
         }
-        // The main thread is saying it. It ends the process, or this does.
+        // The main thread is printing the sentence. It ends the process, or this thread does.
         sleep(STAY);
         exit(1);
     })
 }
 
 /// In a back-end: stays a moment when the launcher ends the job, and ends when the front-end's process is gone, also
-/// in the middle of a frame. `is_parting` calls it off.
+/// in the middle of a frame. `is_parting` cancels this.
 pub fn guard_backend(frontend: Peer, is_parting: Arc<AtomicBool>) -> Result<(), String> {
     on_termination(|| {
         sleep(STAY);
@@ -84,7 +84,7 @@ pub fn guard_backend(frontend: Peer, is_parting: Arc<AtomicBool>) -> Result<(), 
 }
 
 /// Ends the process when finalising MPI does not return, because a rank was lost on the way out. What it returns
-/// calls it off.
+/// cancels this.
 pub fn guard_parting(program: &'static str) -> Result<Arc<AtomicBool>, String> {
     let has_parted = Arc::new(AtomicBool::new(false));
     let watched = Arc::clone(&has_parted);

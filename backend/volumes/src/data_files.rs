@@ -70,7 +70,7 @@ impl DataFiles {
 
 impl Numbered {
     /// Files named as C's printf makes names of a template (`slice%03d.raw`) and the numbers from `first` to `last`;
-    /// None where the template has no such number or the numbers do not make a range.
+    /// None if the template has no such number or the numbers do not make a range.
     pub fn new(folder: &Path, template: &str, [first, last, step]: [i64; 3]) -> Option<Self> {
         let count = last.checked_sub(first)?.checked_div(step)?.checked_add(1)?;
         let count = usize::try_from(count).ok().filter(|count| *count <= MAX_EDGE_VOXELS as usize)?;

@@ -37,7 +37,7 @@ pub(super) struct FileLayout {
 pub(super) struct FileVolume {
     info: VolumeInfo,
     shape: Shape,
-    /// None where the numbers come in the order of this machine.
+    /// None if the numbers come in the order of this machine.
     byte_order: Option<ByteOrder>,
     stream: DataStream,
     /// Bytes of voxels in each file.
@@ -159,7 +159,7 @@ fn check_numbers(layout: &FileLayout) -> Result<(), VolumeError> {
         return wrong(format!("the voxel size is {} mm, and each edge must be positive", size * 1e3));
     }
     if !layout.frame.is_sound() {
-        return wrong("its axes lie in a plane, or its origin is no number".into());
+        return wrong("its axes lie in a plane, or its origin is not a number".into());
     }
     if !layout.slope.is_finite() || !layout.intercept.is_finite() || layout.slope == 0.0 {
         return wrong(format!("values are scaled by {} and shifted by {}", layout.slope, layout.intercept));

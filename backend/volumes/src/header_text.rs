@@ -58,7 +58,7 @@ impl HeaderText {
         Ok(header)
     }
 
-    /// Keeps what a line says; true where the header ends with it.
+    /// Keeps what a line says; true if the header ends with it.
     fn take(&mut self, number: usize, line: Line, text: &str) -> Result<bool, VolumeError> {
         match line {
             Line::Field(key, value) | Line::List(key, value) => {

@@ -72,7 +72,7 @@ mod tests {
         std::fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/short.nrrd"), &input).unwrap();
         let itself = input.to_string_lossy();
         let error = import(&itself, &Selection::default(), &input, &options, &|_, _| {}).unwrap_err();
-        assert!(error.to_string().contains("no lightloom store"), "{error}");
+        assert!(error.to_string().contains("not a lightloom store"), "{error}");
     }
 
     #[test]

@@ -8,10 +8,10 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Bytes looked at to tell a format.
+/// Bytes read to recognise a format.
 const MAGIC_BYTES: u64 = 512;
 
-/// A format that tells what is in it.
+/// A format that describes itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     Nrrd,
@@ -23,7 +23,7 @@ enum Format {
 }
 
 /// Opens a volume. With a raw layout the file is read as raw voxels of it, whatever its name; without, the
-/// extension tells the format, and the first bytes do where the extension is not known. A folder holds a DICOM
+/// extension decides the format, or the first bytes if the extension is unknown. A folder holds a DICOM
 /// series, TIFF slices or an OME-Zarr image.
 ///
 /// # Errors

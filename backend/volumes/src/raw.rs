@@ -24,7 +24,7 @@ pub struct RawLayout {
     pub header_skip_bytes: u64,
 }
 
-/// A raw file must be exactly as long as the layout says: nothing else can tell a wrong layout from a right one.
+/// A raw file must be exactly as long as the layout says: nothing else can distinguish a wrong layout from a right one.
 pub(super) fn layout(path: &Path, raw: &RawLayout) -> Result<FileLayout, VolumeError> {
     let found = file_length(path)?.saturating_sub(raw.header_skip_bytes);
     let voxels: u128 = raw.dims.to_array().map(u128::from).iter().product();

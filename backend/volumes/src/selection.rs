@@ -1,9 +1,9 @@
-//! Which volume of those in a file, and what the file itself does not tell.
+//! Which volume of those in a file, and what the file itself does not say.
 
 use super::RawLayout;
 use glam::DVec3;
 
-/// What a user says beside the path: which volume of those in it, and what the files themselves do not tell.
+/// What a user says beside the path: which volume of those in it, and what the files themselves do not say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
     /// A file without header holds this.
@@ -16,9 +16,9 @@ pub struct Selection {
     /// Of several channels, samples per pixel, or volumes in one file: which one, from 0. None is right only where
     /// there is one.
     pub channel: Option<u32>,
-    /// Of a time series: which point in time, from 0. None is right only where there is one.
+    /// Of a time series: which point in time, from 0. None is right only if there is one.
     pub time: Option<u32>,
-    /// Edges of a voxel in millimetres, in place of what the file says.
+    /// Edges of a voxel in millimetres, instead of what the file says.
     pub spacing_mm: Option<DVec3>,
     /// Memory that a reader may use for what it has decoded and not yet handed out, bytes.
     pub memory_bytes: u64,

@@ -29,7 +29,7 @@ impl<R: BufRead> TextNumbers<R> {
         }
         let word = String::from_utf8_lossy(&self.word);
         self.bytes = parse(self.element, &word).ok_or_else(|| {
-            Error::new(ErrorKind::InvalidData, format!("{word:?} is no number of {}", self.element))
+            Error::new(ErrorKind::InvalidData, format!("{word:?} is not a number of type {}", self.element))
         })?;
         self.given = 0;
         Ok(true)
@@ -142,12 +142,12 @@ mod tests {
     #[test]
     fn what_is_no_number_is_named() {
         let said = |element, text: &str| bytes(element, text, 16).unwrap_err().to_string();
-        assert!(said(Element::U8, "1 256").contains("\"256\" is no number of uint8"));
+        assert!(said(Element::U8, "1 256").contains("\"256\" is not a number of type uint8"));
         assert!(said(Element::U8, "1.5").contains("\"1.5\""));
         assert!(said(Element::I64, "1e99").contains("\"1e99\""));
         assert!(said(Element::I64, "inf").contains("\"inf\""));
         assert!(said(Element::I16, "1 two").contains("\"two\""));
         assert!(said(Element::F64, &"1".repeat(9999)).contains("too long"));
-        assert!(said(Element::F64, "1 \u{fffd}").contains("no number"));
+        assert!(said(Element::F64, "1 \u{fffd}").contains("not a number"));
     }
 }

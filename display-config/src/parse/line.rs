@@ -6,7 +6,7 @@ use crate::wiring::even_shares;
 use crate::{ConfigError, Homography, Projector, Raster};
 use glam::{DVec2, DVec3};
 
-/// More projectors than any display has: a count above it is a slip.
+/// More projectors than any display has: a larger count is a mistake.
 const MOST: u32 = 65_536;
 
 /// `count` projectors evenly from one centre to another (one alone: in the middle), each covering the whole screen,

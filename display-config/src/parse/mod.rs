@@ -51,7 +51,7 @@ const A_LENGTH: &str = "a length in metres, above 0";
 fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError> {
     let width_m = source.positive("screen_width_m", &raw.screen_width_m, A_LENGTH)?;
     let height_m = source.positive("screen_height_m", &raw.screen_height_m, A_LENGTH)?;
-    let accuracy = "an angle in degrees between 0 and 180, both excluded";
+    let accuracy = "an angle in degrees above 0 and below 180";
     let accuracy_deg = source
         .within("angular_accuracy_deg", &raw.angular_accuracy_deg, accuracy, |a| a > 0.0 && a < 180.0)?;
     let eta = "a number from 0 (one perspective view) to 1 (full horizontal parallax)";

@@ -15,7 +15,7 @@ pub(super) struct Source<'a> {
 impl Source<'_> {
     /// The keys and values, each of the right type, none missing, none unknown.
     pub fn read(&self) -> Result<RawDisplay, ConfigError> {
-        // A text that is no TOML at all is told apart from one with the wrong keys by parsing it without a schema.
+        // Parsing without a schema separates text that is not TOML at all from text with the wrong keys.
         if let Err(error) = self.text.parse::<toml::Table>() {
             let line = self.line(error.span().map_or(0, |span| span.start));
             let message = error.message().replace('\n', ", ");

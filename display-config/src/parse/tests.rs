@@ -1,4 +1,4 @@
-//! Each way a display file can be wrong, and that it is told in one sentence.
+//! Each way a display file can be wrong; each gets one sentence.
 
 use super::*;
 use proptest::prelude::*;
@@ -156,7 +156,7 @@ fn a_display_without_projectors_is_refused() {
     let zero = message_of(&format!("{HEAD}{LINE}"), "count = 3", "count = 0");
     assert_eq!(zero, "two.toml, line 10: `count` is 0; give a number of projectors from 1 to 65536");
     let both = Display::from_toml(&format!("{HEAD}{LINE}{PROJECTORS}"), "two.toml").unwrap_err().to_string();
-    assert!(both.starts_with("two.toml, line 9: `projector_line` stands beside"), "{both}");
+    assert!(both.starts_with("two.toml, line 9: `projector_line` and [[projector]]"), "{both}");
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn numbers_outside_their_range_are_refused() {
         ("1.6", "-1.6", "line 2: `screen_width_m` is -1.6; give a length in metres, above 0"),
         ("0.9\n", "0\n", "line 3: `screen_height_m` is 0; give a length"),
         ("0.0015", "0", "line 4: `pixel_size_m` is 0; give a length"),
-        ("0.8\n", "0\n", "line 5: `angular_accuracy_deg` is 0; give an angle in degrees between 0 and 180"),
+        ("0.8\n", "0\n", "line 5: `angular_accuracy_deg` is 0; give an angle in degrees above 0"),
         ("0.8\n", "180\n", "line 5: `angular_accuracy_deg` is 180; give an angle"),
         ("3.0]", "0]", "line 6: `observer_m` is 0; give an observer before the screen"),
         ("3.0]", "-3.0]", "line 6: `observer_m` is -3; give an observer before the screen"),
@@ -183,12 +183,12 @@ fn numbers_outside_their_range_are_refused() {
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
     for (from, to, start) in [
-        ("1.6", "inf", "line 2: `screen_width_m` has a number that is not finite"),
-        ("eta = 1", "eta = nan", "line 7: `eta` has a number that is not finite"),
-        ("[0.0, 0.0, 3.0]", "[nan, 0.0, 3.0]", "line 6: `observer_m` has a number that is not finite"),
-        ("[-1.0, 0.0", "[-inf, 0.0", "line 11: `centre_m` has a number that is not finite"),
-        ("[-0.8, -0.45, 1.6", "[nan, -0.45, 1.6", "line 14: `screen_rect_m` has a number that is not finite"),
-        ("[[-0.8, 0.45]", "[[inf, 0.45]", "line 22: `corners_m` has a number that is not finite"),
+        ("1.6", "inf", "line 2: `screen_width_m` has an infinite number or NaN"),
+        ("eta = 1", "eta = nan", "line 7: `eta` has an infinite number or NaN"),
+        ("[0.0, 0.0, 3.0]", "[nan, 0.0, 3.0]", "line 6: `observer_m` has an infinite number or NaN"),
+        ("[-1.0, 0.0", "[-inf, 0.0", "line 11: `centre_m` has an infinite number or NaN"),
+        ("[-0.8, -0.45, 1.6", "[nan, -0.45, 1.6", "line 14: `screen_rect_m` has an infinite number or NaN"),
+        ("[[-0.8, 0.45]", "[[inf, 0.45]", "line 22: `corners_m` has an infinite number or NaN"),
     ] {
         let message = message(from, to);
         assert!(message.contains(start), "{message}");

@@ -26,7 +26,7 @@ pub struct Measured {
     pub samples_per_ray: f64,
     /// Errors of linear colour and opacity, both from 0 to 1.
     pub errors: Errors,
-    /// Why pictures are not complete; empty where they are.
+    /// Why pictures are not complete; empty if they are.
     pub shortfall: String,
 }
 
@@ -41,7 +41,7 @@ impl<'a> Bench<'a> {
         Self { study, truth }
     }
 
-    /// Measures settings, in their order; `show` is told how many are done. Those of one filter and one depth of samples
+    /// Measures settings, in their order; `show` gets how many are done. Those of one filter and one depth of samples
     /// share a renderer, which goes from coarse levels to fine ones: it never shows finer ones than it is asked for then.
     pub(super) fn measure(
         &self,

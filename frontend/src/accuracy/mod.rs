@@ -8,7 +8,7 @@
 //! | `bench` | the device that draws, timed |
 //! | `study`, `run` | what is studied; all of it, from a scene to what was found |
 //! | `pareto` | which settings no other one beats |
-//! | `watch`, `supervise` | how a study is told to stop, and tells how far it is |
+//! | `watch`, `supervise` | how a study is stopped, and reports how far it is |
 
 mod bench;
 mod error;

@@ -34,7 +34,7 @@ pub fn front(scores: &[Score]) -> Vec<usize> {
 }
 
 /// The settings that beat the one at `index` beyond the noise of timing: at least [`BEATEN_BY`] faster and more exact. It
-/// lies on the front, as far as can be told, where there are none.
+/// lies on the front, as far as is known, if there are none.
 pub fn beaten_by(scores: &[Score], index: usize) -> Vec<usize> {
     let own = scores[index];
     let is_faster = |other: &Score| other.seconds <= (1.0 - BEATEN_BY) * own.seconds;

@@ -23,7 +23,7 @@ pub fn supervised<T: Send + 'static>(
     let watch = Watch::new(Arc::clone(stop), news);
     std::thread::Builder::new()
         .name("accuracy".to_owned())
-        // Nobody waits any more where sending fails.
+        // If sending fails, nothing waits any more.
         .spawn(move || drop(done.send(work(&watch))))
         .map_err(|error| AccuracyError::Backend(format!("cannot start a thread: {error}")))?;
     let mut stopped_since = None;

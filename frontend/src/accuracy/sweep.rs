@@ -10,7 +10,7 @@ const STEPS_VOXELS: [f64; 6] = [2.0, 1.0, 0.65, 0.4, 0.25, 0.15];
 /// Error that a step may have by its own estimate: from none that is asked for (steps of one length) to where f32
 /// rounding takes over, about half a decade apart.
 const TOLERANCES: [f64; 6] = [f64::INFINITY, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
-/// Opacity still to come at which a ray ends: 4, 1, a quarter and a sixteenth of a code of 8 bits, and never.
+/// Remaining opacity at which a ray ends: 4, 1, a quarter and a sixteenth of a code of 8 bits, and never.
 const TERMINATIONS: [f64; 5] = [1.0 / 64.0, 1.0 / 256.0, 1.0 / 1024.0, 1.0 / 4096.0, 0.0];
 /// Voxel edge that is fine enough, in units of the display's resolution: a factor of two is one level of the octree;
 /// 0 is the finest level everywhere, which shows what levels cost at all.
@@ -21,7 +21,7 @@ const LEVEL_SCALES: [f64; 5] = [4.0, 2.0, 1.0, 0.5, 0.0];
 pub struct Offer {
     /// Interpolations that the device has.
     pub filters: Vec<FilterChoice>,
-    /// Bits per sample that the volume can be had in: as it is stored, and fewer.
+    /// Bits per sample at which the volume is available: as it is stored, and fewer.
     pub bits: Vec<u8>,
     /// Whether everything is tried at the finest level: levels then hide nothing of what steps err.
     pub is_finest: bool,

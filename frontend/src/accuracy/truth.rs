@@ -12,7 +12,7 @@ use std::time::Instant;
 
 /// A hundredth of the RMS of the most exact settings, which f32 keeps from falling much below 1e-5.
 const TOLERANCE: f64 = 1e-7;
-/// What the truth may take where nobody says how many pixels to compare.
+/// What the truth may take if the user does not say how many pixels to compare.
 const SECONDS: f64 = 30.0;
 /// Rays by which its time is guessed.
 const PROBES: usize = 256;
@@ -26,7 +26,7 @@ pub(super) struct Truth {
     pub(super) summary: TruthSummary,
 }
 
-/// How the truth was come by.
+/// How the truth was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TruthSummary {
     /// Pixels compared.
@@ -46,7 +46,7 @@ pub struct TruthSummary {
 }
 
 impl Truth {
-    /// The truth of a study; `show` is told the part that is done, 0 to 1.
+    /// The truth of a study; `show` gets the part that is done, 0 to 1.
     pub(super) fn of(
         study: &Study,
         watch: &Watch,

@@ -1,11 +1,11 @@
-//! How a study is told to stop, and tells how far it is.
+//! How a study is stopped, and reports how far it is.
 
 use super::AccuracyError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 
-/// What somebody who works keeps an eye on. It may be asked from many threads at once.
+/// What long work checks and reports to. It may be asked from many threads at once.
 #[derive(Clone)]
 pub struct Watch {
     stop: Arc<AtomicBool>,
@@ -16,7 +16,7 @@ pub struct Watch {
 pub(super) type News = (f64, String);
 
 impl Watch {
-    /// A watch that `stop` ends, and that tells whoever holds the other end of `news`.
+    /// A watch that `stop` ends, and that reports to the other end of `news`.
     pub(super) fn new(stop: Arc<AtomicBool>, news: Sender<News>) -> Self {
         Self { stop, news }
     }

@@ -66,7 +66,7 @@ pub struct ReplayRow {
 }
 
 impl Traces {
-    /// Reads traces and opens their volumes, or the store `moved` in place of all of them.
+    /// Reads traces and opens their volumes, or the store `moved` instead of all of them.
     pub fn open(paths: &[PathBuf], moved: Option<&Path>) -> Result<Self, FrontendError> {
         let traces = paths.iter().map(|path| Trace::open(path, moved)).collect::<Result<_, _>>()?;
         Ok(Self { traces })
@@ -96,7 +96,7 @@ impl Trace {
         }
         let frames = reader.collect::<Result<Vec<_>, _>>().map_err(sentence)?;
         if frames.is_empty() {
-            let why = "has no frames; record it anew, with --live";
+            let why = "has no frames; record it again, with --live";
             return Err(FrontendError::Trace(format!("{} {why}", path.display())));
         }
         Ok(Self { header, frames, source, brick_bytes })
@@ -112,7 +112,7 @@ impl Trace {
 /// A volume, and the bytes of its bricks on disk: of a store on average, of what is made on the fly unpacked.
 fn open(volume: &VolumeRef, is_given: bool) -> Result<(Arc<dyn BrickSource>, u64), FrontendError> {
     let VolumeRef::Store(path) = volume else { return Ok((open_volume(volume)?, SAMPLE_BYTES)) };
-    let hint = if is_given { "" } else { "; give a store that has moved with --volume" };
+    let hint = if is_given { "" } else { "; if the store has moved, name it with --volume" };
     let store = Store::open(path).map_err(|error| FrontendError::Volume(format!("{error}{hint}")))?;
     let brick_bytes = store.file_bytes().div_ceil(store.stored_bricks().max(1));
     Ok((Arc::new(store), brick_bytes))

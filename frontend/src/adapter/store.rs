@@ -40,7 +40,7 @@ pub struct StoreSummary {
     pub bits_per_voxel: f64,
     /// Whether coarse levels keep standard deviations.
     pub has_deviation: bool,
-    /// Errors against the source, the finest level first; empty where an older program built the store.
+    /// Errors against the source, the finest level first; empty if an older program built the store.
     pub level_errors: Vec<LevelSummary>,
 }
 
@@ -59,7 +59,7 @@ pub struct VerifySummary {
     pub damages: Vec<String>,
 }
 
-/// Opens a store and tells what it holds.
+/// Opens a store and describes what it holds.
 pub fn store_summary(path: &Path) -> Result<StoreSummary, FrontendError> {
     let store = Store::open(path).map_err(sentence)?;
     let (shape, bytes) = (store.shape(), store.file_bytes());

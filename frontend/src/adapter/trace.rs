@@ -4,7 +4,7 @@ use crate::FrontendError;
 use renderer::output::{OutputError, can_write_into};
 use std::path::{Path, PathBuf};
 
-/// Where a back-end's trace will be, wherever the back-end runs.
+/// Where a back-end's trace will be, whatever host the back-end runs on.
 pub(super) fn path(folder: &Path, backend: u32) -> PathBuf {
     std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(format!("backend-{backend}.trace"))
 }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct AccuracyArgs {
     /// A .toml scene, a .lloom store, procedural:NAME or procedural:NAME@VOXELS with shells, marschner-lobb or sparse-vessels.
     pub scene: String,
-    /// Folder for accuracy.json and accuracy.html; made if it is not there.
+    /// Folder for accuracy.json and accuracy.html; created if missing.
     #[arg(short = 'o', long = "out", value_name = "DIR")]
     pub out: PathBuf,
     /// A display: a preset's name (see `lightloom displays`) or a .toml file.
@@ -21,19 +21,19 @@ pub struct AccuracyArgs {
     /// Which frame of the scene.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame: u32,
-    /// Projectors whose pictures are compared and timed; without it one from the side and one near the middle.
+    /// Projectors whose pictures are compared and timed; by default one at the side and one near the middle.
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     pub projectors: Vec<u32>,
-    /// Compare every N-th pixel along x and y; without it as many as the reference traces in about half a minute.
+    /// Compare every N-th pixel along x and y; by default as many as the reference traces in about half a minute.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub stride: Option<u32>,
     /// How often each setting is timed: an odd number.
     #[arg(long, value_name = "N", default_value = "3", value_parser = odd)]
     pub repetitions: u32,
-    /// Try every combination of the settings, not one at a time around the default: hundreds.
+    /// Try every combination of the settings, hundreds of them, not one at a time around the default.
     #[arg(long)]
     pub full: bool,
-    /// Take the default, and what is tried around it, at the finest level: errors of levels then hide no others.
+    /// Measure everything at the finest level, so that errors of coarser levels hide no others.
     #[arg(long)]
     pub finest: bool,
     /// Brick cache.

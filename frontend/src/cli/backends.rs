@@ -1,4 +1,4 @@
-//! The arguments that say with what pictures are drawn.
+//! The arguments that choose what draws the pictures.
 
 use crate::adapter::BackendOptions;
 use clap::{Args, ValueEnum};
@@ -37,7 +37,7 @@ impl BackendArgs {
 /// See [`DeviceChoice`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DeviceArg {
-    /// The GPU, or the CPU where there is no Vulkan driver but one in software.
+    /// A hardware GPU if there is one, the CPU otherwise.
     Auto,
     /// The GPU or nothing.
     Gpu,

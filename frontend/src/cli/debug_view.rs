@@ -6,13 +6,13 @@ use optics::DebugView;
 /// See [`DebugView`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DebugViewArg {
-    /// Light in the colour of the level that it comes from: the finest is blue, 4 levels above it yellow.
+    /// Light in the colour of the level it comes from: the finest is blue, 4 levels above it yellow.
     Lod,
-    /// Light in the colour of what its node lacks: fine enough is blue, 4 levels too coarse yellow.
+    /// Light in the colour of its node's deficit: fine enough is blue, 4 levels too coarse yellow.
     Deficit,
     /// How many samples a ray took: none is black, 1024 and more white.
     Samples,
-    /// Light in the colour of its node's own share: all of its parent is blue, all of its own yellow.
+    /// Light in the colour of its node's own share: all from its parent is blue, all its own is yellow.
     Weights,
 }
 

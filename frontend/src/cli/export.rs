@@ -12,19 +12,19 @@ use volumes::export::ExportOptions;
 pub struct ExportArgs {
     /// A .lloom store.
     pub store: PathBuf,
-    /// What to write: a .nrrd file, or a .zarr folder (OME-Zarr 0.5). Nothing that is there is replaced.
+    /// What to write: a .nrrd file, or a .zarr folder (OME-Zarr 0.5). Existing files are not replaced.
     #[arg(value_name = "OUT.nrrd|OUT.zarr")]
     pub output: PathBuf,
-    /// Level of the store, 0 = finest; without it the finest, or all levels of an OME-Zarr image.
+    /// Level of the store, 0 = finest; by default the finest, or all levels of an OME-Zarr image.
     #[arg(long, value_name = "L")]
     pub level: Option<u8>,
-    /// First voxel of the part that is written, in voxels of the level.
+    /// First voxel of the part to write, in voxels of the level.
     #[arg(long, value_name = "X,Y,Z", value_parser = place)]
     pub low: Option<UVec3>,
-    /// Voxels of the part that is written; without it all that follow the first one.
+    /// Voxels of the part to write; by default all that follow the first one.
     #[arg(long, value_name = "X,Y,Z", value_parser = dims)]
     pub size: Option<UVec3>,
-    /// Type of the numbers, to which they are rounded: uint8, int16, float, …; without it the smallest that keeps all.
+    /// Type of the numbers, to which they are rounded: uint8, int16, float, …; by default the smallest that loses nothing.
     #[arg(long = "type", value_name = "TYPE", value_parser = element)]
     pub element: Option<Element>,
     /// Pack an NRRD file with gzip; OME-Zarr is always packed.

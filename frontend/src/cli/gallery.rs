@@ -12,19 +12,19 @@ use std::path::PathBuf;
 pub struct GalleryArgs {
     /// A .toml scene, a .lloom store, procedural:NAME or procedural:NAME@VOXELS; its first frame is shown.
     pub scene: String,
-    /// Folder for the page and its pictures; made if it is not there.
+    /// Folder for the page and its pictures; created if missing.
     #[arg(short, long, value_name = "DIR")]
     pub out: PathBuf,
     /// A display: a preset's name (see `lightloom displays`) or a .toml file.
     #[arg(long, value_name = "DISPLAY", default_value = "desk8")]
     pub display: String,
-    /// Pixels of each projector, and so of each picture, in place of the display's.
+    /// Pixels of each projector, and so of each picture, overriding the display's.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = picture_size)]
     pub size: Option<UVec2>,
-    /// Quality in place of the scene's.
+    /// Quality, overriding the scene's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
-    /// With what pictures are drawn.
+    /// What draws the pictures.
     #[command(flatten)]
     pub drawing: BackendArgs,
     /// No progress, no summary.

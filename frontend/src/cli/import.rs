@@ -22,22 +22,22 @@ pub struct ImportArgs {
     /// How bricks are compressed.
     #[arg(long, value_enum, default_value = "lz4")]
     pub codec: CodecArg,
-    /// Memory that the import may use; a quarter of it is for what the reader has decoded.
+    /// Memory that the import may use; a quarter of it is for the reader's decoded data.
     #[arg(long = "memory", value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
     pub memory_mib: u64,
-    /// Leave out bricks in which every value is below this one: they read back as their smallest value.
+    /// Leave out bricks in which every value is below this one; they read back as their smallest value.
     #[arg(long, value_name = "VALUE", value_parser = finite, allow_hyphen_values = true, conflicts_with = "empty_for")]
     pub empty_below: Option<f64>,
     /// Leave out bricks that the transfer functions of this scene do not show.
     #[arg(long, value_name = "SCENE.toml")]
     pub empty_for: Option<PathBuf>,
-    /// Keep, beside the mean, the standard deviation of what each voxel of the coarse levels stands for.
+    /// Keep the standard deviation of the voxels that each coarse voxel represents, beside their mean.
     #[arg(long)]
     pub deviation: bool,
-    /// Which volume, where the input holds several.
+    /// Which volume, if the input holds several.
     #[command(flatten)]
     pub pick: PickArgs,
-    /// The voxels of a file without header.
+    /// The voxels of a file without a header.
     #[command(flatten)]
     pub raw: RawArgs,
     /// No progress, no summary.
@@ -77,7 +77,7 @@ impl ImportArgs {
 /// Which of the volumes in an input, and what its files do not tell.
 #[derive(Clone, Debug, Args)]
 pub struct PickArgs {
-    /// Of a folder with several DICOM series: its number in the list, from 1, or how its UID starts or ends.
+    /// Of a folder with several DICOM series: its number in the list, from 1, or the start or end of its UID.
     #[arg(long, value_name = "SERIES")]
     pub series: Option<String>,
     /// Of a pyramid: the level, 0 = finest.
@@ -89,12 +89,12 @@ pub struct PickArgs {
     /// Of a time series: which point in time, from 0.
     #[arg(long, value_name = "N")]
     pub time: Option<u32>,
-    /// Edge lengths of a voxel, millimetres, in place of what the file says.
+    /// Edge lengths of a voxel in millimetres, overriding the file.
     #[arg(long = "spacing-mm", value_name = "X,Y,Z", value_parser = spacing, conflicts_with = "raw_spacing_mm")]
     pub voxel_mm: Option<DVec3>,
 }
 
-/// What a file without header holds.
+/// What a file without a header holds.
 #[derive(Clone, Debug, Args)]
 pub struct RawArgs {
     /// Voxels along x (fastest), y and z: the input is then read as raw voxels.

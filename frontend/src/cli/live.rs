@@ -1,14 +1,14 @@
-//! The arguments that say how frames get their detail.
+//! The arguments that decide how frames get their detail.
 
 use clap::Args;
 use protocol::Pace;
 use std::path::PathBuf;
 
-/// Seconds in which detail appears or goes, unless told otherwise.
+/// Seconds in which detail appears or goes, by default.
 pub(super) const FADE_S: f64 = 0.4;
-/// MiB that one frame may upload, unless told otherwise.
+/// MiB that one frame may upload, by default.
 pub(super) const UPLOAD_MIB: u64 = 64;
-/// The longest fade, seconds: an hour is no fade.
+/// The longest fade, seconds: longer than an hour makes no sense.
 const LONGEST_FADE_S: f64 = 3600.0;
 /// The largest upload of a frame, MiB.
 const MOST_UPLOAD_MIB: u64 = 1 << 20;
@@ -16,18 +16,18 @@ const MOST_UPLOAD_MIB: u64 = 1 << 20;
 /// Live frames, or complete ones.
 #[derive(Clone, Debug, Args)]
 pub struct LiveArgs {
-    /// Draw frames as on a live display: each shows what there is, and detail comes with later ones. Otherwise each
+    /// Draw frames as on a live display: each shows what is there, and detail arrives with later ones. Otherwise each
     /// waits until nothing is missing.
     #[arg(long)]
     pub live: bool,
-    /// With --live: time in which detail appears or goes; 0 is at once. [default: 0.4]
+    /// With --live: time in which detail appears or disappears; 0 means at once. [default: 0.4]
     #[arg(long, value_name = "SECONDS", requires = "live", value_parser = fade, allow_hyphen_values = true)]
     pub fade: Option<f64>,
-    /// With --live: bricks that one frame of a back-end may upload. [default: 64]
+    /// With --live: how much one frame of a back-end may upload. [default: 64]
     #[arg(long, value_name = "N", requires = "live", value_parser = upload, allow_hyphen_values = true)]
     pub upload_mib: Option<u64>,
-    /// With --live: folder for backend-N.trace, what rays of each back-end asked for in every frame, which `lightloom
-    /// replay` reads; made if it is not there. Traces of an earlier run go first.
+    /// With --live: folder for the files backend-N.trace, which record what the rays of each back-end asked for in every
+    /// frame, for `lightloom replay`. Created if missing; traces of an earlier run are removed.
     #[arg(long, value_name = "DIR")]
     pub trace: Option<PathBuf>,
 }

@@ -41,21 +41,21 @@ pub struct Cli {
 /// What the program can do.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Render what every projector of a display shows, and what eyes before it see.
+    /// Render what every projector of a display shows, and what eyes in front of it see.
     Simulate(SimulateArgs),
-    /// Show each technique of illustration off and on, as eyes before a display see it, on one page.
+    /// Show each illustrative technique off and on, as eyes in front of a display see it, on one page.
     Gallery(GalleryArgs),
-    /// Turn a volume file, or a folder of one, into a store of bricks.
+    /// Turn a volume file, or a folder of slices, into a store of bricks.
     Import(ImportArgs),
     /// Write a level of a store, or a part of it, as NRRD or OME-Zarr.
     Export(ExportArgs),
-    /// Tell what a store holds.
+    /// Describe what a store holds.
     Info(InfoArgs),
     /// Read and check every byte of a store.
     Verify(VerifyArgs),
     /// Measure error and time of many settings against the reference, and draw them as plots.
     Accuracy(AccuracyArgs),
-    /// Play recorded traces to the working set under other policies, without drawing anything.
+    /// Replay recorded traces under other policies, without drawing anything.
     Replay(ReplayArgs),
     /// List the displays that come with the program.
     Displays,

@@ -20,16 +20,16 @@ pub struct ReplayArgs {
     /// Disks: MB (10⁶ bytes) per second, or inf, and milliseconds from the beginning of a read to its first byte.
     #[arg(long, value_name = "MB_PER_S:LATENCY_MS,…", value_delimiter = ',', default_value = "2000:0.1", value_parser = disk)]
     pub disk: Vec<DiskArg>,
-    /// Reads that a back-end has under way at a time.
+    /// Reads that a back-end has under way at the same time.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: u16,
-    /// Seconds in which detail appears or goes; 0 is at once.
+    /// Seconds in which detail appears or disappears; 0 means at once.
     #[arg(long, value_name = "SECONDS,…", value_delimiter = ',', default_values_t = [FADE_S], value_parser = fade, allow_hyphen_values = true)]
     pub fade: Vec<f64>,
-    /// What is fetched first of what is wanted.
+    /// What is fetched first.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_value = "deficit", value_enum)]
     pub order: Vec<FetchOrderArg>,
-    /// The store that was recorded, where it is no longer where it was.
+    /// The store that was recorded, if it has moved since.
     #[arg(long, value_name = "STORE.lloom")]
     pub volume: Option<PathBuf>,
     /// Print the figures as JSON on standard output, and nothing else.

@@ -15,10 +15,10 @@ pub struct SimulateArgs {
     /// A display: a preset's name (see `lightloom displays`) or a .toml file.
     #[arg(long, value_name = "DISPLAY", default_value = "holo72")]
     pub display: String,
-    /// Folder for pictures and report; made if it is not there.
+    /// Folder for pictures and report; created if missing.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// With what pictures are drawn.
+    /// What draws the pictures.
     #[command(flatten)]
     pub drawing: BackendArgs,
     /// An eye whose view is synthesised, metres from the screen's centre: x right, y up, z toward the viewers. Repeat it for more.
@@ -27,7 +27,7 @@ pub struct SimulateArgs {
     /// Write linear OpenEXR pictures too.
     #[arg(long)]
     pub exr: bool,
-    /// Quality in place of the scene's.
+    /// Quality, overriding the scene's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
     /// Frames A to B − 1 of the scene instead of all.
@@ -36,7 +36,7 @@ pub struct SimulateArgs {
     /// How frames get their detail.
     #[command(flatten)]
     pub live: LiveArgs,
-    /// Show the working set in place of the pictures, with a legend of its colours.
+    /// Show the working set instead of the pictures, with a legend of its colours.
     #[arg(long, value_name = "NAME", value_enum)]
     pub debug_view: Option<DebugViewArg>,
     /// No progress, no summary.

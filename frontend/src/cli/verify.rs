@@ -8,7 +8,7 @@ use std::path::PathBuf;
 pub struct VerifyArgs {
     /// The .lloom store.
     pub store: PathBuf,
-    /// No progress, no summary; the exit code tells.
+    /// No progress, no summary; only the exit code.
     #[arg(long)]
     pub quiet: bool,
     /// Print what was found as JSON on standard output.

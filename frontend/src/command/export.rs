@@ -7,7 +7,7 @@ use crate::cli::ExportArgs;
 use crate::progress::Progress;
 use crate::report::units;
 
-/// Writes voxels of a store for other programs, and tells about it.
+/// Writes voxels of a store for other programs, and reports on it.
 pub(super) fn export(args: &ExportArgs) -> Result<(), FrontendError> {
     let summary = adapter::export(
         &args.store,
@@ -21,7 +21,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), FrontendError> {
     }
     if !args.quiet {
         if summary.has_lost_directions {
-            warn("OME-Zarr keeps no directions: the axes are now the volume's own; NRRD keeps them");
+            warn("OME-Zarr cannot store directions, so the axes are the volume's own; NRRD stores them");
         }
         say(&text(args, &summary));
     }

@@ -8,7 +8,7 @@ use crate::cli::ImportArgs;
 use crate::progress::Progress;
 use crate::report::units;
 
-/// Makes a store and tells about it.
+/// Makes a store and reports on it.
 pub(super) fn import(args: &ImportArgs) -> Result<(), FrontendError> {
     let summary = adapter::import(&args.request(), Progress::new(!args.quiet && !args.json))?;
     if args.json {
@@ -45,10 +45,7 @@ fn text(args: &ImportArgs, summary: &ImportSummary) -> String {
         text += &format!("; {} bricks were left out as empty", units::count(summary.emptied_bricks));
     }
     if summary.non_finite > 0 {
-        text += &format!(
-            "; {} voxels were not finite numbers and were replaced",
-            units::count(summary.non_finite)
-        );
+        text += &format!("; {} non-finite voxels were replaced", units::count(summary.non_finite));
     }
     let levels = level_table(&summary.level_errors);
     if levels.is_empty() { text } else { format!("{text}\n{}", levels.trim_end()) }

@@ -7,7 +7,7 @@ use crate::adapter::{self, StoreSummary};
 use crate::cli::InfoArgs;
 use crate::report::units;
 
-/// Tells what a store holds.
+/// Prints what a store holds.
 pub(super) fn info(args: &InfoArgs) -> Result<(), FrontendError> {
     let summary = adapter::store_summary(&args.store)?;
     if args.json {

@@ -2,7 +2,7 @@
 
 use crate::adapter::LevelSummary;
 
-/// A heading and a line per level, the finest first; nothing where there are no levels.
+/// A heading and a line per level, the finest first; nothing if there are no levels.
 pub(super) fn level_table(levels: &[LevelSummary]) -> String {
     if levels.is_empty() {
         return String::new();

@@ -1,4 +1,4 @@
-//! A gallery: each technique of illustration off and on, as eyes before a display see it.
+//! A gallery: each illustrative technique off and on, as eyes in front of a display see it.
 
 mod curves;
 mod page;

@@ -1,4 +1,4 @@
-//! A gallery as one page that needs nothing else.
+//! A gallery as one self-contained page.
 
 use super::{EYES, Exhibit, Gallery, Shot};
 use crate::report::html::{embedded_image, escape};
@@ -49,7 +49,7 @@ fn header(gallery: &Gallery, devices: &[DeviceInfo]) -> String {
     );
     let adapters: Vec<&str> = devices.iter().map(|device| device.adapter.as_str()).collect();
     format!(
-        "<header><h1>Techniques of illustration</h1><p>{}</p><p>Drawn by {}; seconds are those of all projectors.</p></header>",
+        "<header><h1>Illustrative techniques</h1><p>{}</p><p>Drawn by {}; seconds are those of all projectors.</p></header>",
         escape(&setting),
         escape(&adapters.join(", "))
     )

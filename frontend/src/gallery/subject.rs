@@ -1,4 +1,4 @@
-//! What a gallery shows techniques on: a scene without any, and what techniques need to know of it.
+//! The subject of a gallery: a scene without techniques, and what techniques need to know of it.
 
 use super::curves::{most, opaque_part, over_band, rise_in, scaled};
 use crate::FrontendError;
@@ -35,7 +35,7 @@ pub struct Subject {
     pub outer: Trapezoid,
     /// Importance over s: else, the inner band's.
     pub importance: Curve<f64>,
-    /// Refraction index over s: else, 1 where nothing is seen and that of thin glass from there on.
+    /// Refraction index over s: else, 1 if nothing is seen and that of thin glass from there on.
     pub refraction: Curve<f64>,
     /// Materials over s: else, matt outside and glossy inside.
     pub materials: Curve<Material>,
@@ -50,7 +50,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// The subject that a scene makes before a display, no larger than the screen's shorter edge.
+    /// The subject that a scene makes in front of a display, no larger than the screen's shorter edge.
     ///
     /// # Errors
     /// A look that does not fit the volume, or an observer that no eye has a viewing zone beside.

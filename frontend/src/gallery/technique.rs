@@ -1,4 +1,4 @@
-//! The techniques of illustration that a gallery shows.
+//! The illustrative techniques that a gallery shows.
 
 use super::Subject;
 use glam::DVec3;
@@ -21,20 +21,20 @@ pub struct Technique {
 pub const TECHNIQUES: [Technique; 13] = [
     Technique {
         name: "Quadrilinear filtering",
-        about: "Samples are filtered over a node, its parent and its grandparent by the display's resolution at their \
+        about: "Samples are filtered over a node, its parent and its grandparent, by the display's resolution at their \
                 depth: no seam shows where the level of detail changes, and nothing is finer than the display can show.",
         off: |subject| subject.frame.clone(),
         turn_on: |_, frame| frame.quality.quadrilinear = true,
     },
     Technique {
         name: "Gradient shading",
-        about: "Boundaries are lit by the gradient of the scalar, which gives shape to what was plain colour.",
+        about: "Boundaries are shaded by the gradient of the scalar, which gives shape to plain colour.",
         off: |subject| FrameState { light: None, ..subject.frame.clone() },
         turn_on: |subject, frame| frame.light = Some(subject.light),
     },
     Technique {
         name: "Shading per material",
-        about: "Each tissue answers to the light in its own way, in place of one way for all: matt outside, glossy inside.",
+        about: "Each tissue reflects light in its own way instead of all alike: matt outside, glossy inside.",
         off: |subject| subject.frame.clone(),
         turn_on: |subject, frame| frame.optics.materials = Some(subject.materials.clone()),
     },
@@ -47,40 +47,40 @@ pub const TECHNIQUES: [Technique; 13] = [
     },
     Technique {
         name: "Exaggerated shading",
-        about: "Each level is lit at a grazing angle of its own, so relief shows at all scales wherever the light stands.",
+        about: "Each level is lit at a grazing angle of its own, so relief shows at all scales under any light.",
         off: Subject::inner_alone,
         turn_on: |_, frame| set_detail(frame, Detail::Exaggerated { contrast: 3.0 }),
     },
     Technique {
         name: "Refraction",
-        about: "Rays bend where the refraction index changes: what lies inside a glassy skin is seen as through glass.",
+        about: "Rays bend where the refraction index changes: things inside a glassy skin look as if seen through glass.",
         off: Subject::glassy,
         turn_on: |subject, frame| frame.optics.refraction = Some(subject.refraction.clone()),
     },
     Technique {
         name: "Importance accumulation as published",
-        about: "What is more important shines through what lies before it (MImDA); as published, a gentle rise of \
-                importance leaves some of the cover.",
+        about: "Important things show through whatever lies in front of them (MImDA). In the published form, a gentle rise \
+                of importance leaves some of the cover.",
         off: Subject::covered,
         turn_on: |subject, frame| accumulate(subject, frame, MimdaForm::Paper),
     },
     Technique {
         name: "Importance accumulation, consistent",
-        about: "The same in the form whose picture does not depend on the step: a rise of importance clears the cover \
-                however gentle it is.",
+        about: "The same in the form whose picture does not depend on the step length: a rise of importance clears the \
+                cover, however gentle it is.",
         off: Subject::covered,
         turn_on: |subject, frame| accumulate(subject, frame, MimdaForm::Consistent),
     },
     Technique {
         name: "Clip plane with context",
-        about: "A plane faces the left eye and cuts away what lies before it; to who looks past it, on the right, what \
-                was cut comes back as context.",
+        about: "A plane faces the left eye and cuts away everything in front of it. To the right eye, which looks along the \
+                plane, the part that was cut away comes back as context.",
         off: Subject::covered,
         turn_on: |subject, frame| frame.optics.enhancers = vec![cut_for_left_eye(subject)],
     },
     Technique {
         name: "Context-preserving probe",
-        about: "A sphere opens to the left eye, which looks along its axis, and keeps the edges in it; from the right \
+        about: "A sphere opens to the left eye, which looks along its axis, and keeps the edges inside it. From the right \
                 it is empty.",
         off: Subject::covered,
         turn_on: |subject, frame| {
@@ -90,7 +90,7 @@ pub const TECHNIQUES: [Technique; 13] = [
     },
     Technique {
         name: "Band picker",
-        about: "Who looks along the tool, here the left eye, sees the picked band alone; the others see it in its place.",
+        about: "A viewer looking along the tool, here the left eye, sees the picked band alone; the others see everything.",
         off: Subject::covered,
         turn_on: |subject, frame| frame.optics.enhancers = vec![picker(subject)],
     },
@@ -135,7 +135,7 @@ fn cut_for_left_eye(subject: &Subject) -> Enhancer {
     })
 }
 
-/// Cuts the upper front away for everyone: its context begins where nobody before the screen is.
+/// Cuts the upper front away for everyone: its context begins beyond all viewers in front of the screen.
 fn slanted_cut(subject: &Subject) -> Enhancer {
     let normal = DVec3::new(0.0, 1.0, 1.0).normalize();
     Enhancer::ClipPlane(ClipPlane {

@@ -4,7 +4,7 @@ use protocol::{FrameReport, FrameState, Stages, Upkeep};
 use serde::Serialize;
 use std::time::Duration;
 
-/// One frame: what each back-end tells, and the sums.
+/// One frame: what each back-end reports, and the sums.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameSummary {
     /// Frame number.

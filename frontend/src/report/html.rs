@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use renderer::output::OutputError;
 use std::path::Path;
 
-/// Text with what HTML would read as its own replaced.
+/// Text with HTML's special characters escaped.
 pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

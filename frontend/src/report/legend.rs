@@ -21,14 +21,14 @@ const INK: f32 = 0.7;
 /// What a view shows, in words.
 pub fn shows(view: DebugView) -> &'static str {
     match view {
-        DebugView::Lod => "levels above the finest that the light comes from",
-        DebugView::Deficit => "levels that the light's node is too coarse by",
+        DebugView::Lod => "levels above the finest from which the light comes",
+        DebugView::Deficit => "levels by which the light's node is too coarse",
         DebugView::Samples => "samples that a ray took",
         DebugView::Weights => "share of the node's own samples; the rest is its parent's",
     }
 }
 
-/// The values that are marked; the last stands for what is larger, too, where there can be any.
+/// The values that are marked; the last also stands for larger ones, if there can be any.
 pub fn marks(view: DebugView) -> Vec<f64> {
     match view {
         DebugView::Lod | DebugView::Deficit => {

@@ -1,6 +1,6 @@
 //! How much memory this process has used.
 
-/// The largest resident size so far, bytes; None where the system has no `/proc`.
+/// The largest resident size so far, bytes; None if the system has no `/proc`.
 pub fn peak_memory_bytes() -> Option<u64> {
     peak_in(&std::fs::read_to_string("/proc/self/status").ok()?)
 }

@@ -1,4 +1,4 @@
-//! What a run tells of itself, as JSON for programs and as a page for people.
+//! What a run reports of itself, as JSON for programs and as a page for people.
 
 pub mod accuracy;
 mod backend;

@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing else.
+//! The report as one self-contained page.
 
 use super::html::{embedded_image, escape, facts, table};
 use super::legend::{marks, number};
@@ -32,7 +32,7 @@ pub(super) fn page(report: &Report, out: &Path) -> Result<String, OutputError> {
 fn header(report: &Report) -> String {
     let (display, total) = (&report.display, &report.total);
     let about = format!(
-        "on {}, {} projectors of together {} pixels, {:.2} × {:.2} m",
+        "on {}, {} projectors with {} pixels in total, {:.2} × {:.2} m",
         display.name,
         display.projectors,
         units::count(display.pixels),
@@ -65,7 +65,7 @@ fn count_of(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }
 
-/// What a person must not overlook.
+/// Warnings for people.
 fn notes(report: &Report) -> String {
     let incomplete = report.frames.iter().filter(|frame| !frame.total.complete);
     let shortfalls = incomplete
@@ -75,23 +75,23 @@ fn notes(report: &Report) -> String {
     format!("{notes}{}", damages(&report.total))
 }
 
-/// The bricks that could not be read; nothing where all could.
+/// The bricks that could not be read; nothing if all could.
 fn damages(total: &Totals) -> String {
     if total.damaged.is_empty() {
         return String::new();
     }
     let rows: String = total.damaged.iter().map(|one| format!("<li>{}</li>", escape(one))).collect();
-    format!("<h2>Damaged bricks</h2><p>Their parents are shown in their place.</p><ul>{rows}</ul>")
+    format!("<h2>Damaged bricks</h2><p>Their parents are shown instead.</p><ul>{rows}</ul>")
 }
 
-/// The colours of the debug view; nothing where the pictures are shown.
+/// The colours of the debug view; nothing if the pictures are shown.
 fn key(report: &Report, out: &Path) -> Result<String, OutputError> {
     let Some(debug) = &report.debug_view else { return Ok(String::new()) };
     let numbers: Vec<String> = marks(debug.view).into_iter().map(|value| number(debug.view, value)).collect();
     let numbers = numbers.join(", ");
     let image = embedded_image(&out.join(debug.legend), &format!("colours of {numbers}"), None)?;
     Ok(format!(
-        "<h2>In place of the pictures</h2><figure class=\"key\">{image}\
+        "<h2>Instead of the pictures</h2><figure class=\"key\">{image}\
          <figcaption><b>{}</b>; from left to right: {}</figcaption></figure>",
         escape(debug.shows),
         escape(&numbers)
@@ -121,7 +121,7 @@ fn sheet(report: &Report, out: &Path) -> Result<String, OutputError> {
     let frame = report.frames.first().map_or(0, |frame| frame.index);
     let caption = format!("Frame {frame}, row by row from projector 0");
     Ok(format!(
-        "<h2>What projectors show</h2><figure>{image}<figcaption>{}</figcaption></figure>",
+        "<h2>What the projectors show</h2><figure>{image}<figcaption>{}</figcaption></figure>",
         escape(&caption)
     ))
 }
@@ -161,7 +161,7 @@ fn scene_facts(report: &Report) -> String {
         ("values", format!("{low} to {high}")),
         ("longest edge in the display", format!("{:.3} m", scene.longest_m)),
         ("step", format!("{} voxels", quality.step_voxels)),
-        ("a ray ends where less shines through than", format!("{:.2e}", quality.termination)),
+        ("a ray ends when less than this can be added", format!("{:.2e}", quality.termination)),
         ("voxel size per display resolution", format!("{}", quality.lod_scale)),
     ])
 }
@@ -207,7 +207,7 @@ fn numbers(report: &Report) -> String {
         row(name, one.total_ms, &Totals::of([one]))
     });
     format!(
-        "<h2>Time per stage, added up over back-ends</h2>{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
+        "<h2>Time per stage, summed over back-ends</h2>{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
         stage_bar(&report.total.stages),
         table(&HEADS, &frames),
         upkeep::section(&report.frames),

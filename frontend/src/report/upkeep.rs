@@ -4,7 +4,7 @@ use super::html::table;
 use super::{FrameSummary, units};
 use protocol::Upkeep;
 
-/// A row for each live frame; nothing where there is none.
+/// A row for each live frame; nothing if there is none.
 pub(super) fn section(frames: &[FrameSummary]) -> String {
     let rows: Vec<Vec<String>> =
         frames.iter().filter_map(|frame| Some(row(frame, &frame.total.upkeep?))).collect();

@@ -50,7 +50,7 @@ pub struct VolumeAxes {
 
 impl VolumeAxes {
     /// From the axes that point up and to the viewers. `right` is their cross product unless it is given: data that
-    /// were stored mirrored need the other one. None where two lie along one line.
+    /// were stored mirrored need the other one. None if two lie along one line.
     pub fn new(up: VolumeAxis, front: VolumeAxis, right: Option<VolumeAxis>) -> Option<Self> {
         let (up, front) = (up.direction(), front.direction());
         let right = right.map_or(up.cross(front), VolumeAxis::direction);

@@ -90,7 +90,7 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
     }
 }
 
-/// Procedural fields are smooth: their shells and vessels need a light that answers to gentle slopes, whatever the
+/// Procedural fields are smooth: their shells and vessels need a light that responds to gentle slopes, whatever the
 /// number of voxels that a slope is spread over.
 fn default_light(volume: &VolumeSource) -> Light {
     match volume {
@@ -105,7 +105,7 @@ fn default_light(volume: &VolumeSource) -> Light {
     }
 }
 
-/// Turned so that there is something to see: into the shells, along the ripples, onto the tree.
+/// Turned to give a good view: into the shells, along the ripples, onto the tree.
 fn default_placement(volume: &VolumeSource) -> Placement {
     let (deg, share) = match procedural_name(volume) {
         Some("shells") => (DVec3::new(20.0, -35.0, 0.0), 1.0),

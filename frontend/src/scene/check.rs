@@ -29,7 +29,7 @@ impl SceneText {
         range.contains(&value).then_some(value).ok_or_else(|| self.wrong(number.span(), message()))
     }
 
-    /// The number, or `otherwise` where there is none.
+    /// The number, or `otherwise` if there is none.
     pub fn within_or(
         &self,
         number: &Option<Number>,
@@ -50,7 +50,7 @@ impl SceneText {
 
     pub fn point(&self, triple: &Triple) -> Checked<DVec3> {
         let point = DVec3::from_array(*triple.get_ref());
-        let message = "it holds a number that is not finite; give three ordinary numbers";
+        let message = "it holds an infinite number or NaN; give three ordinary numbers";
         point.is_finite().then_some(point).ok_or_else(|| self.wrong(triple.span(), message))
     }
 

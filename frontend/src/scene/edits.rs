@@ -33,7 +33,7 @@ impl<T> Held<T> {
     }
 }
 
-/// The edits of a scene's keyframes, over data values; where there are none, the scene's own look holds.
+/// The edits of a scene's keyframes, over data values; if there are none, the scene's own look holds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Edits {
     /// Extinction.

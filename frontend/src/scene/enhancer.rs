@@ -8,7 +8,7 @@ use protocol::Tool;
 /// What an enhancer goes with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
-    /// The volume's centre, wherever it is in a frame.
+    /// The volume's centre in each frame.
     Volume,
     /// A fixed point of the display frame, metres.
     Point(DVec3),
@@ -26,7 +26,7 @@ pub struct SceneEnhancer {
 }
 
 impl SceneEnhancer {
-    /// Where it is in a frame, bands still over data values. A band-picker picks `picked` where there is one.
+    /// Where it is in a frame, bands still over data values. A band-picker picks `picked` if there is one.
     pub(super) fn placed(
         &self,
         volume_centre: DVec3,

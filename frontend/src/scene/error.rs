@@ -3,10 +3,10 @@
 use super::names::PROCEDURAL_NAMES;
 use std::path::PathBuf;
 
-/// Why a scene cannot be had. Each is one sentence that says where, what, and what to do.
+/// Why a scene cannot be read. Each is one sentence that says where, what, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// The argument is no kind of scene.
+    /// The argument is not a scene.
     #[error("`{argument}` is not a scene; give a .toml scene, a .lloom store, or procedural:NAME with one of {}", PROCEDURAL_NAMES.join(", "))]
     NotAScene {
         /// What was given.
@@ -26,7 +26,7 @@ pub enum SceneError {
         /// Where it was looked for.
         path: PathBuf,
     },
-    /// A procedural volume that nobody knows.
+    /// An unknown procedural volume.
     #[error("there is no procedural volume `{name}`; use one of {}", PROCEDURAL_NAMES.join(", "))]
     UnknownProcedural {
         /// What was asked for.

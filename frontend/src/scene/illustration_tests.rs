@@ -153,7 +153,7 @@ fn what_cannot_be_illustrated_is_refused_with_line_and_key() {
         (format!("{BANDS}{BANDS}"), ["line 14: `band.name`", "already"]),
         (
             "[[band]]\nname = 'a'\ncorners = [0, 2, 1, 3]\n".to_owned(),
-            ["line 9: `band.corners`", "do not fall"],
+            ["line 9: `band.corners`", "in ascending order"],
         ),
         ("[[enhancer]]\nkind = 'lens'\n".to_owned(), ["line 8: `enhancer.kind`", "unknown variant"]),
         (format!("{probe}radius = 1\n"), ["line 9: `enhancer.radius`", "unknown field"]),
@@ -173,7 +173,7 @@ fn what_cannot_be_illustrated_is_refused_with_line_and_key() {
         (format!("{key}gamma = 1\n"), ["line 9: `keyframe.gamma`", "[mimda]"]),
         (format!("{key}importance = [[0, 1]]\n"), ["line 9: `keyframe.importance`", "[mimda]"]),
         (format!("{key}refraction = [[0, -1]]\n"), ["line 9: `keyframe.refraction`", "not above 0"]),
-        (format!("{BANDS}{key}pick = 'bone'\n"), ["line 15: `keyframe.pick`", "no band-picker"]),
+        (format!("{BANDS}{key}pick = 'bone'\n"), ["line 15: `keyframe.pick`", "no band picker"]),
     ] {
         let said = refused(&rest);
         assert!(parts.iter().all(|part| said.contains(part)), "{parts:?}: {said}");

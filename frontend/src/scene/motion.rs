@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-/// Something that can be between two of its values.
+/// Something that can be interpolated between two of its values.
 pub trait Tween: Copy {
     /// From `self` at share 0 to `to` at share 1.
     fn tween(self, to: Self, share: f64) -> Self;
@@ -52,7 +52,7 @@ impl<T: Tween> Track<T> {
         self.keys.push((time_s, value));
     }
 
-    /// The value at a time; None where there are no keys.
+    /// The value at a time; None if there are no keys.
     pub fn at(&self, time_s: f64) -> Option<T> {
         let after = self.keys.partition_point(|key| key.0 <= time_s);
         match (after.checked_sub(1).and_then(|i| self.keys.get(i)), self.keys.get(after)) {
@@ -63,7 +63,7 @@ impl<T: Tween> Track<T> {
     }
 }
 
-/// The tracks of a scene; an empty one leaves its thing where the scene puts it.
+/// The tracks of a scene; an empty one leaves its subject where the scene puts it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// The virtual observer, metres.

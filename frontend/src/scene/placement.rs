@@ -31,7 +31,7 @@ pub struct Placement {
 }
 
 impl Default for Placement {
-    /// In the middle of the screen, half before it, three quarters of it high.
+    /// In the middle of the screen, half of it in front, three quarters as high as the screen.
     fn default() -> Self {
         let size = Size::ScreenShare(0.75);
         Self { centre_m: DVec3::ZERO, rotation: DQuat::IDENTITY, axes: None, size }

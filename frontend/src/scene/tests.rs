@@ -106,7 +106,7 @@ fn a_head_stands_upright_at_its_size() {
     assert!((map.transform_vector3(DVec3::new(256.0, 0.0, 0.0)).length() - 0.7).abs() < 1e-12);
 }
 
-/// Where a volume of these facts is put by a scene at its true size, the centre 0.5 m before the screen.
+/// Where a volume of these facts is put by a scene at its true size, the centre 0.5 m in front of the screen.
 fn placed(frame: VolumeFrame, rest: &str) -> DAffine3 {
     let text = format!("[volume]\nsource='a.lloom'\n{rest}");
     let facts = VolumeFacts { frame, ..FACTS };

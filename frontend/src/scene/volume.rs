@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 /// Edges of a procedural voxel, where a scene does not say.
 pub(super) const PROCEDURAL_VOXEL_M: DVec3 = DVec3::splat(1e-3);
-/// Voxels along an edge, where a scene does not say.
+/// Voxels along an edge, unless the scene says otherwise.
 const PROCEDURAL_EDGE: u32 = 256;
 /// Voxels along an edge, at most.
 pub(super) const LARGEST_EDGE: u32 = 1 << 20;

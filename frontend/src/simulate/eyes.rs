@@ -1,4 +1,4 @@
-//! Eyes before the display, and what they see while pictures come.
+//! Eyes in front of the display, and what they see while pictures come.
 
 use crate::FrontendError;
 use display_config::{Display, EyeModel};
@@ -7,13 +7,13 @@ use protocol::ProjectorImage;
 use renderer::output::{EyePlan, EyeView, OutputError, Picture, ScreenRaster};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// An eye before the display.
+/// An eye in front of the display.
 pub struct Eye {
     /// Where it is, display frame, metres.
     pub position_m: DVec3,
     /// What it sees of which projector.
     pub plan: EyePlan,
-    /// Where it is outside the viewing zone: a sentence that says so.
+    /// A sentence that says so if it is outside the viewing zone.
     pub warning: Option<String>,
 }
 
@@ -21,7 +21,7 @@ impl Eye {
     /// The eye at a place, display frame, metres.
     ///
     /// # Errors
-    /// A place that is not before the screen.
+    /// A place that is not in front of the screen.
     pub fn before(display: &Display, position_m: DVec3) -> Result<Self, FrontendError> {
         let model = EyeModel::new(display, position_m).map_err(|e| FrontendError::Display(e.to_string()))?;
         let warning = model.outside_zone();
@@ -31,11 +31,11 @@ impl Eye {
     }
 }
 
-/// The views of all eyes of one frame, in the making: takes pictures from several threads, in any order.
+/// The views of all eyes of one frame while they are made: takes pictures from several threads, in any order.
 pub(crate) struct EyeViews<'a> {
     display: &'a Display,
     views: Vec<Mutex<EyeView<'a>>>,
-    /// Which projectors' pictures have come.
+    /// Which projectors' pictures have arrived.
     seen: Mutex<Vec<bool>>,
 }
 
@@ -62,7 +62,7 @@ impl<'a> EyeViews<'a> {
         Ok(())
     }
 
-    /// All pictures have come: the views, or what is missing.
+    /// Once all pictures have arrived: the views, or what is missing.
     pub fn finish(&self, frame: u32) -> Result<Vec<Picture>, FrontendError> {
         let missing: Vec<usize> =
             hold(&self.seen).iter().enumerate().filter(|(_, seen)| !**seen).map(|(p, _)| p).collect();

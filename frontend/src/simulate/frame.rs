@@ -13,11 +13,11 @@ use std::time::Instant;
 
 /// Pictures that may wait for a writer: more would only take memory.
 const WAITING_PICTURES: usize = 2;
-/// Writers at most; a renderer on the same machine wants the cores too.
+/// The most writers; a renderer on the same machine needs the cores, too.
 const MOST_WRITERS: usize = 4;
 
 impl Job {
-    /// Draws a frame into its folder and gives its account. `show` is told the part that is done, 0 to 1.
+    /// Draws a frame into its folder and returns its account. `show` gets the part that is done, 0 to 1.
     pub(super) fn draw(
         &self,
         source: &mut dyn Draw,
@@ -59,7 +59,7 @@ impl Job {
     }
 }
 
-/// Renders on this thread while others write. A failed write lets the frame end first: back-ends know no half frames.
+/// Renders on this thread while others write. After a failed write the frame still ends: back-ends draw whole frames.
 fn render_and_write(
     source: &mut dyn Draw,
     frame: &FrameState,

@@ -1,4 +1,4 @@
-//! A run: frames are drawn, their pictures become files, and a report tells how it went.
+//! A run: frames are drawn, their pictures become files, and a report says how it went.
 
 mod eyes;
 mod frame;
@@ -33,13 +33,13 @@ pub struct Job {
 }
 
 impl Job {
-    /// Makes the output folder and tries to write in it. Call it before anything takes long.
+    /// Makes the output folder and tries to write in it. Call it before any long work.
     pub fn prepare_output(out: &Path) -> Result<(), FrontendError> {
         Ok(can_write_into(out)?)
     }
 
-    /// Draws all frames. Pictures are files as soon as they are final; after a failure those that are there are whole.
-    /// What an earlier run said of itself goes first: it would describe other pictures.
+    /// Draws all frames. Pictures are written as soon as they are final; after a failure, those written are complete.
+    /// Reports of an earlier run are removed first: they would describe other pictures.
     pub fn run(
         &self,
         source: &mut dyn Draw,

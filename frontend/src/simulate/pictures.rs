@@ -69,7 +69,7 @@ impl<'a> FramePictures<'a> {
         if self.job.exr { write_exr(&self.folder.join(name("exr")), picture) } else { Ok(()) }
     }
 
-    /// All pictures have come: writes the eyes' views, or says what is missing.
+    /// Once all pictures have arrived: writes the eyes' views, or says what is missing.
     pub fn finish(&self, frame: u32) -> Result<(), FrontendError> {
         if let Some(error) = hold(&self.failure).take() {
             return Err(error.into());

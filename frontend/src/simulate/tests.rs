@@ -44,7 +44,7 @@ fn display(projectors: u32) -> Display {
     }
 }
 
-/// Draws a gradient per projector, last projector first, from two back-ends; stops where it is told to.
+/// Draws a gradient per projector, last projector first, from two back-ends; stops on request.
 struct Gradients {
     projectors: u32,
     fails_before: Option<u32>,
@@ -81,7 +81,7 @@ fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
     }
 }
 
-/// What a live frame tells of a back-end's working set.
+/// What a live frame reports of a back-end's working set.
 fn upkeep_of(frame: &FrameState, report: &FrameReport) -> Option<Upkeep> {
     let b = u64::from(report.backend);
     let (largest_deficit, mean_deficit) = (2.5 - b as f64, 0.5 + b as f64);
@@ -204,7 +204,7 @@ fn a_debug_view_comes_with_its_key() {
     let folder = tempfile::tempdir().unwrap();
     let (scene, mut job) = job(folder.path(), 4, 1, |_| 0.25);
     let without = |(json, html): (serde_json::Value, String)| {
-        assert!(json["debug_view"].is_null() && !html.contains("In place of the pictures"));
+        assert!(json["debug_view"].is_null() && !html.contains("Instead of the pictures"));
         assert!(!folder.path().join(LEGEND).exists());
     };
     without(reports(&scene, &job, folder.path()));

@@ -1,4 +1,4 @@
-//! The cells of a brick: what lets rays pass over empty space inside it.
+//! The cells of a brick, which let rays skip empty space inside it.
 
 /// Texels along the edge of a cell.
 pub const CELL_EDGE: usize = 4;

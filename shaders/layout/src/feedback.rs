@@ -1,8 +1,8 @@
-//! What rays tell of a node.
+//! What rays report of a node.
 
 use bytemuck::{Pod, Zeroable};
 
-/// Feedback of one node, gathered from all rays; zero where no ray sampled it. 8 bytes.
+/// Feedback of one node, gathered from all rays; zero if no ray sampled it. 8 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct FeedbackEntry {

@@ -1,4 +1,4 @@
-//! What a number of the optical model must be.
+//! Bounds on the numbers of the optical model.
 
 /// A number that is out of its bounds.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

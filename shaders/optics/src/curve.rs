@@ -49,7 +49,7 @@ pub enum CurveError {
         index: usize,
     },
     /// Positions fall.
-    #[error("control point {index} lies before the point ahead of it; sort the points by scalar")]
+    #[error("control point {index} lies before the previous one; sort the points by scalar")]
     NotSorted {
         /// Which control point, from 0.
         index: usize,

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A view of the working set in place of the picture.
+/// A view of the working set instead of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DebugView {
     /// Levels above the finest that the light comes from.
     Lod,
-    /// Levels that the node is too coarse by; 0 where it is fine enough.
+    /// Levels that the node is too coarse by; 0 if it is fine enough.
     Deficit,
     /// Samples of each ray.
     Samples,

@@ -1,8 +1,8 @@
 //! Enhancers: what changes samples by where they lie and from where they are seen (LFD section 4).
 //!
-//! An enhancer is told of the ray once, and then of each sample: its extinction-weighted colour k and extinction τ, its
+//! An enhancer sees the ray once, and then each sample: its extinction-weighted colour k and extinction τ, its
 //! importance, its place x, its scalar s and the gradient g of the scalar. It scales k and τ, and so leaves a picture
-//! that does not depend on the step. Enhancers are chained: each is told what the one before it made. In all laws below,
+//! that does not depend on the step. Enhancers form a chain: each gets what the one before it made. In all laws below,
 //! v is the direction in which the ray left the eye (a unit vector of the display frame, also where refraction bends
 //! the ray later), x is in metres of the display frame, lerp(a, b, t) = a + (b − a) t, and smoothstep(x, low, high) =
 //! t² (3 − 2 t) with t = clamp((x − low) / (high − low), 0, 1).
@@ -12,7 +12,7 @@ use super::bounds::{OutOfBounds, held};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Enhancers in a chain at most.
+/// The most enhancers in a chain.
 pub const MOST_ENHANCERS: usize = 3;
 
 /// Limits of a smoothstep: 0 up to `low`, 1 from `high` on; finite, `low` below `high`.
@@ -32,7 +32,7 @@ impl Ramp {
     }
 }
 
-/// Cuts away what lies before a plane, but shows it as context to who looks along the plane. With δ = n · (x − point):
+/// Cuts away what lies in front of a plane, but shows it as context to viewers looking along it. With δ = n · (x − point):
 ///
 /// ```text
 /// δ > 0:               τ, k ← lerp(1, μ, strength) · (τ, k),   μ = smoothstep(1 − max(0, −n·v), context)
@@ -40,14 +40,14 @@ impl Ramp {
 ///                      τ, k ← lerp(1, boost, u) · (τ, k);  the shading weight w ← (1 − u) · w
 /// ```
 ///
-/// So the tissue that the plane slices shows its plain colour, dense.
+/// So the cut surface shows its plain colour, dense.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClipPlane {
     /// A point of the plane, metres, display frame.
     pub point_in_display: DVec3,
     /// Unit normal n, toward what is cut away.
     pub normal_in_display: DVec3,
-    /// The limits of 1 − max(0, −n·v), which is 0 for who looks straight at the plane.
+    /// The limits of 1 − max(0, −n·v), which is 0 for viewers looking straight at the plane.
     pub context: Ramp,
     /// Depth behind the plane over which the sliced tissue is emphasised, metres; 0 for none.
     pub thickness_m: f64,
@@ -57,14 +57,14 @@ pub struct ClipPlane {
     pub strength: f64,
 }
 
-/// Opens a sphere to the look of who looks along its axis, and keeps edges in it (LFD eq. 4 and 5). With q = (x − centre)
+/// Opens a sphere to viewers looking along its axis, and keeps edges in it (LFD eq. 4 and 5). With q = (x − centre)
 /// · v, ω_d = 1 − (q / radius)², ω_a = smoothstep(max(0, axis · v), facing) and, for g = 0, η = 0, else
 ///
 /// ```text
 /// η = ω_a · smoothstep(ι |g| / gradient_most, edges) · (1 − |g·v| / |g|)⁴
 /// ```
 ///
-/// (ι = 1 where a scene accumulates no importance: none is given, or γ = 0), inside the sphere, where the light that a
+/// (ι = 1 if a scene accumulates no importance: none is given, or γ = 0), inside the sphere, where the light that a
 /// sample emits, highlights included, is e:
 ///
 /// ```text
@@ -78,7 +78,7 @@ pub struct Probe {
     pub centre_in_display: DVec3,
     /// Radius, metres, above 0.
     pub radius_m: f64,
-    /// Unit vector along which the tool points: away from who holds it.
+    /// Unit vector along which the tool points: away from the visitor who holds it.
     pub axis_in_display: DVec3,
     /// The limits of axis · v.
     pub facing: Ramp,
@@ -90,14 +90,14 @@ pub struct Probe {
     pub strength: f64,
 }
 
-/// Gives one band all importance, and shows it alone to who looks along the tool. With b = band(s) and
+/// Gives one band all importance, and shows it alone to viewers looking along the tool. With b = band(s) and
 /// w = strength · smoothstep(max(0, axis · v), facing):
 ///
 /// ```text
 /// ι ← lerp(ι, b, w)          τ, k ← (1 − w (1 − b)) · (τ, k)
 /// ```
 ///
-/// A scene that accumulates no importance (none is given, or γ = 0) has none to change.
+/// In a scene that accumulates no importance (none is given, or γ = 0) there is none to change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BandPicker {
     /// The band over the normalised scalar.
@@ -199,7 +199,7 @@ impl Enhancer {
         }
     }
 
-    /// Whether it may change anything of a volume with these corners in the display frame. A tool that is held away from the
+    /// Whether it may change anything of a volume with these corners in the display frame. A tool held away from the
     /// volume does not; the box around the corners stands for the volume.
     pub fn may_act_within(&self, corners: &[DVec3; 8]) -> bool {
         match self {
@@ -216,7 +216,7 @@ impl Enhancer {
         }
     }
 
-    /// The largest importance that it may leave to scalars in [lo, hi] of which none had more than `told`.
+    /// The largest importance that it may give to scalars in [lo, hi] of which none had more than `told`.
     pub fn most_importance(&self, lo: f64, hi: f64, told: f64) -> f64 {
         match self {
             Self::BandPicker(picker) => {

@@ -1,4 +1,4 @@
-//! The one directional light of a scene, with the material's answer to it.
+//! The one directional light of a scene, and the shading law.
 
 use super::Material;
 use super::bounds::{OutOfBounds, held};
@@ -77,7 +77,7 @@ pub enum Detail {
     /// Normal unsharp masking (Cignoni, Scopigno, Tarini 2005): the shading law takes
     /// g = G(f) + strength · (G(f) − G(f + 1)).
     Unsharp {
-        /// At least 0; 0 is no masking.
+        /// At least 0; 0 does nothing.
         strength: f64,
     },
     /// Exaggerated shading (Rusinkiewicz, Burns, DeCarlo 2006): in the shading law, |n·l| becomes

@@ -1,4 +1,4 @@
-//! How a material answers to light.
+//! How a material reflects light.
 
 use super::CurveValue;
 use serde::{Deserialize, Serialize};

@@ -23,7 +23,7 @@ pub enum MimdaForm {
     /// β = 1 − γ max(ι − ι_max, 0), the published equation. Its picture depends on the step: as steps shrink, a
     /// rise of ι from a to b keeps exp(−γ (b − a)) of what lay before.
     Paper,
-    /// β = (1 − γ ι) / (1 − γ ι_max) where ι > ι_max (1 where γ ι_max = 1): the product telescopes, so a rise from
+    /// β = (1 − γ ι) / (1 − γ ι_max) where ι > ι_max (1 if γ ι_max = 1): the product telescopes, so a rise from
     /// zero to b keeps 1 − γ b whatever the steps.
     Consistent,
 }
@@ -33,7 +33,7 @@ pub enum MimdaForm {
 pub struct Mimda {
     /// Importance ι of the normalised scalar, in [0, 1].
     pub importance: Curve<f64>,
-    /// γ in [0, 1]: 0 is ordinary compositing, 1 lets full importance erase what lies before it.
+    /// γ in [0, 1]: 0 is ordinary compositing, 1 lets full importance erase what lies in front of it.
     pub gamma: f64,
     /// Which form.
     pub form: MimdaForm,
@@ -59,7 +59,7 @@ pub struct Optics {
     /// that shades (central differences). Where ν jumps, Snell's law holds with g / |g| as normal, and beyond the
     /// critical angle the surface is a mirror. The faces of the volume do not refract.
     pub refraction: Option<Curve<f64>>,
-    /// Factors of the shading law over s, in place of the light's own.
+    /// Factors of the shading law over s, instead of the light's own.
     pub materials: Option<Curve<Material>>,
     /// The chain, in order; at most [`MOST_ENHANCERS`].
     pub enhancers: Vec<Enhancer>,
@@ -219,7 +219,7 @@ impl Optics {
     }
 
     /// Whether data values in [min, max] leave a picture as it is: no extinction, nor any importance, which acts
-    /// on what lies before it even where there is nothing to see, nor any change of the refraction index.
+    /// on what lies in front of it even where there is nothing to see, nor any change of the refraction index.
     pub fn is_empty_on(&self, min: f64, max: f64) -> bool {
         let (lo, hi) = (self.normalise(min), self.normalise(max));
         let bends = self.refraction.as_ref().is_some_and(|index| !index.is_constant_on(lo, hi));
@@ -231,7 +231,7 @@ impl Optics {
         self.mimda.as_ref().filter(|mimda| mimda.gamma > 0.0)
     }
 
-    /// The largest importance that acts for scalars in [lo, hi]; 0 where importance does nothing.
+    /// The largest importance that acts for scalars in [lo, hi]; 0 if importance does nothing.
     pub fn most_importance_on(&self, lo: f64, hi: f64) -> f64 {
         let Some(mimda) = self.accumulation() else { return 0.0 };
         let own = mimda.importance.max_on(lo, hi);

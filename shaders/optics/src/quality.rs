@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 pub struct Quality {
     /// Longest integration step, in voxels of the node being sampled; above 0.
     pub step_voxels: f64,
-    /// Error of colour and opacity that a step may have by its own estimate before it is cut into parts; above 0,
+    /// Estimated error of colour and opacity above which a step is split into parts; above 0,
     /// infinite for steps of one length.
     pub tolerance: f64,
-    /// A ray stops when what may still be added is below this opacity; 0 never stops early.
+    /// A ray stops when less than this opacity can still be added; 0 never stops early.
     pub termination: f64,
-    /// A node is fine enough when its voxel is no longer than `lod_scale` times the display's resolution s(z);
+    /// A node is fine enough if its voxel is at most `lod_scale` times the display's resolution s(z);
     /// 0 always asks for the finest level.
     pub lod_scale: f64,
     /// Whether scalars and gradients are filtered over node, parent and grandparent. With λ = log2(lod_scale · s(z) /
@@ -22,7 +22,7 @@ pub struct Quality {
     /// ancestor on. A node that shows nothing by its own values shows nothing.
     pub quadrilinear: bool,
     /// Whether samples blend into the parent's toward coarser neighbours and while detail appears or goes, so that no
-    /// border between bricks is seen.
+    /// border between bricks shows.
     pub blended: bool,
 }
 

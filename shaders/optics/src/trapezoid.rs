@@ -11,7 +11,7 @@ pub struct Trapezoid {
 
 /// Why four numbers do not make a trapezoid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("a band's corners are {0:?}; give four finite numbers that do not fall")]
+#[error("a band's corners are {0:?}; give four finite numbers in ascending order")]
 pub struct TrapezoidError(pub [f64; 4]);
 
 impl Trapezoid {

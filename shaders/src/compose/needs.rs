@@ -61,7 +61,7 @@ pub struct Needs {
     pub way: Way,
     /// Enhancers.
     pub chain: Chain,
-    /// What is shown in place of the picture.
+    /// What is shown instead of the picture.
     pub debug: Option<DebugView>,
 }
 

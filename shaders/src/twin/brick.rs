@@ -1,4 +1,4 @@
-//! A ray's way through one brick: light and steps.
+//! A ray's path through one brick: light and steps.
 
 use super::composite::{Accumulated, Composite, Light, Sample};
 use super::debug::debug_light;
@@ -39,7 +39,7 @@ impl<F: Real> Brick<'_, F> {
 }
 
 impl<F: Real> Brick<'_, F> {
-    /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 where it may show something.
+    /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something.
     /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
     /// of a pair are asked as leave none of it farther than a voxel.
     #[inline(always)]
@@ -63,7 +63,7 @@ impl<F: Real> Brick<'_, F> {
     }
 }
 
-/// A straight way through a brick.
+/// A straight path through a brick.
 #[derive(Clone, Copy)]
 pub(super) struct Straight<'a, F> {
     pub(super) brick: &'a Brick<'a, F>,
@@ -122,7 +122,7 @@ fn add_whole<F: Real, K: Kernel>(
     K::Composite::composite(casting, front, light, sample)
 }
 
-/// Adds one step, cut into parts.
+/// Adds one step, split into parts.
 #[inline(always)]
 fn add_parts<F: Real, K: Kernel>(
     casting: &Casting<F>,
@@ -202,7 +202,7 @@ fn add_parts_here<F: Real, K: Kernel>(
     }
 }
 
-/// Adds a pair of steps. Yields what was gathered, and the number of parts that each step was cut into.
+/// Adds a pair of steps. Returns what was gathered, and the number of parts that each step was split into.
 #[inline(always)]
 pub(super) fn add_pair<F: Real, K: Kernel>(
     casting: &Casting<F>,

@@ -26,7 +26,7 @@ impl<F: Real> Importance<F> {
     pub const EQUAL: Self = Self { mean: F::ONE, most: F::ONE };
 }
 
-/// ι over scalars [s0, s1]; `most` as [`crate::tables::Tables`] tells it.
+/// ι over scalars [s0, s1]; `most` as in [`crate::tables::Tables`].
 #[inline(always)]
 pub fn importance_between<F: Real>(table: &[ImportanceEntry], most: &[f32], s0: F, s1: F) -> Importance<F> {
     let (u0, u1, c0, c1) = span(table.len(), s0, s1);

@@ -4,8 +4,8 @@ use super::composite::Composite;
 use super::shade::Shade;
 use std::marker::PhantomData;
 
-/// The slots of a twin that are filled when it is compiled. A kernel is composed anew for every scene; a twin is compiled
-/// once, so what is rare is behind a branch, and twins with such branches are apart from those without.
+/// The slots of a twin that are filled when it is compiled. A kernel is composed for every scene; a twin is compiled
+/// once, so rare features are behind branches, and twins with such branches are separate from those without.
 pub trait Kernel {
     /// The shading slot.
     type Shade: Shade;

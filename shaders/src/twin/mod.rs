@@ -1,7 +1,7 @@
 //! The kernels' twin in Rust, generic over f32 and f64: the same algorithm over the same cut and bricks.
 //!
 //! At f32 it agrees with the kernels to rounding and is what the CPU device runs; at f64 it shows what rounding
-//! costs. Files share their stem with the WGSL module they tell again. They bend in three places: bricks are lists of
+//! costs. Files share their stem with the WGSL module they mirror. They differ in three places: bricks are lists of
 //! codes instead of parts of one texture, so a point to sample is relative to its brick; a table entry is read as
 //! f32 and widened; and where the composer puts one module or another into a slot, the twin has generics for shading and
 //! compositing and branches for the rest, of which twins for plain scenes have none: see [`kernel`].

@@ -99,7 +99,7 @@ impl<F: Real> Ray<F> {
         (offset - normal.dot(self.origin_in_display)) / speed
     }
 
-    /// The part of the ray inside the volume; empty where the first is not below the second.
+    /// The part of the ray inside the volume; empty if the first is not below the second.
     #[inline(always)]
     pub fn clip_to_volume(&self, dims: Vec3<F>) -> (F, F) {
         let (mut enter, mut leave) = (self.start, F::of(FAR));

@@ -1,4 +1,4 @@
-//! How many parts a step is cut into, by what a pair of steps tells of its own error.
+//! How many parts a step is split into, from what a pair of steps estimates of its own error.
 
 use super::composite::{Composite, Sample};
 use super::four::each;
@@ -10,7 +10,7 @@ use super::traverse::voxel_edge;
 use super::{Casting, Real, ray::Ray};
 use layout::NodeRecord;
 
-/// A step is cut into this many parts at most.
+/// A step is split into this many parts at most.
 pub const MOST_PARTS: f64 = 16.0;
 
 /// Steps grow to this many voxels at most.
@@ -70,7 +70,7 @@ pub struct Pair<F> {
 }
 
 impl<F: Real> Pair<F> {
-    /// Over scalars s0 to s1 to s2, with `reach` as [`scalars_in_reach`] tells it.
+    /// Over scalars s0 to s1 to s2, with `reach` from [`scalars_in_reach`].
     #[inline(always)]
     pub fn new<C: Composite>(casting: &Casting<F>, [s0, s1, s2]: [F; 3], reach: (F, F)) -> Self {
         let table = &casting.tables.optics;

@@ -1,6 +1,6 @@
 // Maximum Importance Difference Accumulation in the form that telescopes: β = (1 − γ ι) / (1 − γ ι_max).
 
-// β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
+// β: what a rise of the largest importance from `largest` to `importance` keeps of what lies in front of it.
 fn kept(largest: f32, importance: f32) -> f32 {
     let before = 1.0 - scene.mimda.x * largest;
     if importance <= largest || before <= 0.0 {

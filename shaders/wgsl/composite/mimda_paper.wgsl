@@ -1,6 +1,6 @@
 // Maximum Importance Difference Accumulation as published (LFD eq. 3): β = 1 − γ max(ι − ι_max, 0).
 
-// β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
+// β: what a rise of the largest importance from `largest` to `importance` keeps of what lies in front of it.
 fn kept(largest: f32, importance: f32) -> f32 {
     return 1.0 - scene.mimda.x * max(importance - largest, 0.0);
 }

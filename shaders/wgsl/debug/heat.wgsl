@@ -1,4 +1,4 @@
-// The colours of debug views, from the darkest to the lightest. The composer tells the five ramps, HEAT_RAMP_0 to 4.
+// The colours of debug views, from the darkest to the lightest. The composer defines the five ramps, HEAT_RAMP_0 to 4.
 
 // The colour at x in [0, 1], linear RGB: five ramps, one after the other.
 fn heat(x: f32) -> vec3<f32> {

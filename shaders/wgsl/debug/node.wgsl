@@ -1,4 +1,4 @@
-// Debug views of nodes: light in the colour of the node that it comes from, as opaque as it is. The composer tells
+// Debug views of nodes: light in the colour of the node that it comes from, as opaque as it is. The composer defines
 // DEBUG_SHOWS, one of the three below, and the ends of the scales, DEBUG_LEAST, DEBUG_MOST and DEBUG_LOW, DEBUG_HIGH.
 
 const DEBUG_LOD: u32 = 0u;

@@ -1,4 +1,4 @@
-// The debug view of samples: how many a ray took, in place of its colour. The composer tells DEBUG_MOST.
+// The debug view of samples: how many a ray took, instead of its colour. The composer defines DEBUG_MOST.
 
 fn debug_light(light: vec4<f32>, ray: Ray, t: f32) -> vec4<f32> {
     return light;

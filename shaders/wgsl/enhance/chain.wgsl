@@ -12,13 +12,13 @@ struct Link {
 
 // An enhancer's state along one ray.
 struct LinkState {
-    // What it has made of the ray's direction.
+    // What it made of the ray's direction.
     weights: vec4<f32>,
-    // Where on the ray its law is not smooth; FAR where there is no such place.
+    // Where on the ray its law is not smooth; FAR if nowhere.
     breaks: vec3<f32>,
 }
 
-// Where a segment lies that enhancers look at.
+// Where the segment lies that enhancers change.
 struct Place {
     // Middle of the segment, metres, display frame.
     point: vec3<f32>,

@@ -1,6 +1,6 @@
 // Samples of the node that a ray is in.
 
-// What stays the same on a straight way through one brick.
+// What stays the same on a straight path through one brick.
 struct Brick {
     own: Level,
     weights: Weights,

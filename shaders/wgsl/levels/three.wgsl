@@ -1,6 +1,6 @@
 // Samples of the node that a ray is in, of its parent and of its grandparent.
 
-// What stays the same on a straight way through one brick. Where an ancestor has no brick, the level below stands for it.
+// What stays the same on a straight path through one brick. Where an ancestor has no brick, the level below stands for it.
 struct Brick {
     own: Level,
     parent: Level,

@@ -1,6 +1,6 @@
 // Samples of the node that a ray is in and of its parent.
 
-// What stays the same on a straight way through one brick. Where the parent has no brick, the node stands for it.
+// What stays the same on a straight path through one brick. Where the parent has no brick, the node stands for it.
 struct Brick {
     own: Level,
     parent: Level,

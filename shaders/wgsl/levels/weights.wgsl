@@ -20,7 +20,7 @@ fn is_blended(weights: Weights) -> bool {
 
 // The parent's share at t on the way that `own` lies on, of a blended node.
 fn parents_share(weights: Weights, own: Level, t: f32) -> f32 {
-    // A bent way may lead out of the node by a step, where the weights stay what they are on its face.
+    // A bent path may lead out of the node by a step, where the weights stay what they are on its face.
     let place = clamp((point_in(own, t) - OVERLAP) / OWN_EDGE, vec3<f32>(0.0), vec3<f32>(1.0));
     let along_z = weights.low + (weights.high - weights.low) * place.z;
     let along_y = along_z.xy + (along_z.zw - along_z.xy) * place.y;

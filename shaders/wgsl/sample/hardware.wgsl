@@ -3,7 +3,7 @@
 @group(0) @binding(8) var trilinear: sampler;
 
 // Points are taken to the nearest 1/4096 texel: with slots at whole texels and an atlas of 2^n texels along each axis, the
-// texture coordinate is then exact, so that the same point of a brick gives the same bits from whatever slot it lies in.
+// texture coordinate is then exact, so that the same point of a brick gives the same bits in any slot.
 const GRID: f32 = 4096.0;
 
 // `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5.

@@ -13,7 +13,7 @@ fn lighting(gradients: Gradients, ray: Ray, material: vec4<f32>) -> Lighting {
     return lit_by(gradients.at, square, lit, ray, material);
 }
 
-// Unit vector toward lower values; zero where there is none.
+// Unit vector toward lower values; zero if there is none.
 fn outward(gradient: vec3<f32>) -> vec3<f32> {
     let square = dot(gradient, gradient);
     if square < LEAST_SQUARE {

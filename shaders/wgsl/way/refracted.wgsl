@@ -2,7 +2,7 @@
 
 @group(0) @binding(13) var<storage, read> index_table: array<f32>;
 
-// Pairs over which the index changes by more than this are halved, as often as MOST_HALVINGS tells.
+// Pairs over which the index changes by more than this are halved, up to MOST_HALVINGS times.
 const LARGE_CHANGE: f32 = 0.004;
 const MOST_HALVINGS: u32 = 4u;
 // A pair that still changes it by more than this is taken as a surface: Snell's law, and a mirror beyond the critical

@@ -6,9 +6,9 @@ struct Marched {
     is_done: bool,
 }
 
-// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps are
-// too long for the tolerance, each of them is cut into equal parts. Where samples are of more than one level the
-// rest of the way is laid out anew after each pair, in pairs as long as the level there allows.
+// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out too
+// long for the tolerance, each of them is split into equal parts. If samples blend levels, the rest of the way is
+// divided anew after each pair, into pairs as long as the level there allows.
 fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in: f32, t_out: f32) -> Marched {
     var from_t = t_in;
     var span = t_out - t_in;

@@ -9,6 +9,6 @@ pub trait Field: Send + Sync {
     fn value(&self, position: DVec3) -> f64;
     /// The derivative of the value by position, per unit of the cube.
     fn gradient(&self, position: DVec3) -> DVec3;
-    /// Bounds of the value over an axis-parallel box: never tighter than the truth, (0, 0) only where all is 0.
+    /// Bounds of the value over an axis-parallel box: never tighter than the truth, and (0, 0) only if it is 0 throughout.
     fn range_in_box(&self, low: DVec3, high: DVec3) -> (f64, f64);
 }

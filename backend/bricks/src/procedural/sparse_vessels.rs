@@ -1,4 +1,4 @@
-//! A tree of vessels in empty space: what out-of-core rendering of sparse data has to cope with.
+//! A tree of vessels in empty space: sparse data for out-of-core rendering to cope with.
 
 use super::Field;
 use super::tube::Tube;
@@ -11,7 +11,7 @@ const TRUNK_LENGTH: f64 = 0.28;
 const TRUNK_RADIUS: f64 = 0.03;
 const LENGTH_KEPT: f64 = 0.8;
 const RADIUS_KEPT: f64 = 0.77;
-/// Distance that the tree keeps from the cube's faces.
+/// Distance between the tree and the cube's faces.
 const MARGIN: f64 = 0.04;
 /// Cells of the look-up grid along an edge of the cube.
 const GRID: u32 = 48;
@@ -92,7 +92,7 @@ fn cells_between(first: UVec3, last: UVec3) -> impl Iterator<Item = UVec3> {
     })
 }
 
-/// The tree of the cube, squeezed into the extent; the radius shrinks with its smallest edge, so it stays inside.
+/// The tree of the cube, scaled to the extent; the radius shrinks with its smallest edge, so the tree stays inside.
 fn fitted(tube: Tube, extent: DVec3) -> Tube {
     Tube { from: tube.from * extent, to: tube.to * extent, radius: tube.radius * extent.min_element() }
 }
@@ -109,7 +109,7 @@ fn grow(from: DVec3, direction: DVec3, generation: u32, random: &mut Random, tub
     let radius = TRUNK_RADIUS * RADIUS_KEPT.powi(generation as i32);
     let length = TRUNK_LENGTH * LENGTH_KEPT.powi(generation as i32);
     let to = (from + direction * length).clamp(DVec3::splat(MARGIN), DVec3::splat(1.0 - MARGIN));
-    // A branch clamped to nothing at a face has no axis and is left out, with all that would grow from it.
+    // A branch clamped to nothing at a face has no axis and is left out, with everything that would grow from it.
     if from.distance(to) < radius {
         return;
     }

@@ -1,4 +1,4 @@
-//! A field as a volume: bricks and slabs made when they are asked for, of any size.
+//! A field as a volume of any size: bricks and slabs made on demand.
 
 use super::field::Field;
 use super::named::{FIELD_NAMES, field_named};
@@ -11,7 +11,7 @@ use crate::{
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
-/// Edge in voxels of the blocks in which a field is looked at as a whole.
+/// Edge in voxels of the blocks for which a field is bounded as a whole.
 const BLOCK: usize = 32;
 
 /// Where the field is zero in a layer of blocks.

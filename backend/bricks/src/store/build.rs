@@ -23,11 +23,11 @@ const BRICKS_AT_ONCE: usize = 128;
 /// So much may always be taken.
 const LEAST_MEMORY_BYTES: u64 = 64 << 20;
 
-/// Builds a store from a volume. `progress` is told (done, total) in slabs; a volume with values that are not finite is
+/// Builds a store from a volume. `progress` gets (done, total) in slabs; a volume with non-finite values is
 /// read twice. The file appears under its name only when it is complete.
 ///
 /// # Errors
-/// What reading the volume or writing beside `out` came upon, or that it was told to stop; no half-written file is left.
+/// Any error of reading the volume or writing beside `out`, or a request to stop; no half-written file is left.
 pub fn build(
     reader: &mut dyn VolumeReader,
     out: &Path,
@@ -79,7 +79,7 @@ impl Building {
         let shape = OctreeShape::new(info.dims);
         let table = NodeTable::new(shape).ok_or_else(|| StoreError::Input {
             input: info.name.clone(),
-            what: format!("{} voxels make more bricks than can be counted", info.dims),
+            what: format!("{} voxels make too many bricks to count", info.dims),
         })?;
         let count = usize::from(shape.finest_depth()) + 1;
         let header = Header {
@@ -198,7 +198,7 @@ impl Building {
     }
 }
 
-/// What is left of the memory for the levels' slabs, after the slabs being read and what tells of the tiles.
+/// What is left of the memory for the levels' slabs, after the slabs being read and the tiles' descriptions.
 fn memory_for_rings(
     info: &VolumeInfo,
     shape: OctreeShape,
@@ -209,7 +209,8 @@ fn memory_for_rings(
     let least = slabs.saturating_add(tiles);
     if least > options.memory_bytes.max(LEAST_MEMORY_BYTES) {
         let (least, given) = (least >> 20, options.memory_bytes >> 20);
-        let what = format!("slabs of {} need {least} MiB of memory, and {given} MiB are given", info.dims);
+        let what =
+            format!("slabs of {} need {least} MiB of memory, but only {given} MiB are allowed", info.dims);
         return Err(StoreError::Input { input: info.name.clone(), what });
     }
     Ok(options.memory_bytes.saturating_sub(least))

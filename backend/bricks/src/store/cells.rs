@@ -1,4 +1,4 @@
-//! The range of codes around each 4³ cell of a brick: what tells empty space inside it without reading voxels.
+//! The range of codes around each 4³ cell of a brick: it shows empty space inside the brick without reading voxels.
 
 use super::CodeBits;
 use crate::{BRICK_EDGE, BRICK_VOXELS, Codes};

@@ -68,7 +68,7 @@ fn what_cannot_be_read_now_may_be_read_later() {
     store.brick(NodeKey::ROOT).unwrap();
 }
 
-/// Reads all that there is to read of a store with these bytes, and tells how much of it is damaged.
+/// Reads everything in a store with these bytes, and returns how much of it is damaged.
 fn read_all(bytes: Vec<u8>) -> u64 {
     let Ok(store) = Store::from_bytes(Path::new("damaged.lloom"), bytes) else { return 1 };
     let shape = store.shape();

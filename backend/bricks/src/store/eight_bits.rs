@@ -30,7 +30,7 @@ impl BrickSource for EightBits {
         self.0.value_range()
     }
 
-    /// Codes stand for nothing beyond the brick's own range, so the source's bounds hold.
+    /// Codes cannot leave the brick's own range, so the source's bounds hold.
     fn summary(&self, node: NodeKey) -> NodeSummary {
         self.0.summary(node)
     }

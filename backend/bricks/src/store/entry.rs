@@ -1,17 +1,17 @@
 //! The table of a store file, version 2: entries of 64 bytes to the end of the file.
 //!
-//! They are the octree in breadth-first order, children of a node one after the
-//! other, x fastest. The root is the first; what an entry without children stands for holds for all nodes below it.
+//! They list the octree in breadth-first order, the children of a node one after the
+//! other, x fastest. The root comes first; an entry without children also describes all nodes below it.
 //!
 //! | bytes | what |
 //! | --- | --- |
 //! | 0..8 | bounds of the stored samples of the node and all below it, f32 each |
 //! | 8..16 | low, step, f32 each |
 //! | 16..20 | deviation step, f32 |
-//! | 20..32 | lengths of cells, codes and deviations in bytes, u32 each; 0 for what is all zero |
-//! | 32..40 | offset of the extent in the file, u64; 0 where it is empty |
+//! | 20..32 | lengths of cells, codes and deviations in bytes, u32 each; 0 if all zero |
+//! | 32..40 | offset of the extent in the file, u64; 0 if it is empty |
 //! | 40..48 | checksum of the cells; checksum of codes and deviations, u32 each |
-//! | 48..56 | place of the first child in the table, u64; 0 where there is none |
+//! | 48..56 | place of the first child in the table, u64; 0 if there is none |
 //! | 56 | children that are in the table, bit 0 = x, y, z low |
 //! | 57..60 | zero |
 //! | 60..64 | checksum of the entry's first 60 bytes |
@@ -96,7 +96,7 @@ impl Entry {
         bytes
     }
 
-    /// None where the checksum differs.
+    /// None if the checksum differs.
     pub fn from_bytes(bytes: &[u8; ENTRY_BYTES]) -> Option<Self> {
         if checksum(&bytes[..ENTRY_CHECKSUM_AT]) != u32_at(bytes, ENTRY_CHECKSUM_AT) {
             return None;

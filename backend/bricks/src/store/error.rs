@@ -33,19 +33,19 @@ pub enum StoreError {
         path: PathBuf,
     },
     /// Something else has the store's name.
-    #[error("{} is there already and is no lightloom store: choose another name, or remove it first", path.display())]
+    #[error("{} exists already and is not a lightloom store: choose another name, or remove it first", path.display())]
     Occupied {
         /// What is there.
         path: PathBuf,
     },
-    /// The build was told to stop.
+    /// The build was asked to stop.
     #[error("stopped: nothing was written to {}; the same command starts again from the beginning", path.display())]
     Interrupted {
         /// The store that was to be.
         path: PathBuf,
     },
     /// A store of another version of the format.
-    #[error("{} is a store of format version {found}, and this program reads versions 1 to {VERSION}: import the volume again", path.display())]
+    #[error("{} has store format version {found}, but this program reads versions 1 to {VERSION}: import the volume again", path.display())]
     Version {
         /// The store.
         path: PathBuf,

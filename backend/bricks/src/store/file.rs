@@ -1,4 +1,4 @@
-//! A store in a file: any brick reads alone, and many processes read at once.
+//! A store in a file: any brick can be read alone, and many processes can read at once.
 
 use super::bytes::checksum;
 use super::entry::{Checksums, Entry, Extent};
@@ -13,8 +13,8 @@ use crate::{NodeKey, NodeSummary, OctreeShape};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// An open store. Opening reads the header alone, whatever the size; tables and bricks are checked as they are read,
-/// and damage of one is an error of that one.
+/// An open store. Opening reads only the header, whatever the size; tables and bricks are checked as they are read, and
+/// damage affects only the entry or brick it lies in.
 pub struct Store {
     path: PathBuf,
     version: u32,
@@ -39,7 +39,7 @@ impl Store {
     /// Opens a store.
     ///
     /// # Errors
-    /// A missing file, a file that is no store or of another version, a damaged header.
+    /// A missing file, a file that is not a store or of another version, a damaged header.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let file = File::open(path).map_err(StoreError::open(path))?;
         let length = file.metadata().map_err(StoreError::open(path))?.len();
@@ -123,7 +123,7 @@ impl Store {
         })
     }
 
-    /// Errors of the levels against the source, the finest first; empty where an older program built the store.
+    /// Errors of the levels against the source, the finest first; empty if an older program built the store.
     pub fn level_errors(&self) -> &[LevelError] {
         &self.header.levels
     }
@@ -173,7 +173,7 @@ impl Store {
         self.table.find(node, &self.rules, &*self.file)
     }
 
-    /// The entry that tells of a node; one above it loses its extent, as all of the node's samples are equal.
+    /// The entry that covers a node; one above it loses its extent, as all of the node's samples are equal.
     fn entry_of(&self, node: NodeKey) -> Result<Entry, BrickError> {
         if !self.shape.contains(node) {
             let path = self.path.display();
@@ -216,7 +216,7 @@ impl Store {
         ))
     }
 
-    /// Reads and decodes what an entry tells of.
+    /// Reads and decodes what an entry points to.
     pub(super) fn brick_of(&self, node: NodeKey, entry: &Entry) -> Result<Brick, BrickError> {
         let extent = &entry.extent;
         let bytes = self.read(extent.offset, extent.bytes(), node)?;
@@ -314,17 +314,17 @@ fn decoded(plain: &[u8], bits: CodeBits) -> Codes {
 fn check_header(header: &Header) -> Result<(), String> {
     let (dims, range) = (header.dims, header.value_range);
     if dims.min_element() == 0 || dims.max_element() > MAX_EDGE_VOXELS {
-        return Err(format!("the dimensions are {dims}, and each must be from 1 to {MAX_EDGE_VOXELS}"));
+        return Err(format!("the dimensions are {dims}, but each must be from 1 to {MAX_EDGE_VOXELS}"));
     }
     if !header.frame.is_sound() {
         return Err(format!(
-            "the voxel size is {} m, and each edge must be positive",
+            "the voxel size is {} m, but each edge must be positive",
             header.frame.voxel_size_m()
         ));
     }
     let is_error = |error: f64| error.is_finite() && error >= 0.0;
     if !header.levels.iter().all(|level| is_error(level.rms) && is_error(level.max)) {
-        return Err("the errors of its levels are no numbers that make sense".into());
+        return Err("the errors of its levels make no sense".into());
     }
     // Beyond f32 lies no stored value.
     let is_value = |value: f64| value.abs() <= f64::from(f32::MAX);

@@ -9,7 +9,7 @@
 //! | 12..16 | checksum of the whole header, these four bytes taken as zero |
 //! | 16 | bits per code, u8: 8 or 16 |
 //! | 17 | codec, u8: 0 none, 1 LZ4 block, 2 Zstandard frame |
-//! | 18 | u8: 1 where coarse levels keep standard deviations, else 0 |
+//! | 18 | u8: 1 if coarse levels keep standard deviations, else 0 |
 //! | 19 | space of the axes, u8: 0 unknown, 1 a patient's (left, back, head) |
 //! | 20..32 | voxels along x, y, z, u32 each |
 //! | 32..104 | from a voxel to the next along x, y, z: three vectors in metres, f64 each |
@@ -92,7 +92,7 @@ pub(super) struct Header {
     pub source_name: String,
 }
 
-/// Why bytes are no header.
+/// Why bytes are not a header.
 #[derive(Debug, PartialEq)]
 pub(super) enum HeaderError {
     NotAStore,
@@ -180,7 +180,9 @@ impl Header {
             table_offset: u64_at(bytes, TABLE_AT),
             stored_bricks: Some(u64_at(bytes, STORED_AT)),
             levels: (0..levels).map(level).collect(),
-            source_name: str::from_utf8(name).map_err(|_| damaged("the source's name is no text"))?.into(),
+            source_name: str::from_utf8(name)
+                .map_err(|_| damaged("the source's name is not UTF-8 text"))?
+                .into(),
         })
     }
 }

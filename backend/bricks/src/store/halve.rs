@@ -1,8 +1,8 @@
 //! From a level to the next coarser one: means over 2 × 2 × 2 voxels.
 //!
-//! A coarse voxel is the mean of all voxels of the source that it covers, so where the volume ends within it, its
-//! parts count by the voxels of the source that each holds. Squares add up by the law of total variance: what a
-//! coarse voxel's parts vary within themselves, and what their means vary about its own.
+//! A coarse voxel is the mean of all voxels of the source that it covers, so if the volume ends within it, its parts
+//! are weighted by the voxels of the source that each holds. Squares add up by the law of total variance: the variance
+//! within each of a coarse voxel's parts, plus that of their means about its own.
 
 use super::level::{Level, Spread, SpreadRow, copy_row, covered};
 use super::ring::{Ring, TILE};
@@ -48,7 +48,7 @@ pub(super) fn halve(fine: &Level, z: u32, coarse: &mut Level, source: glam::UVec
         };
         (0..width.div_ceil(TILE)).map(halve_tile).sum::<f64>()
     });
-    // Added up one after the other: the sum must not depend on how threads share the rows.
+    // Summed in order: the sum must not depend on how threads share the rows.
     squares.collect::<Vec<f64>>().iter().sum()
 }
 
@@ -57,7 +57,7 @@ fn clear(row: &mut SpreadRow, tile: usize) {
     rings.into_iter().chain(&mut row.deviation).for_each(|ring| ring.clear(tile));
 }
 
-/// The value of the up to eight fine tiles under a coarse tile; NaN where it is not the same.
+/// The value of the up to eight fine tiles under a coarse tile; NaN if it is not the same.
 fn fine_uniform(fine: &Level, tile_x: usize, tile_y: usize, z: u32) -> f32 {
     let [across, down] = fine.tiles();
     let value = fine.uniform(z, 2 * tile_x, 2 * tile_y);
@@ -108,7 +108,7 @@ struct CoarseRow {
     high: [f32; TILE],
     /// Variance of the fine means about the coarse one, in squares of `unit`.
     between: [f32; TILE],
-    /// A power of two near the row's range: squares of numbers as large or small as f32 has them are none of f32's.
+    /// A power of two near the row's range: squares of the largest and smallest f32 numbers do not fit f32.
     unit: f32,
 }
 
@@ -232,7 +232,7 @@ fn coarse_row(fine: &Level, tile: usize, under: &Under, cut: Option<(usize, [f32
         ),
     };
     let raw = weighted_means(&rows, under.weights, cut);
-    // Rounding must not carry a mean out of what it is a mean of: equal voxels stay equal.
+    // Rounding must not carry a mean beyond the numbers it averages: equal voxels stay equal.
     let means: [f32; TILE] = std::array::from_fn(|i| raw[i].max(low[i]).min(high[i]));
     let unit = unit(&low, &high);
     let between = weighted_means(&squared(&rows, &means, unit), under.weights, cut);

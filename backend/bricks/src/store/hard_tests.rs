@@ -65,7 +65,7 @@ fn numbers_that_round_to_whole_ones_are_not_whole() {
     assert!(store.brick(NodeKey::ROOT).unwrap().step < 1.0);
 }
 
-/// A volume with a NaN in an early slab, which tells to stop while it is surveyed.
+/// A volume with a NaN in an early slab, which asks to stop while it is surveyed.
 struct Endless {
     info: VolumeInfo,
     stop: Arc<AtomicBool>,

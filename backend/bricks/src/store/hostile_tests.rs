@@ -50,7 +50,7 @@ fn spoil(bytes: &mut [u8], table: usize, random: &mut Random) {
     }
 }
 
-/// Reads some of all that there is; false where it cannot even be opened.
+/// Reads some of all that there is; false if it cannot even be opened.
 fn read_some(bytes: Vec<u8>) -> bool {
     let Ok(store) = Store::from_bytes(Path::new("hostile.lloom"), bytes) else { return false };
     let shape = store.shape();

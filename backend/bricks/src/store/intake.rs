@@ -1,4 +1,4 @@
-//! Taking slabs of the source over into the finest level.
+//! Copying slabs of the source into the finest level.
 
 use super::level::Level;
 use super::ring::{TILE, TileRow};
@@ -30,7 +30,7 @@ impl Taken {
     }
 }
 
-/// Takes a slab of finite values over.
+/// Copies a slab of finite values.
 pub(super) fn take(level: &mut Level, z: u32, slab: &Samples, info: &VolumeInfo) -> Taken {
     with_samples!(slab, |stored| take_stored(level, z, stored, info))
 }
@@ -43,7 +43,7 @@ fn take_stored<S: Sample>(level: &mut Level, z: u32, stored: &[S], info: &Volume
         true => take_exact(stored, width, means, uniform),
         false => take_rounded(stored, width, info, means, uniform),
     });
-    // Added up one after the other: the sum must not depend on how threads share the rows.
+    // Summed in order: the sum must not depend on how threads share the rows.
     taken.collect::<Vec<_>>().into_iter().fold(Taken::nothing(), Taken::merge)
 }
 
@@ -67,7 +67,7 @@ fn take_exact<S: Sample>(stored: &[S], width: usize, mut means: TileRow, uniform
     Taken::nothing()
 }
 
-/// Does something with every row of a tile: the stored numbers, and their room.
+/// Calls a function with every row of a tile: the stored numbers, and the space for them.
 fn for_rows<S>(
     stored: &[S],
     width: usize,

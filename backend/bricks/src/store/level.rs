@@ -26,7 +26,7 @@ pub(super) struct Level {
     /// None at the finest level, whose voxels are the source's own.
     pub spread: Option<Spread>,
     tiles: [usize; 2],
-    /// Of every kept slab, of each tile, x fastest: the value of all its voxels, or NaN where they differ.
+    /// Of every kept slab, of each tile, x fastest: the value of all its voxels, or NaN if they differ.
     uniform: Vec<f32>,
 }
 
@@ -66,7 +66,7 @@ impl Level {
         depths().map(level).collect()
     }
 
-    /// Bytes that telling of a level's tiles takes, whatever is in them.
+    /// Bytes that the descriptions of a level's tiles take, whatever the tiles hold.
     pub fn tile_bytes(dims: UVec3) -> u64 {
         let tiles = [dims.x, dims.y].map(|n| u64::from(n).div_ceil(TILE as u64));
         let count = tiles[0].saturating_mul(tiles[1]).saturating_mul(u64::from(kept(dims)));
@@ -94,7 +94,7 @@ impl Level {
         self.means.place(z) * self.tiles[0] * self.tiles[1]
     }
 
-    /// The value of all voxels of a tile; NaN where they differ.
+    /// The value of all voxels of a tile; NaN if they differ.
     pub fn uniform(&self, z: u32, tile_x: usize, tile_y: usize) -> f32 {
         self.uniform[self.uniform_start(z) + tile_y * self.tiles[0] + tile_x]
     }

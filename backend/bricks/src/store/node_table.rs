@@ -11,7 +11,7 @@ pub(super) struct NodeTable {
 }
 
 impl NodeTable {
-    /// None where the octree has more nodes than can be counted.
+    /// None if the octree has more nodes than can be counted.
     pub fn new(shape: OctreeShape) -> Option<Self> {
         let mut first = Vec::new();
         let mut nodes = 0u64;

@@ -11,7 +11,7 @@ use glam::UVec3;
 use std::borrow::Cow;
 use std::ops::{Add, Mul, Sub};
 
-/// Within these, squares of errors are far from the ends of f32's range.
+/// Within these limits, squares of errors are far from the ends of f32's range.
 const SHORT_STEPS: std::ops::RangeInclusive<f32> = 1e-12..=1e12;
 
 /// How to pack.
@@ -32,11 +32,11 @@ pub(super) struct PackedBrick {
     pub errors: ErrorTally,
     /// Smallest and largest of its samples.
     pub range: (f32, f32),
-    /// Whether it was left out though its samples differ.
+    /// Whether it was left out although its samples differ.
     pub is_emptied: bool,
 }
 
-/// Room for the samples of a brick, used again for the next.
+/// Space for the samples of a brick, reused for the next.
 #[derive(Default)]
 pub(super) struct Scratch {
     samples: Vec<f32>,
@@ -102,7 +102,7 @@ fn plain(codes: &Codes) -> Cow<'_, [u8]> {
     }
 }
 
-/// The standard deviations of a coarse node, in place of its samples; None where they are not kept or all zero.
+/// The standard deviations of a coarse node, instead of its samples; None if they are not kept or all zero.
 fn deviation(level: &Level, node: NodeKey, samples: &mut Vec<f32>) -> Option<Deviation> {
     let deviation = level.spread.as_ref()?.deviation.as_ref()?;
     level.samples(node, deviation, |_| 0.0, samples);

@@ -7,7 +7,7 @@ use crate::{BRICK_VOXELS, Brick, Codes};
 const EXACT_INTEGER: f32 = 16_777_216.0;
 /// Added to a number from 0 to 65535, it leaves the nearest integer in the low bits of an f32.
 const ROUNDER: f32 = 8_388_608.0;
-/// Below this step its inverse is no f32.
+/// Below this step its inverse overflows f32.
 const SMALLEST_INVERTIBLE: f32 = 1e-30;
 /// Numbers compared side by side.
 const LANES: usize = 16;
@@ -29,7 +29,7 @@ pub(super) fn quantise_within(samples: &[f32], (low, high): (f32, f32), bits: Co
         CodeBits::Sixteen => step == 1.0,
     };
     let per_step = if step > 0.0 { 1.0 / f64::from(step) } else { 0.0 };
-    // Adding a half and cutting off is rounding, for numbers that are not negative.
+    // For non-negative numbers, adding a half and truncating is rounding.
     let long = |v: f32| (f64::from(v) - f64::from(low)) * per_step + 0.5;
     let largest = f64::from(bits.largest());
     let per_short_step = per_step as f32;
@@ -45,7 +45,7 @@ pub(super) fn quantise_within(samples: &[f32], (low, high): (f32, f32), bits: Co
     Brick::new(codes, low, step)
 }
 
-/// Smallest and largest of some finite samples; infinite where there is none.
+/// Smallest and largest of some finite samples; infinite if there is none.
 pub(super) fn range(samples: &[f32]) -> (f32, f32) {
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
     let larger = |a: f32, b: f32| if a > b { a } else { b };
@@ -61,7 +61,7 @@ pub(super) fn range(samples: &[f32]) -> (f32, f32) {
     (lows, high.iter().chain(rest).copied().fold(f32::NEG_INFINITY, larger))
 }
 
-/// Step for a range: 1 where that is exact, else the range over the codes, rounded down so that no code exceeds `high`.
+/// Step for a range: 1 if that is exact, else the range over the codes, rounded down so that no code exceeds `high`.
 fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     if low == high {
         return 0.0;
@@ -77,7 +77,7 @@ fn step(samples: &[f32], low: f32, high: f32, bits: CodeBits) -> f32 {
     down.max(f32::from_bits(1))
 }
 
-/// Whether all samples, of magnitudes that i32 has, are whole numbers.
+/// Whether all samples, which must fit i32, are whole numbers.
 fn are_whole(samples: &[f32]) -> bool {
     let is_whole = |v: f32| (v as i32) as f32 == v;
     let (lanes, rest) = samples.as_chunks::<LANES>();

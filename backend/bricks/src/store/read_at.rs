@@ -1,11 +1,11 @@
-//! Reading at a place of a file, from many threads at once.
+//! Reading at any offset of a file, from many threads at once.
 
 use std::fs::File;
 use std::io;
 
-/// Bytes that any part can be read of.
+/// Bytes of which any part can be read.
 pub(super) trait ReadAt: Send + Sync {
-    /// Fills `bytes` from a place.
+    /// Fills `bytes` from an offset.
     fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<()>;
 }
 

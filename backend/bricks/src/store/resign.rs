@@ -1,4 +1,4 @@
-//! Right checksums for a spoiled store of version 2, so that its numbers are believed; the fuzz targets use it too.
+//! Correct checksums for a spoiled store of version 2, so that its numbers are trusted; the fuzz targets use it too.
 
 // Offsets as the modules `format` and `entry` describe them; a test of hostile stores compares.
 const HEADER_BYTES: usize = 192;

@@ -1,4 +1,4 @@
-//! One number per voxel of the last slabs of a level: enough for a layer of bricks, the rest is forgotten.
+//! One number per voxel of the last slabs of a level: enough for a layer of bricks; earlier slabs are dropped.
 
 use super::StoreError;
 use crate::{BRICK_EDGE, OWN_EDGE};
@@ -25,7 +25,7 @@ impl Budget {
         Arc::new(Self(AtomicU64::new(bytes)))
     }
 
-    /// Whether so many bytes were left, which are taken then.
+    /// Takes so many bytes if they are left; returns whether they were.
     fn take(&self, bytes: u64) -> bool {
         self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(bytes)).is_ok()
     }
@@ -37,7 +37,7 @@ impl Budget {
 
 /// Where the numbers of a tile of a slab are.
 enum Tile {
-    /// Nowhere: they are all known by one value.
+    /// Nowhere: they all have one value.
     Empty,
     Memory(Box<[f32]>),
     /// In the working file, at the tile's own place.
@@ -58,7 +58,7 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// Bytes that telling of a tile takes.
+    /// Bytes that the description of a tile takes.
     pub const TILE_BYTES: u64 = size_of::<Tile>() as u64;
 
     /// Bytes that a ring of a level takes at most.
@@ -69,8 +69,8 @@ impl Ring {
     /// A ring of a level; with `spill`, the folder for its working file, it may outgrow the budget.
     ///
     /// # Errors
-    /// The folder's disk cannot take the file. Its every byte is set aside now: a disk that is full would be a crash at
-    /// a page written later.
+    /// The folder's disk has no room for the file. All of its bytes are reserved now: a full disk would crash the process
+    /// when a page is written later.
     pub fn new(dims: UVec3, budget: &Arc<Budget>, spill: Option<&Path>) -> Result<Self, StoreError> {
         let (width, height) = (dims.x as usize, dims.y as usize);
         let count = width.div_ceil(TILE) * height.div_ceil(TILE) * kept(dims) as usize;
@@ -101,7 +101,7 @@ impl Ring {
                 let start = place * self.width * self.height + y * TILE * self.width + x * TILE * rows;
                 &bytemuck::cast_slice(map)[start..start + rows * TILE.min(self.width - x * TILE)]
             }
-            Tile::Empty => panic!("a tile is read that has no numbers of its own"),
+            Tile::Empty => panic!("read a tile that has no numbers of its own"),
         }
     }
 
@@ -158,7 +158,7 @@ impl TileRow<'_> {
         }
     }
 
-    /// Forgets a tile: it is known by one value.
+    /// Drops a tile: it has one value.
     pub fn clear(&mut self, tile: usize) {
         if let Tile::Memory(_) = self.tiles[tile] {
             self.budget.give(self.bytes(tile));
@@ -179,7 +179,7 @@ fn spill_file(folder: &Path, bytes: u64) -> Result<MmapMut, StoreError> {
     unsafe { MmapMut::map_mut(&file) }.map_err(StoreError::write(folder))
 }
 
-/// Gives a new file room on the disk.
+/// Reserves room on the disk for a new file.
 fn reserve(mut file: &File, bytes: u64) -> std::io::Result<()> {
     #[cfg(target_os = "linux")]
     {
@@ -190,7 +190,7 @@ fn reserve(mut file: &File, bytes: u64) -> std::io::Result<()> {
             Err(error) => return Err(error.into()),
         }
     }
-    // A file system that cannot set room aside gets zeros; a full disk says so at one of them.
+    // A file system that cannot reserve room gets zeros; a full disk then fails on one of them.
     let mut left = bytes;
     while left > 0 {
         let part = left.min(ZEROS.len() as u64);

@@ -75,7 +75,7 @@ impl Sink {
     }
 }
 
-/// A store may take the place of a store, and of nothing else: a mistyped name must cost nobody their data.
+/// A store may replace a store and nothing else: a mistyped name must not destroy data.
 fn check_replaceable(path: &Path) -> Result<(), StoreError> {
     let Ok(found) = std::fs::metadata(path) else { return Ok(()) };
     let mut start = Vec::new();

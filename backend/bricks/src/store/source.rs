@@ -14,27 +14,27 @@ pub struct NodeSummary {
     pub max: f32,
 }
 
-/// Why a brick could not be had.
+/// Why a brick could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{sentence}")]
 pub struct BrickError {
     /// One sentence that names the file and the brick.
     pub sentence: String,
-    /// Whether to ask for it again makes sense.
+    /// Whether asking for it again makes sense.
     pub kind: BrickErrorKind,
 }
 
-/// Whether a brick that could not be had may be had later.
+/// Whether a brick that could not be read may be readable later.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BrickErrorKind {
-    /// What was read is no brick: another read finds the same.
+    /// What was read is not a brick: another read finds the same.
     Damaged,
-    /// It could not be read: the disk or the network may answer another time.
+    /// It could not be read: the disk or the network may answer later.
     Unavailable,
 }
 
 impl BrickError {
-    /// What was read is no brick.
+    /// What was read is not a brick.
     pub fn damaged(sentence: impl Into<String>) -> Self {
         Self { sentence: sentence.into(), kind: BrickErrorKind::Damaged }
     }

@@ -8,14 +8,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Slabs under way at once: one being read, one waiting, one being taken in.
 pub(super) const SLABS_UNDER_WAY: usize = 3;
 
-/// A slab without anything that is not finite.
+/// A slab of finite numbers.
 pub(super) struct CleanSlab {
     pub stored: Samples,
     /// Voxels that were NaN, infinite or beyond f32, and were replaced.
     pub replaced: u64,
 }
 
-/// Hands every slab of a volume, in order, to `take` until it fails; reads ahead meanwhile. False where `stop` ended it.
+/// Hands every slab of a volume, in order, to `take` until it fails; reads ahead meanwhile. False if `stop` ended it.
 ///
 /// NaN becomes the smallest finite value of the volume; infinities, and what is beyond f32, the smallest and the
 /// largest. To know these, the first slab that has such a voxel makes the rest of the volume be read twice.
@@ -39,7 +39,7 @@ pub(super) fn stream<E: From<VolumeError>>(
         scope.spawn(move || ahead.run(&spares, &filled));
         let mut take_all = || {
             for z in 0..info.dims.z {
-                // A thread that ended without an error was told to stop.
+                // A thread that ended without an error was asked to stop.
                 let Ok(slab) = slabs.recv() else { return Ok(false) };
                 let slab = slab?;
                 take(z, &slab)?;
@@ -82,7 +82,7 @@ impl ReadAhead<'_> {
         }
     }
 
-    /// Reads a slab and cleans it; returns how many voxels were replaced, or None where it was told to stop.
+    /// Reads a slab and cleans it; returns how many voxels were replaced, or None if asked to stop.
     fn read(&mut self, z: u32, slab: &mut Samples) -> Result<Option<u64>, VolumeError> {
         if (self.stop)() {
             return Ok(None);
@@ -120,7 +120,7 @@ impl ReadAhead<'_> {
         self.range = (low <= high).then(|| (lowest.min(low), highest.max(high))).or(self.range);
     }
 
-    /// Reads the rest of the volume for its finite range; None where it was told to stop.
+    /// Reads the rest of the volume for its finite range; None if asked to stop.
     fn survey(&mut self, z: u32, slab: &mut Samples) -> Result<Option<Cleaner>, VolumeError> {
         self.look(slab);
         for z in z + 1..self.info.dims.z {
@@ -140,7 +140,7 @@ impl ReadAhead<'_> {
 
 fn is_clean(slab: &Samples, info: &VolumeInfo) -> bool {
     match slab {
-        // A number times zero is zero, and NaN for what is not finite.
+        // A finite number times zero is zero; anything else gives NaN.
         Samples::F32(values) if info.is_unscaled() => {
             values.chunks(1024).all(|part| part.iter().fold(true, |all, &v| all & (v * 0.0 == 0.0)))
         }
@@ -161,7 +161,7 @@ struct Cleaner {
 }
 
 impl Cleaner {
-    /// Cleans numbers in place; returns how many were not finite.
+    /// Cleans numbers in place; returns how many were infinite or NaN.
     fn clean(&self, slab: &mut Samples, info: &VolumeInfo) -> u64 {
         let mut replaced = 0;
         for i in 0..slab.len() {

@@ -1,4 +1,4 @@
-//! The table of an open store: from a node to what is known of it, read block by block as it is asked for.
+//! The table of an open store: from a node to what is known of it, read block by block on demand.
 
 use super::Codec;
 use super::entry::{ENTRY_BYTES, Entry};
@@ -23,11 +23,11 @@ pub(super) enum Found {
     Entry(Entry),
     /// An entry above it stands for it: all of its samples equal this one's `low`.
     Within(Entry),
-    /// It cannot be told, as the entry at this place is no good. The last one above it that is, where there is one.
+    /// Unknown, as the entry at this place is bad. Holds the last good one above it, if there is one.
     Lost { place: u64, fault: Fault, above: Option<Entry> },
 }
 
-/// Why an entry cannot be had.
+/// Why an entry cannot be read.
 #[derive(Debug)]
 pub(super) enum Fault {
     /// Its checksum differs, or its numbers make no sense.
@@ -57,7 +57,7 @@ impl Table {
         match bytes.and_then(|bytes| bytes.checked_add(header.table_offset)) {
             Some(end) if end <= file_bytes => Ok(Table::Dense { nodes, start: header.table_offset }),
             _ => Err(format!(
-                "it has {file_bytes} bytes, and the table of {} nodes does not fit",
+                "it has {file_bytes} bytes, but the table of {} nodes does not fit",
                 header.nodes
             )),
         }
@@ -69,7 +69,7 @@ impl Table {
         let end = count.checked_mul(ENTRY_BYTES as u64).and_then(|bytes| bytes.checked_add(start));
         if start < header.length() || end != Some(file_bytes) {
             return Err(format!(
-                "it has {file_bytes} bytes, and the table of {count} nodes does not end there"
+                "it has {file_bytes} bytes, but the table of {count} nodes does not end there"
             ));
         }
         if count == 0 || NodeTable::new(shape).is_none_or(|nodes| nodes.nodes() < count) {

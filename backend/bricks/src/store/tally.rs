@@ -1,4 +1,4 @@
-//! Errors, added up.
+//! Errors, summed.
 
 /// Largest and weighted mean square error, in data units.
 #[derive(Clone, Copy, Debug, Default)]

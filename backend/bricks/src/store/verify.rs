@@ -7,7 +7,7 @@ use crate::{BrickSource, CellRanges, NodeKey};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Longest list of damages.
+/// The most damages that are listed.
 pub const MOST_DAMAGES: usize = 100;
 /// Bricks between two reports of progress.
 const BRICKS_AT_ONCE: usize = 1024;
@@ -35,7 +35,7 @@ impl Verification {
     }
 }
 
-/// Reads and checks all of a store. `progress` is told (done, total) in bricks.
+/// Reads and checks all of a store. `progress` gets (done, total) in bricks.
 ///
 /// # Errors
 /// A file that cannot be opened as a store at all.
@@ -44,7 +44,7 @@ pub fn verify(path: &Path, progress: &dyn Fn(u64, u64)) -> Result<Verification, 
 }
 
 impl Store {
-    /// Reads and checks all of it: header, table, every brick and what lies between. `progress` is told (done, total)
+    /// Reads and checks all of it: header, table, every brick and what lies between. `progress` gets (done, total)
     /// in bricks. A store of format version 1 has no checksums: of its bricks only damage that keeps them from being
     /// read is found.
     pub fn verify(&self, progress: &dyn Fn(u64, u64)) -> Verification {
@@ -68,15 +68,15 @@ impl Store {
     }
 }
 
-/// A header that reads well holds no other bytes than it is written with.
+/// A valid header has no bytes other than those written.
 fn check_header_bytes(store: &Store, found: &mut Verification) {
     let mut bytes = vec![0; store.header.length() as usize];
     if store.file.read_at(0, &mut bytes).is_err() || bytes != store.header.to_bytes() {
-        found.note("the header has bytes that mean nothing".into());
+        found.note("the header has meaningless bytes".into());
     }
 }
 
-/// An entry of the table, and the node that it is of, where that can be told.
+/// An entry of the table, and its node if that is known.
 struct Listed {
     place: u64,
     node: Option<NodeKey>,
@@ -97,7 +97,7 @@ fn dense_nodes(store: &Store, found: &mut Verification) -> Vec<Listed> {
 }
 
 /// All nodes of the tree. Where no entry is damaged, children must lie where their parents say, and table and bricks
-/// must fill the file without gaps; otherwise what a damaged entry leads to cannot be told from what nothing leads to.
+/// must fill the file without gaps; otherwise data that a damaged entry points to look like data that nothing points to.
 fn tree_nodes(store: &Store, found: &mut Verification) -> Vec<Listed> {
     let count = store.table.count();
     let mut keys: Vec<Option<NodeKey>> = vec![None; count as usize];
@@ -134,10 +134,10 @@ fn pass_on(
     found: &mut Verification,
 ) {
     let octants = (0..8u32).filter(|octant| entry.children >> octant & 1 == 1);
-    // The table lets no entry pass whose children lie outside it.
+    // The table rejects entries whose children lie outside it.
     for (octant, slot) in octants.zip(&mut keys[entry.first_child as usize..]) {
         if slot.is_some() {
-            found.note(format!("entry {place} of the table has a child that another has too"));
+            found.note(format!("entry {place} of the table shares a child with another entry"));
         }
         *slot = node.map(|node| node.child(octant));
     }

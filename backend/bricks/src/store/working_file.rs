@@ -1,4 +1,4 @@
-//! A file that is being written: beside the one that it will be, locked, and gone when the work is given up.
+//! A file being written: beside its final place, locked, and removed if the work is abandoned.
 
 use super::bytes::checksum;
 use std::ffi::{OsStr, OsString};
@@ -6,7 +6,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How often a file is opened anew that another process renamed between opening and locking.
+/// How often to open a file again that another process renamed between opening and locking.
 const ATTEMPTS: usize = 10;
 /// With what is put around them, longer names exceed the 255 bytes of most file systems.
 const LONGEST_NAME_BYTES: usize = 240;
@@ -29,7 +29,7 @@ impl WorkingFile {
             target.with_file_name(working_name(target.file_name().ok_or(io::ErrorKind::InvalidInput)?));
         for _ in 0..ATTEMPTS {
             if std::fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-                let what = format!("{} is in the way, and no file", path.display());
+                let what = format!("{} is in the way, and is not a file", path.display());
                 return Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
             }
             let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
@@ -71,16 +71,16 @@ fn working_name(name: &OsStr) -> OsString {
     working
 }
 
-/// Takes a file for this process. Where a file system knows no locks, nobody else is kept from it.
+/// Takes a file for this process. On a file system without locks, other processes are not kept from it.
 fn lock(file: &File) -> io::Result<()> {
     match file.try_lock() {
         Ok(()) => Ok(()),
         Err(TryLockError::WouldBlock) => {
-            let what = "another program is writing it: wait for that, or choose another name";
+            let what = "another program is writing it: wait until it is done, or choose another name";
             Err(io::Error::new(io::ErrorKind::ResourceBusy, what))
         }
         Err(TryLockError::Error(error)) => {
-            tracing::warn!(%error, "files cannot be locked here: see that no other program writes the same store");
+            tracing::warn!(%error, "files cannot be locked here: make sure that no other program writes the same store");
             Ok(())
         }
     }

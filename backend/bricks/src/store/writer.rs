@@ -55,7 +55,7 @@ impl Write for Writer {
         Ok(bytes.len())
     }
 
-    /// Nothing: [`Writer::finish`] tells whether all was written.
+    /// None: [`Writer::finish`] returns whether all was written.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
@@ -63,7 +63,7 @@ impl Write for Writer {
 
 impl Drop for Writer {
     fn drop(&mut self) {
-        // Of a file that is given up, nobody wants to know.
+        // Errors of an abandoned file do not matter.
         let _ = self.end();
     }
 }

@@ -44,7 +44,7 @@ pub enum VolumeError {
     Unsupported {
         /// The file.
         path: PathBuf,
-        /// What is not supported, and what to convert to.
+        /// What lacks support, and what to convert to.
         what: String,
     },
     /// Neither extension nor first bytes are known.

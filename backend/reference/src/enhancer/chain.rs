@@ -1,4 +1,4 @@
-//! A chain of enhancers, told of one ray.
+//! A chain of enhancers, prepared for one ray.
 
 use super::band_picker::Picker;
 use super::clip_plane::Clip;
@@ -44,7 +44,7 @@ impl Chain {
         self.links.is_empty()
     }
 
-    /// The direction that a link compares gradients with; None where no link looks at gradients.
+    /// The direction that a link compares gradients with; None if no link looks at gradients.
     pub fn looks_along(&self) -> Option<DVec3> {
         self.links.iter().find_map(|link| match link {
             Link::Probe(probe) => Some(probe.view),
@@ -69,7 +69,7 @@ impl Chain {
         shares
     }
 
-    /// Importance over a band of the medium after the chain, `told` before it.
+    /// Importance over a band of the medium after the chain, with `told` before it.
     pub fn importance(&self, told: Linear<f64>, shares: &[Linear<f64>; MOST_ENHANCERS]) -> Linear<f64> {
         self.links.iter().zip(shares).fold(told, |told, (link, share)| match link {
             Link::Picker(picker, _) => picker.importance_on(told, *share),
@@ -77,7 +77,7 @@ impl Chain {
         })
     }
 
-    /// The t of a straight way at which a link's law is not smooth, in rising order.
+    /// The t of a straight path at which a link's law is not smooth, in rising order.
     pub fn breaks(&self, way: &Ray) -> Vec<f64> {
         let mut breaks = Vec::new();
         for link in &self.links {

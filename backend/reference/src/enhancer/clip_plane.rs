@@ -21,7 +21,7 @@ impl Clip {
         Self { plane, context }
     }
 
-    /// The t at which a straight way crosses the plane and the back of the sliced tissue.
+    /// The t at which a straight path crosses the plane and the back of the sliced tissue.
     pub fn breaks(&self, way: &Ray) -> [f64; 2] {
         let start = self.distance(way.origin_in_display);
         let speed = self.plane.normal_in_display.dot(way.direction_in_display);

@@ -22,7 +22,7 @@ impl Sphere {
         Self { probe, view, facing }
     }
 
-    /// The t at which a straight way enters the sphere, leaves it, and passes q = 0; those there are.
+    /// The t at which a straight path enters the sphere, leaves it, and passes q = 0; those there are.
     pub fn breaks(&self, way: &Ray) -> [f64; 3] {
         let from_centre = way.origin_in_display - self.probe.centre_in_display;
         let nearest = -from_centre.dot(way.direction_in_display);

@@ -10,7 +10,7 @@ use bricks::BrickError;
 use glam::{DVec3, DVec4};
 use std::ops::ControlFlow;
 
-/// Times that a way is laid anew, closer to the true one.
+/// How often a way is laid again, closer to the true one.
 const MOST_TRIES: u32 = 7;
 /// The first try's deviation from the way, finest voxels, for a tolerance of 1: it falls with the tolerance's root.
 const FIRST_DEVIATION_VOXELS: f64 = 0.1;
@@ -26,7 +26,7 @@ const WAY_SHARE: f64 = 0.2;
 /// A ray through a field with a refraction index.
 ///
 /// Its way is laid as chords that lie within a deviation δ of it, and light is gathered along them. What light misses by
-/// that is proportional to δ, so two ways of different δ tell how much: with R the light and δ' < δ, it is about
+/// that is proportional to δ, so two ways of different δ show how much: with R the light and δ' < δ, it is about
 /// |R − R'| δ' / (δ − δ'). The estimate doubles it. δ falls until the estimate and the light's own error stay within the
 /// tolerance.
 pub struct BentLight<'a> {

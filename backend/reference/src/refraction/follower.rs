@@ -1,4 +1,4 @@
-//! The way of light through a volume, as a chain of chords.
+//! The path of light through a volume, as a chain of chords.
 
 use super::bending::Bending;
 use super::interface::{Passed, pass};
@@ -28,13 +28,13 @@ const MOST_MEETINGS: u32 = 8;
 /// Steps at most.
 const MOST_STEPS: u32 = 4_000_000;
 
-/// Takes a chord: a straight way and its length in metres. Breaks when it has seen enough.
+/// Takes a chord: a straight path and its length in metres. Breaks when it has seen enough.
 pub type Take<'t> = &'t mut dyn FnMut(Ray, f64) -> Result<ControlFlow<()>, BrickError>;
 
 /// How a way ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// As it should: outside, after the longest way, or where nobody wanted to see more.
+    /// As it should: outside, after the longest way, or when no more light was wanted.
     Followed,
     /// The steps became too small or too many.
     Lost,
@@ -228,7 +228,7 @@ impl<'a> Follower<'a> {
         Ok(shown)
     }
 
-    /// How far along a straight way from inside the volume it ends, metres.
+    /// How far along a straight path from inside the volume it ends, metres.
     fn exit_m(&self, way: &Ray) -> f64 {
         let line = way.line(&self.bending.volume_from_display);
         line.exit(DVec3::ZERO, self.bending.field.extent()).max(0.0)

@@ -1,4 +1,4 @@
-//! The laws of geometrical optics that a way must keep.
+//! The laws of geometrical optics that a path must keep.
 
 use super::bending::Bending;
 use super::follower::{End, Follower, LONGEST_WAY_DIAGONALS, Limits};

@@ -1,4 +1,4 @@
-//! Light along a way that the refraction index bends.
+//! Light along a path that the refraction index bends.
 
 mod bending;
 mod bent_light;

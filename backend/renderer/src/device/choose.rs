@@ -1,4 +1,4 @@
-//! Which device: asked for, or the best there is.
+//! Which device: the one asked for, or the best available.
 
 use super::{CpuDevice, Device, DeviceError};
 use crate::cache_size::slots_within;

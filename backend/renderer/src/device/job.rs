@@ -159,7 +159,7 @@ impl ViewJob<'_> {
 /// What a cast found.
 #[derive(Clone, Debug, Default)]
 pub struct CastOutcome {
-    /// One per place of the index; empty where the frame's table has it.
+    /// One per place of the index; empty if the frame's table has it.
     pub feedback: Vec<FeedbackEntry>,
     /// View by view, the tiles of which a ray met a node that is too coarse; empty where they were not asked for.
     pub missing_tiles: Vec<Vec<u32>>,

@@ -1,4 +1,4 @@
-//! Feedback tables between the end of their frame and whoever takes them.
+//! Feedback tables between the end of their frame and the moment they are taken.
 
 use std::collections::VecDeque;
 
@@ -18,8 +18,8 @@ impl<T> Default for UnderWay<T> {
 }
 
 impl<T> UnderWay<T> {
-    /// Adds the table of the latest frame. Where nobody has taken tables for long the oldest is given up: a frame is
-    /// never held up by tables, and what it says is told again by later ones.
+    /// Adds the table of the latest frame. If tables have not been taken for long, the oldest is dropped: tables never hold
+    /// up a frame, and later ones repeat what it says.
     pub(super) fn start(&mut self, table: T) {
         if self.tables.len() == MOST_UNDER_WAY {
             self.tables.pop_front();

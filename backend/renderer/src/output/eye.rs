@@ -26,7 +26,7 @@ pub struct ScreenRaster {
 }
 
 impl ScreenRaster {
-    /// As many pixels as the display's first projector has; 1 × 1 where there is none.
+    /// As many pixels as the display's first projector has; 1 × 1 if there is none.
     pub fn of(display: &Display) -> Self {
         let (width, height) =
             display.projectors.first().map_or((1, 1), |p| (p.raster.width, p.raster.height));
@@ -54,7 +54,7 @@ pub struct EyePlan {
 }
 
 impl EyePlan {
-    /// `weights(screen point)` gives (projector, weight) pairs whose weights add to 1 where the eye sees light.
+    /// `weights(screen point)` gives (projector, weight) pairs whose weights add to 1 if the eye sees light.
     pub fn new<W>(raster: ScreenRaster, projectors: usize, weights: impl Fn(DVec2) -> W) -> Self
     where
         W: IntoIterator<Item = (usize, f64)>,
@@ -146,7 +146,7 @@ fn blend(picture: PictureRef<'_>, (x0, x1, share): (usize, usize, f64), y: usize
     std::array::from_fn(|i| lerp(f64::from(left[i]), f64::from(right[i]), share))
 }
 
-/// Exact at share 0, also where `b` is not finite.
+/// Exact at share 0, even if `b` is infinite or NaN.
 fn lerp(a: f64, b: f64, share: f64) -> f64 {
     if share == 0.0 { a } else { a + (b - a) * share }
 }

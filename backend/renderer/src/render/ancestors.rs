@@ -1,4 +1,4 @@
-//! The bricks above a node, as filtering over levels looks at them.
+//! The bricks above a node, as filtering over levels reads them.
 
 use crate::working_set::ResidentBrick;
 use bricks::{CellRanges, NodeKey, OVERLAP, OWN_EDGE};
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn a_cell_sees_the_samples_of_the_parent_that_lie_in_it() {
-        // Parent samples that tell their own texel along x.
+        // Parent samples that encode their own texel along x.
         let mut samples = vec![0u16; BRICK_VOXELS];
         for x in 0..32 {
             for (y, z) in (0..32).flat_map(|y| (0..32).map(move |z| (y, z))) {

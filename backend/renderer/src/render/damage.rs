@@ -1,4 +1,4 @@
-//! The bricks that could not be read: which, why, and which of them the present frame missed.
+//! The bricks that could not be read: which, why, and which of them the current frame missed.
 
 use bricks::{BrickError, NodeKey};
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,12 +28,12 @@ impl Damage {
         self.known.remove(&node);
     }
 
-    /// Why a node's brick cannot be read; None where nothing is known against it.
+    /// Why a node's brick cannot be read; None if nothing is known against it.
     pub(super) fn of(&self, node: NodeKey) -> Option<&BrickError> {
         self.known.get(&node)
     }
 
-    /// Notes what the frame misses of some nodes that its rays ask for; tells whether it is anything.
+    /// Notes what the frame misses of some nodes that its rays ask for; returns whether it misses any.
     pub(super) fn note_missed(&mut self, nodes: &[NodeKey]) -> bool {
         let unreadable: Vec<NodeKey> =
             nodes.iter().copied().filter(|node| self.known.contains_key(node)).collect();

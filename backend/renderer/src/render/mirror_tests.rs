@@ -20,7 +20,7 @@ fn source() -> Arc<dyn BrickSource> {
     Arc::new(ProceduralVolume::new("marschner-lobb", UVec3::new(61, 47, 53), 1e-3).unwrap())
 }
 
-/// The volume askew before the screen, with levels of detail and light as scenes have them; `across` is what becomes of
+/// The volume askew in front of the screen, with levels of detail and light as scenes have them; `across` is what becomes of
 /// the display's x axis.
 fn askew(across: f64) -> FrameState {
     let mirror = DMat3::from_diagonal(DVec3::new(across, 1.0, 1.0));

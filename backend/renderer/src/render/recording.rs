@@ -1,4 +1,4 @@
-//! The trace of what rays of live frames asked for, where one is wanted.
+//! The trace of what rays of live frames asked for, if one is wanted.
 
 use super::RenderError;
 use crate::working_set::{TraceHeader, TraceWriter};
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// It begins with the first live frame and gets its name at the end.
 #[derive(Debug, Default)]
 pub(super) struct Recording {
-    /// Where, and of what; None where no trace is wanted.
+    /// Where, and of what; None if no trace is wanted.
     wanted: Option<(PathBuf, TraceHeader)>,
     writer: Option<TraceWriter>,
 }

@@ -93,7 +93,7 @@ fn a_trace_has_every_live_frame_with_its_own_rays() {
     let (header, frames) = read(&path);
     assert_eq!((header.dims, header.display.as_str()), (UVec3::splat(100), "test"));
     assert!(frames.iter().map(|frame| frame.index).eq(0..FRAMES));
-    // A report tells what rays of the frame before met.
+    // A report shows what rays of the frame before met.
     for (frame, report) in frames.iter().zip(&reports[1..]) {
         assert_eq!(frame.demand.nodes().len() as u64, report.working_set_union, "frame {}", frame.index);
     }

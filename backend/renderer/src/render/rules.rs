@@ -23,7 +23,7 @@ pub(super) struct FrameRules<'a> {
 }
 
 impl FrameRules<'_> {
-    /// What the index is told by.
+    /// What the index is made from.
     pub(super) fn for_index<'a>(&'a self, shape: &'a OctreeShape, blank_slot: u32) -> IndexRules<'a> {
         IndexRules {
             shape,

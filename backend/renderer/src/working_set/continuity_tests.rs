@@ -2,7 +2,7 @@
 //!
 //! A leaf of depth d shows w V(d) + (1 − w) V(d − 1), with w between its corners. Every V is continuous across bricks, so
 //! the field is where the two leaves at a point have the same share of every level. Leaves of an octree have a face, an
-//! edge or a corner of the smaller one in common, on which shares are bilinear at most: the corners of leaves tell all.
+//! edge or a corner of the smaller one in common, on which shares are bilinear at most: the corners of leaves suffice.
 
 use super::test_world::{Random, World, live_weights, optics, rule, rules};
 use super::{Cut, CutNode, Family};
@@ -69,8 +69,8 @@ struct Tally {
     met: Jumps,
     /// The same, one of them being finer than the rule of detail asks for: it is going.
     going: Jumps,
-    /// The same, one of them touching what came into sight and has not had its detail since: until then nobody saw
-    /// the border.
+    /// The same, one of them touching a leaf that came into sight and still lacks its detail: until then the border was
+    /// hidden.
     new: Jumps,
     /// Beside what no ray of the frame meets.
     unmet: Jumps,

@@ -10,7 +10,7 @@ use bricks::{NodeKey, NodeSummary};
 pub struct CutNode {
     /// Which node.
     pub key: NodeKey,
-    /// Bounds of its values; None where its region lies outside the volume.
+    /// Bounds of its values; None if its region lies outside the volume.
     pub summary: Option<NodeSummary>,
     /// Place of the parent; None at the root.
     pub parent: Option<u32>,
@@ -20,18 +20,18 @@ pub struct CutNode {
     pub brick: Option<ResidentBrick>,
     /// Whether the frame's transfer functions show any of its values.
     pub is_visible: bool,
-    /// Levels it is too coarse by, as of the last frame; at most 0 where no finer level exists.
+    /// Levels it is too coarse by, as of the last frame; at most 0 if no finer level exists.
     pub deficit: f64,
     /// Its share of its own samples, its parent having the rest: t of the spatiotemporal blend.
     pub shown: f32,
-    /// As a leaf: how far it lets finer neighbours show themselves at shared corners. 0 where they must blend down to
-    /// it, 1 where nobody sees a border.
+    /// As a leaf: how far it lets finer neighbours show themselves at shared corners. 0 if they must blend down to
+    /// it, 1 if no viewer sees a border.
     pub permits: f32,
     /// What becomes of its children.
     pub family: Family,
     /// Whether its children are to go, to make room for others.
     pub is_leaving: bool,
-    /// What rays told of it.
+    /// What rays reported of it.
     pub met: Meeting,
 }
 
@@ -174,7 +174,7 @@ impl Cut {
         self.walk_by(|node| node.first_child)
     }
 
-    /// The places of all nodes that rays meet or that stand above such, parents before children.
+    /// The places of all nodes that rays meet, and of those above them, parents before children.
     pub fn walk_shown(&self) -> impl Iterator<Item = u32> + '_ {
         self.walk_by(CutNode::shown_child)
     }

@@ -20,7 +20,7 @@ pub struct IndexRules<'a> {
     /// Whether samples are blended with those of ancestors, whose values lie beyond the node's own bounds.
     pub is_quadrilinear: bool,
     /// A slot that holds no brick and all of whose cells show something; nodes that have no brick of their own and
-    /// blend with their parent stand in it. None where nodes do not blend.
+    /// blend with their parent stand in it. None if nodes do not blend.
     pub blank_slot: Option<u32>,
 }
 
@@ -42,7 +42,7 @@ impl IndexRules<'_> {
         node.summary.is_none_or(|summary| !is_shown(self.optics, summary))
     }
 
-    /// Levels that a node is too coarse by; at most 0 where no finer level exists.
+    /// Levels that a node is too coarse by; at most 0 if no finer level exists.
     pub fn deficit(&self, node: &CutNode) -> f64 {
         self.deficit_by(&self.lod.measured(), node)
     }

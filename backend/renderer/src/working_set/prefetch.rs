@@ -152,7 +152,7 @@ mod tests {
             let (before, now) = (rule(at(-1.0)), rule(at(0.0)));
             let motion = Motion { now: &now, before: &before, between: Duration::from_millis(16) };
             let found = motion.rule_after(Duration::from_millis(320), &shape()).display_from_volume;
-            // The growth of a step is told relative to the scale before it.
+            // The growth of a step is relative to the scale before it.
             let scale = 1.0 + 20.0 * growth / (1.0 - growth);
             let expected = pose(0.2 + 20.0 * turn, scale, 0.3 + 20.0 * way);
             assert!(found.abs_diff_eq(expected, 1e-9), "{found} {expected}");

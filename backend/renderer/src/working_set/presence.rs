@@ -1,7 +1,7 @@
 //! Which nodes rays meet, and how much of them: detail appears and goes in time, and never beside a border it would show.
 //!
-//! What is resident and what is shown are two things. The cut tells what is resident. Of it a family is shown where its
-//! parent is too coarse for the display; every node has its share t of the blend with its parent, which rises or falls in
+//! What is resident and what is shown are two things. The cut is what is resident. A family of it is shown if its parent
+//! is too coarse for the display; every node has its share t of the blend with its parent, which rises or falls over
 //! time. So a family that is no longer needed fades away and stays in the cache until others need the room.
 
 use super::{Cut, CutNode, Family, IndexRules};
@@ -12,7 +12,7 @@ use bricks::{NodeKey, OctreeShape};
 pub struct Memory {
     /// Those that rays met since then, seconds.
     pub met_since_s: f64,
-    /// Those that began to show since then: rays have not had the time to tell.
+    /// Those that began to show since then: rays have had no time to report them.
     pub new_since_s: f64,
 }
 
@@ -39,7 +39,7 @@ pub struct Tick {
     pub memory: Memory,
 }
 
-/// Tells nodes of the cut what the frame thinks of them.
+/// Brings visibility and deficits of all nodes up to date with the frame.
 pub fn refresh(cut: &mut Cut, rules: &IndexRules, order: &[u32]) {
     for &place in order {
         let is_visible = !rules.is_empty(cut.node(place));
@@ -133,7 +133,7 @@ pub fn advance(
 }
 
 /// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they
-/// blend down to it; where it is not, it will be split as soon as anybody sees it, and until then nobody sees a border.
+/// blend down to it; where it is not, it will be split as soon as a ray meets it, and until then no border shows.
 fn permitted(is_visible: bool, deficit: f64, is_seen: bool) -> f32 {
     if is_visible && (deficit <= 0.0 || is_seen) { 0.0 } else { 1.0 }
 }
@@ -185,7 +185,7 @@ impl Cut {
         }
     }
 
-    /// Tells a node what its children know of rays: it takes their place.
+    /// Passes to a node what its children know of rays: it takes their place.
     pub(super) fn inherit_meeting(&mut self, place: u32) {
         let first = self.node(place).first_child.expect("only what has children can take their place");
         let met = (first..first + 8).map(|child| self.node(child).met);

@@ -5,7 +5,7 @@ use super::Cut;
 /// The priority of every place, levels: how much too coarse a node is for the rays that met it or its kin; above that of
 /// its children by one level at least, −∞ where no ray met it nor its kin.
 ///
-/// `met` tells the deficit of a place that a ray met, None for others; `order` is [`Cut::walk`].
+/// `met` is the deficit of a place that a ray met, None for others; `order` is [`Cut::walk`].
 pub fn priorities(cut: &Cut, order: &[u32], met: impl Fn(u32) -> Option<f64>) -> Vec<f64> {
     let mut priority = vec![f64::NEG_INFINITY; cut.nodes().len()];
     for &place in order {

@@ -1,4 +1,4 @@
-//! When to ask again for a brick that could not be had.
+//! When to ask again for a brick that could not be read.
 
 use bricks::{BrickErrorKind, NodeKey};
 use std::collections::HashMap;
@@ -33,7 +33,7 @@ impl Retry {
         Self::default()
     }
 
-    /// Notes a failed read; tells whether it is the brick's first, which is the one to say in the log.
+    /// Notes a failed read; returns whether it is the brick's first, which is the one to log.
     pub fn failed(&mut self, key: NodeKey, kind: BrickErrorKind, now_s: f64) -> bool {
         self.forget_old(now_s);
         let before = self.failed.get(&key);
@@ -75,7 +75,7 @@ impl Retry {
         self.families.is_empty() || self.families.get(&key).is_none_or(|&again_s| again_s <= now_s)
     }
 
-    /// When the first of the waits after `now_s` is over; None where nothing will change by waiting.
+    /// When the first of the waits after `now_s` is over; None if nothing will change by waiting.
     pub fn next(&self, now_s: f64) -> Option<f64> {
         let waits = self.failed.values().map(|failure| failure.again_s);
         waits.filter(|&at| at > now_s && at.is_finite()).min_by(f64::total_cmp)
@@ -98,7 +98,7 @@ impl Retry {
         };
     }
 
-    /// What nobody has asked for since long after its wait was over is as good as new.
+    /// A brick not asked for since long after its wait was over counts as new.
     fn forget_old(&mut self, now_s: f64) {
         self.failed.retain(|_, failure| failure.again_s + 2.0 * LONGEST_WAIT_S >= now_s);
         self.families.retain(|_, again_s| *again_s + 2.0 * LONGEST_WAIT_S >= now_s);

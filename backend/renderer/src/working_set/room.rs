@@ -5,8 +5,8 @@ use super::{Family, Moment, neighbours};
 use bricks::NodeKey;
 use std::collections::{BTreeMap, HashSet};
 
-/// By how many levels a family that rays see must be less needed than another that takes its room. Without it, two that
-/// are equally needed would change places for ever.
+/// How many levels less needed a visible family must be than the one that takes its room. Without this margin, two that
+/// are equally needed would swap places for ever.
 const MARGIN: f64 = 0.25;
 
 /// How needed a family is: priority, when it was last met, rays, key. Nothing in it is NaN.
@@ -30,7 +30,7 @@ impl PartialOrd for Ordered {
     }
 }
 
-/// So many nodes may wait for room at a time: more would only fade what may be wanted again.
+/// How many nodes may wait for room at a time: more would only fade what may be wanted again.
 const MOST_WAITING: usize = 16;
 
 /// The room that is left in one update.
@@ -98,7 +98,7 @@ impl<'a> Room<'a> {
         if self.owed > self.free {
             self.give_up(set, urgency, &kept);
         }
-        // Who waits is served before those that need it less.
+        // Whatever waits is served before those that need room less.
         if self.owed > self.free || self.waiting > 0 {
             self.waiting += 1;
             return Vec::new();

@@ -10,7 +10,7 @@ pub struct Shortfall {
 }
 
 impl Shortfall {
-    /// Of leaves, each with its rays and its deficit in levels; None where no ray met any.
+    /// Of leaves, each with its rays and its deficit in levels; None if no ray met any.
     pub fn of(leaves: impl Iterator<Item = (u32, f64)>) -> Option<Self> {
         let (mut all, mut weighted, mut largest) = (0.0, 0.0, 0.0_f64);
         for (rays, deficit) in leaves {

@@ -6,7 +6,7 @@ use bricks::is_shown;
 use bricks::{NodeKey, NodeSummary};
 use glam::IVec3;
 
-/// What a coarser leaf lets finer neighbours show at a corner: told of its place, and of the cell one level above the
+/// What a coarser leaf lets finer neighbours show at a corner, from its place and from the cell one level above the
 /// corner's leaf that lies in it.
 trait Permission: Fn(u32, NodeKey) -> f32 {}
 
@@ -15,7 +15,7 @@ impl<F: Fn(u32, NodeKey) -> f32> Permission for F {}
 /// The weights of corners x + 2 y + 4 z of every place: for leaves that rays meet, the least share of all cells around the
 /// corner at the leaf's depth. A cell that is covered by a coarser leaf has what that leaf permits; a finer one is whole.
 /// All leaves of a depth that share a corner have the same weight there. Other places have full weights.
-/// Where the detail below a leaf `is_lost`, the rule of detail tells, as in [`settled_weights`].
+/// Where the detail below a leaf `is_lost`, the rule of detail decides, as in [`settled_weights`].
 pub fn corner_weights(
     cut: &Cut,
     rules: &IndexRules,
@@ -73,7 +73,7 @@ fn weigh(cut: &Cut, shares: &[Share], around: &Around, permits: &impl Permission
         return;
     }
     for (octant, &place) in around.iter().enumerate().filter(|&(_, &place)| place != BEYOND) {
-        // On a face or an edge of a larger leaf there is no corner of it.
+        // A point on a face or an edge of a larger leaf is not a corner of it.
         if around.iter().filter(|&&other| other == place).count() == 1 {
             weights[place as usize][7 ^ octant] = least_share(cut, shares, around, octant, permits);
         }

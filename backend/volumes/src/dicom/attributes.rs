@@ -26,7 +26,7 @@ pub(super) fn item(object: &InMemDicomObject, sequence: Tag) -> Option<&InMemDic
     object.get(sequence)?.items()?.first()
 }
 
-/// The text without the blanks around it; None where there is none.
+/// The text without the blanks around it; None if there is none.
 pub(super) fn text(element: Option<&InMemElement>) -> Option<String> {
     let text = element?.to_str().ok()?;
     let text = text.trim_matches(|c: char| c.is_whitespace() || c == '\0');

@@ -1,4 +1,4 @@
-//! The bytes of a frame, out of its file and whatever packs them there.
+//! The bytes of a frame, extracted from its file and unpacked.
 
 use super::header::{Frame, ImageFile, cause_of, damaged};
 use super::rle;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 const FIRST_PIXELS: Tag = Tag(0x7FE0, 0x0008);
 /// None of the packings makes fewer bytes of so many: deflate, the best of them, has 1032.
 const LARGEST_RATIO: u64 = 1032;
-/// The tags that may tell images at the same place apart, in the order that they sort by.
+/// The tags that may distinguish images at the same place, in the order that they sort by.
 pub(super) const MOMENT_NAMES: [&str; 5] =
     ["TemporalPosition", "AcquisitionTime", "TriggerTime", "EchoTime", "InstanceNumber"];
 
@@ -66,7 +66,7 @@ pub(super) struct Frame {
     pub pose: Option<Pose>,
     /// From column to column and from row to row, mm.
     pub spacing_mm: Option<[f64; 2]>,
-    /// From slice to slice, mm, where positions do not tell it.
+    /// From slice to slice, mm, if positions do not give it.
     pub slice_spacing_mm: Option<f64>,
     /// Value = slope × number + intercept.
     pub scaling: (f64, f64),

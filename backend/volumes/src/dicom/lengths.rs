@@ -139,7 +139,7 @@ impl<F: Read + Seek> Walk<F> {
         }))
     }
 
-    /// Goes to the next header, in the value where that is made of elements; false where it cannot be told.
+    /// Goes to the next header, in the value where that is made of elements; false if that is unknown.
     fn go_into(&mut self, header: &Header) -> Result<bool> {
         let is_item = header.group == ITEM_GROUP;
         if header.length == UNDEFINED {

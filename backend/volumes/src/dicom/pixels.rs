@@ -16,7 +16,7 @@ pub(super) struct PixelFormat {
 }
 
 impl PixelFormat {
-    /// The type that holds the numbers; None where the bits make no sense, or are not read here.
+    /// The type that holds the numbers; None if the bits make no sense, or are not read here.
     pub fn element(&self) -> Option<Element> {
         let fits = self.stored >= 1 && self.high_bit < self.allocated && self.stored <= self.high_bit + 1;
         match (fits, self.allocated, self.is_signed) {

@@ -4,7 +4,7 @@
 const HEADER_BYTES: usize = 64;
 const MOST_SEGMENTS: usize = 15;
 
-/// The cells of a frame, lowest byte first: `pixels` of `cell_bytes` each. None where the data are damaged.
+/// The cells of a frame, lowest byte first: `pixels` of `cell_bytes` each. None if the data are damaged.
 ///
 /// Each segment holds one byte of every cell, the highest first.
 pub(super) fn unpack(packed: &[u8], pixels: usize, cell_bytes: usize) -> Option<Vec<u8>> {

@@ -49,7 +49,7 @@ pub(super) fn series_of(path: &Path) -> Result<Vec<Series>, VolumeError> {
     let mut paths = Vec::new();
     list(folder, 1, &mut paths)?;
     paths.sort();
-    // Other files of the folder are not what was asked for: those that cannot be read are no series of it.
+    // Other files of the folder were not asked for: those that cannot be read belong to no series of it.
     let others = paths.par_iter().filter_map(|path| header::read(path).ok());
     let others: Vec<Frame> = others.collect::<Vec<_>>().into_iter().flatten().collect();
     let own = group(others.into_iter()).into_iter().find(|series| belongs(&first, series));
@@ -142,7 +142,7 @@ fn ambiguous(path: &Path, what: &str, all: &[Series]) -> VolumeError {
     VolumeError::unsupported(path, what)
 }
 
-/// Enough of the end of a UID to tell series apart.
+/// Enough of the end of a UID to distinguish series.
 const SHOWN_UID_CHARS: usize = 12;
 
 fn describe(number: usize, series: &Series) -> String {

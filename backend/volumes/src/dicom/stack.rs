@@ -61,7 +61,7 @@ fn stack_without_positions(path: &Path, mut series: Series, selection: &Selectio
     Stack { frame: VolumeFrame::of_voxels(spacing_mm * 1e-3), slices: series }
 }
 
-/// Edges of a voxel as one slice alone tells them, mm.
+/// Edges of a voxel from one slice alone, mm.
 fn voxel_mm(path: &Path, slice: &Frame) -> DVec3 {
     let [x, y] = slice.spacing_mm.unwrap_or_else(|| {
         tracing::warn!(path = %path.display(), "no pixel spacing: 1 mm is assumed");
@@ -116,14 +116,14 @@ fn one_per_place(places: Vec<Vec<Frame>>, time: Option<u32>) -> Result<Vec<Frame
     }
 }
 
-/// How many images lie at the places, and what tells them apart.
+/// How many images lie at the places, and what distinguishes them.
 fn counts(places: &[Vec<Frame>], fewest: usize, most: usize) -> String {
     let differing = |place: &Vec<Frame>| -> Vec<&str> {
         let differs = |&i: &usize| place.iter().any(|frame| frame.moment[i] != place[0].moment[i]);
         (0..MOMENT_NAMES.len()).filter(differs).map(|i| MOMENT_NAMES[i]).collect()
     };
     let words = |place: &Vec<Frame>| match differing(place) {
-        tags if tags.is_empty() => "nothing tells them apart".to_owned(),
+        tags if tags.is_empty() => "nothing distinguishes them".to_owned(),
         tags => format!("they differ in {}", tags.join(", ")),
     };
     if fewest == most {

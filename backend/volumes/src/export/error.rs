@@ -1,4 +1,4 @@
-//! Why an export did not come about.
+//! Why an export failed.
 
 use bricks::BrickError;
 use bricks::volume::Element;
@@ -10,14 +10,14 @@ pub enum ExportError {
     /// A brick of the store is damaged.
     #[error(transparent)]
     Brick(#[from] BrickError),
-    /// The name tells no format.
-    #[error("cannot tell what {} is to be: give a name that ends in .nrrd or .zarr", path.display())]
+    /// The name implies no format.
+    #[error("the name {} implies no format: give one that ends in .nrrd or .zarr", path.display())]
     Name {
         /// The file or folder that was to be.
         path: PathBuf,
     },
     /// Something is there already.
-    #[error("{} is there already and is not replaced: give another name or remove it", path.display())]
+    #[error("{} is there already and will not be replaced: give another name or remove it", path.display())]
     Exists {
         /// What is there.
         path: PathBuf,

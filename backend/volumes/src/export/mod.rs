@@ -20,7 +20,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Writes a `.nrrd` file or a `.zarr` folder from a store. It appears under its name only when it is complete;
-/// `progress` is told (done, total) in planes. At no time is the whole volume in memory.
+/// `progress` gets (done, total) in planes. The whole volume is never in memory.
 ///
 /// # Errors
 /// A name of neither kind or of something that is there, a part that is not in the level, values that are beyond the

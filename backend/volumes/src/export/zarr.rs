@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// Edge of a chunk, where memory suffices, and where a layer of such would be larger than the next constant.
+/// Edge of a chunk, if memory suffices, and if a layer of such chunks would be larger than the next constant.
 const CHUNK_EDGES: [u32; 2] = [64, 32];
 /// Largest layer of the large chunks.
 const MOST_LAYER_BYTES: u64 = 1 << 30;

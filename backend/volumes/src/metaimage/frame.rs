@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 ///
 /// The numbers are those of ITK's space, whose axes are left, posterior, superior where it is a patient's. ITK writes
 /// `AnatomicalOrientation` for every volume, derived from the matrix; the matrix says the same with more precision, so
-/// the letters only tell that there is a patient. Without them (or as `???`) the space is unknown, its axes kept.
+/// the letters only say that there is a patient. Without them (or as `???`) the space is unknown, its axes kept.
 pub(super) fn frame(header: &HeaderText, axes: usize) -> Result<VolumeFrame, VolumeError> {
     let unit_m = unit_m(header)?;
     let origin = match header.get(&["offset", "position", "origin"]) {

@@ -50,7 +50,7 @@ fn file_axes(header: &HeaderText, value: &str, axes: usize) -> Result<usize, Vol
     }
 }
 
-/// `name%03d.raw first last step`, whose numbers are 1, as many as the last axis has, and 1 where they are not given.
+/// `name%03d.raw first last step`, whose numbers are 1, as many as the last axis has, and 1 if they are not given.
 fn numbered(header: &HeaderText, value: &str, sizes: &[i64]) -> Option<Numbered> {
     let mut range = [1, *sizes.last()?, 1];
     let mut words = value.split_whitespace();

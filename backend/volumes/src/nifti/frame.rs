@@ -7,8 +7,8 @@ use glam::{DMat3, DVec3};
 /// Smallest 1 − b² − c² − d² of a quaternion that is taken for more than a rounding error.
 const LEAST_SQUARE: f64 = 1e-7;
 
-/// By the affine map where there is one (method 3 of nifti1.h), else by the rotation (method 2), else the voxels'
-/// edges alone (method 1), whose axes are nobody's. A map that cannot be is passed over.
+/// By the affine map if there is one (method 3 of nifti1.h), else by the rotation (method 2), else the voxels'
+/// edges alone (method 1), whose axes belong to no patient. An impossible map is ignored.
 ///
 /// An unknown unit is taken for millimetres and an unknown length for one of them.
 pub(super) fn frame(header: &Header) -> Result<VolumeFrame, VolumeError> {
@@ -17,7 +17,7 @@ pub(super) fn frame(header: &Header) -> Result<VolumeFrame, VolumeError> {
     let rotation = (header.qform_code > 0).then(|| by_rotation(header, unit_m));
     let found = [affine, rotation].into_iter().flatten().find(VolumeFrame::is_sound);
     if found.is_none() && (header.sform_code > 0 || header.qform_code > 0) {
-        tracing::warn!(path = %header.path.display(), "its orientation is no number or flat, and is passed over");
+        tracing::warn!(path = %header.path.display(), "its orientation is flat or not a number, and is ignored");
     }
     Ok(found.unwrap_or_else(|| VolumeFrame::of_voxels(edges(header) * unit_m)))
 }

@@ -29,7 +29,7 @@ pub(super) fn voxels(header: &Header) -> Result<(DataFiles, Packing), VolumeErro
     }
     let beside = [".img", ".img.gz", ".IMG"].map(|ending| with_ending(&header.path, ending));
     let path = beside.iter().find(|path| path.exists()).unwrap_or(&beside[0]).clone();
-    // The first voxels may look like a packed file's start, so the name tells.
+    // The first voxels may look like the start of a packed file, so the name decides.
     let packing = if ends(&path, ".gz") { Packing::Gzip } else { Packing::Plain };
     Ok((DataFiles::One(path), packing))
 }
@@ -38,7 +38,7 @@ fn ends(path: &Path, ending: &str) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().to_ascii_lowercase().ends_with(ending))
 }
 
-/// The path with another ending in place of its own, of which `.gz` is a part.
+/// The path with another ending instead of its own, of which `.gz` is a part.
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let unpacked = if ends(path, ".gz") { path.with_extension("") } else { path.into() };
     unpacked.with_extension(&ending[1..])

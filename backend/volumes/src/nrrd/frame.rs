@@ -5,7 +5,7 @@ use super::axes::{Axes, vector};
 use bricks::volume::{Space, VolumeError, VolumeFrame};
 use glam::{DMat3, DVec3};
 
-/// From `space directions` and `space origin`, or from `spacings` and `axis mins` where there are none; 1 mm where no
+/// From `space directions` and `space origin`, or from `spacings` and `axis mins` if there are none; 1 mm where no
 /// length is given or known.
 pub(super) fn frame(header: &HeaderText, axes: &Axes) -> Result<VolumeFrame, VolumeError> {
     match &axes.directions {
@@ -48,7 +48,7 @@ fn along_axes(header: &HeaderText, axes: &Axes) -> Result<VolumeFrame, VolumeErr
     Ok(VolumeFrame { origin_m: mins * units_m, ..VolumeFrame::of_voxels(spacings * units_m) })
 }
 
-/// A number for each axis of the volume, NaN where it is not given.
+/// A number for each axis of the volume, NaN if it is not given.
 fn per_axis(header: &HeaderText, key: &str, axes: &Axes) -> Result<DVec3, VolumeError> {
     let names = [key, &key.replace(' ', "")];
     let Some(value) = header.get(&names) else { return Ok(DVec3::NAN) };

@@ -1,4 +1,4 @@
-//! Headers that promise what is not there, or what cannot be.
+//! Headers that promise what is missing or impossible.
 
 use super::damage::complaint;
 use super::*;
@@ -16,7 +16,7 @@ fn nrrd_headers_that_lie_are_found_out_before_memory_is_taken() {
     assert!(said("1000000 1000000 1000000", raw).contains("too short"));
     assert!(said("1000000 1000000 1", "endian: big\nencoding: gzip").contains("too short"));
     assert!(said("1000000 1000000 1", text).contains("2 characters cannot hold"));
-    assert!(said("1 1 1", text).contains("\"AB\" is no number of int16"));
+    assert!(said("1 1 1", text).contains("\"AB\" is not a number of type int16"));
     assert!(said("4294967295 4294967295 4294967295", raw).contains("each must be from 1"));
     assert!(said("0 1 1", raw).contains("each must be from 1"));
     assert!(said("5 6", raw).contains("3 numbers"));
@@ -53,7 +53,7 @@ fn nrrd_axes_and_directions_that_lie() {
     assert!(space("(1,0,0) (0,1,0) (0,1,0)").contains("in a plane"));
     assert!(space("(1,0,0) (0,1,0) (0,0,0)").contains("voxel size"));
     assert!(space("(1,0,0) (0,1,0) none").contains("2 of its 3 axes"));
-    assert!(space("(1,0,0) (0,1,0) (0,0,1)\nspace origin: (inf,0,0)").contains("no number"));
+    assert!(space("(1,0,0) (0,1,0) (0,0,1)\nspace origin: (inf,0,0)").contains("not a number"));
 }
 
 #[test]

@@ -42,7 +42,7 @@ impl Hyperstack {
         Self { counts, pages, voxel_mm: [None; 3] }
     }
 
-    /// How many pages counts make; None where they are 0 or beyond all measure.
+    /// How many pages counts make; None if they are 0 or beyond all measure.
     pub fn page_count(counts: [u32; 3]) -> Option<u32> {
         let count = counts.iter().try_fold(1u32, |product, &count| product.checked_mul(count))?;
         (count > 0).then_some(count)
@@ -82,7 +82,7 @@ impl Hyperstack {
         let plane = x.or(y).unwrap_or(UNKNOWN_MM);
         if x.is_none() || z.is_none() {
             let path = path.display();
-            tracing::warn!(%path, "the file does not tell all edges of a voxel: {plane} mm are assumed");
+            tracing::warn!(%path, "the file does not give all edges of a voxel: {plane} mm are assumed");
         }
         DVec3::new(x.unwrap_or(plane), y.unwrap_or(plane), z.unwrap_or(plane))
     }
@@ -97,7 +97,7 @@ fn one_of(things: &str, option: &str, count: u32, asked: Option<u32>) -> Result<
     }
 }
 
-/// Millimetres in a unit of that name; None where it is no length.
+/// Millimetres in a unit of that name; None if it is not a length.
 pub(super) fn unit_mm(name: &str) -> Option<f64> {
     Some(match name.trim() {
         "µm" | "μm" | "um" | "micron" | "microns" | "micrometer" | "micrometre" | "\\u00B5m" | "\\u00b5m" => {
@@ -113,7 +113,7 @@ pub(super) fn unit_mm(name: &str) -> Option<f64> {
     })
 }
 
-/// Edges of a pixel in mm that the resolution for print tells, where it is no printer's.
+/// Edges of a pixel in mm from the print resolution, unless that is a printer's default.
 pub(super) fn printed_mm(resolution: Option<([f64; 2], u16)>) -> [Option<f64>; 2] {
     match resolution {
         Some((per_cm, CENTIMETRE)) if per_cm.iter().all(|&n| n > 1.0) => per_cm.map(|n| Some(10.0 / n)),

@@ -5,7 +5,7 @@ use super::hyperstack::{Hyperstack, unit_mm};
 /// What ImageJ's description starts with.
 const START: &str = "ImageJ=";
 
-/// The stack, and how many pages it has (one may be listed for all); None where the description is not ImageJ's, or
+/// The stack, and how many pages it has (one may be listed for all); None if the description is not ImageJ's, or
 /// contradicts itself.
 pub(super) fn hyperstack(
     description: &str,

@@ -59,7 +59,7 @@ pub(super) struct TiffFile {
     pub pages: Vec<usize>,
     decoder: Decoder<Relabelled>,
     length: u64,
-    /// Where the pages lie if not the list of pages tells it: one after the other from this byte.
+    /// Where the pages lie without a list of pages: one after the other from this byte.
     contiguous: Option<u64>,
 }
 
@@ -208,13 +208,13 @@ impl TiffFile {
         Ok(())
     }
 
-    /// What the first page says in words; empty where it says nothing.
+    /// What the first page says in words; empty if it says nothing.
     pub fn description(&mut self) -> String {
         let mut tags = self.decoder.image_ifd();
         let bytes = tags.find_entry(Tag::ImageDescription).map_or(0, |entry| entry.count());
         let mut text = vec![0; bytes.min(self.length).min(MOST_TAG_BYTES) as usize];
         match tags.find_tag_bytes(Tag::ImageDescription, &mut text, 0) {
-            // ImageJ writes Latin-1 where its text is not ASCII.
+            // ImageJ writes Latin-1 if its text is not ASCII.
             Ok(_) => String::from_utf8(text)
                 .unwrap_or_else(|text| text.as_bytes().iter().map(|&byte| char::from(byte)).collect()),
             Err(_) => String::new(),

@@ -66,7 +66,7 @@ struct Page {
     start: u64,
     /// So many bytes each: number, type, count of values, and the values or their place.
     tags: Vec<u8>,
-    /// Place of the next page; 0 where there is none.
+    /// Place of the next page; 0 if there is none.
     next: u64,
 }
 

@@ -130,7 +130,7 @@ impl VolumeReader for TiffVolume {
     }
 }
 
-/// What the description of a file tells of all of its pages; None where it tells nothing. Also how many pages there are.
+/// What the description of a file says of all of its pages; None if it says nothing. Also how many pages there are.
 fn description(file: &mut TiffFile) -> Result<Option<(Hyperstack, u32)>, VolumeError> {
     let (text, pages) = (file.description(), file.pages.len() as u32);
     if ome::is_ome(&text) {

@@ -92,7 +92,7 @@ impl LevelArray {
         self.shards.clear();
     }
 
-    /// Decodes a chunk; None where it is not there. Of a chunk much thicker than the memory allows, only the `planes`
+    /// Decodes a chunk; None if it is not there. Of a chunk much thicker than the memory allows, only the `planes`
     /// of a dimension (in voxels of the array) may be asked for.
     pub fn block(
         &self,

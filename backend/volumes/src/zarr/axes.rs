@@ -16,7 +16,7 @@ pub(super) struct Axes {
     pub z: Option<usize>,
     pub channel: Option<usize>,
     pub time: Option<usize>,
-    /// Metres of the unit of each dimension; 1 where it is no length.
+    /// Metres of the unit of each dimension; 1 if it is not a length.
     pub unit_m: Vec<f64>,
 }
 

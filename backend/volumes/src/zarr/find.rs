@@ -13,7 +13,7 @@ const MOST_LISTED: usize = 20;
 /// The image or array in a folder; of a folder of images (as bioformats2raw writes them) the only one, or the one
 /// that [`Selection::series`] names: its folder's name, or its number from 1.
 pub(super) fn image(path: &Path, selection: &Selection) -> Result<Image, VolumeError> {
-    let node = Node::read(path)?.ok_or_else(|| VolumeError::unsupported(path, "it is no Zarr folder"))?;
+    let node = Node::read(path)?.ok_or_else(|| VolumeError::unsupported(path, "it is not a Zarr folder"))?;
     if node.shape.is_some() {
         return Image::of_array(path, &node);
     }
@@ -57,7 +57,7 @@ fn children(path: &Path) -> Result<Vec<(PathBuf, Node)>, VolumeError> {
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         (name.parse().unwrap_or(u64::MAX), name)
     });
-    // A child that cannot be read is no choice, and no reason not to read another one.
+    // A child that cannot be read is not a choice, nor a reason to skip the others.
     let read = |folder: PathBuf| Node::read(&folder).ok().flatten().map(|node| (folder, node));
     Ok(folders.into_iter().filter_map(read).collect())
 }

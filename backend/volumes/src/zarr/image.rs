@@ -12,7 +12,7 @@ pub(super) struct Image {
     pub folder: PathBuf,
     /// Finest first; at least one.
     pub levels: Vec<Level>,
-    /// None where the array's number of dimensions has to tell.
+    /// None if it has to follow from the array's number of dimensions.
     pub axes: Option<Axes>,
     /// Names of the channels, where they have any.
     pub channels: Vec<String>,
@@ -20,9 +20,9 @@ pub(super) struct Image {
 
 /// One resolution of an image.
 pub(super) struct Level {
-    /// The array's folder below the image's; empty where they are the same.
+    /// The array's folder below the image's; empty if they are the same.
     pub path: String,
-    /// Units from a voxel to the next one, and place of the first one, for each dimension; None where nothing is said.
+    /// Units from a voxel to the next one, and place of the first one, for each dimension; None if nothing is said.
     pub placement: Option<Placement>,
 }
 
@@ -85,7 +85,7 @@ impl Image {
 
 fn level(folder: &Path, dataset: &Value, whole: Option<&Placement>) -> Result<Level, VolumeError> {
     let path = dataset["path"].as_str().unwrap_or_default().trim_matches('/').to_owned();
-    // A path that leads out of the folder would show files that nobody asked for.
+    // A path that leads out of the folder would expose other files.
     let is_inside = Path::new(&path).components().all(|part| matches!(part, Component::Normal(_)));
     if !is_inside {
         return Err(VolumeError::header(folder, format!("the path `{path}` of a level leads out of it")));
@@ -123,7 +123,7 @@ fn placement(folder: &Path, json: &Value) -> Result<Option<Placement>, VolumeErr
     Ok(placement)
 }
 
-/// One transformation; None where it does nothing.
+/// One transformation; None if it does nothing.
 fn step(folder: &Path, json: &Value) -> Result<Option<Placement>, VolumeError> {
     let numbers = |key: &str| {
         let list = json[key].as_array().and_then(|list| list.iter().map(Value::as_f64).collect());

@@ -12,7 +12,7 @@ const UNITS_AT_ONCE: u64 = 16;
 pub(super) struct Grouping {
     /// Planes decoded together, at most.
     pub planes: u64,
-    /// Groups start anew at multiples of this: where a chunk does.
+    /// Groups start again at multiples of this, where a chunk starts.
     pub period: u64,
 }
 

@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// The files that make a folder Zarr: of version 3 the first, of version 2 the others.
 pub(super) const METADATA_FILES: [&str; 4] = ["zarr.json", ".zarray", ".zgroup", ".zattrs"];
-/// Consolidated metadata of large hierarchies have some megabytes; more than this is no metadata.
+/// Consolidated metadata of large hierarchies have some megabytes; anything larger is not metadata.
 const MOST_METADATA_BYTES: u64 = 64 << 20;
 
 /// A group or an array.
@@ -22,7 +22,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    /// The node in a folder; None where the folder is not Zarr.
+    /// The node in a folder; None if the folder is not Zarr.
     pub fn read(folder: &Path) -> Result<Option<Self>, VolumeError> {
         if let Some(mut json) = read_json(folder, METADATA_FILES[0])? {
             let attributes = json["attributes"].take();
@@ -62,10 +62,10 @@ fn read_json(folder: &Path, name: &str) -> Result<Option<Value>, VolumeError> {
     let file = File::open(&path).map_err(VolumeError::open(&path))?;
     file.take(MOST_METADATA_BYTES).read_to_end(&mut text).map_err(VolumeError::read(&path))?;
     let json: Value = serde_json::from_slice(&text)
-        .map_err(|error| VolumeError::header(&path, format!("it is no JSON: {error}")))?;
+        .map_err(|error| VolumeError::header(&path, format!("it is not JSON: {error}")))?;
     match json.is_object() {
         true => Ok(Some(json)),
-        false => Err(VolumeError::header(&path, "it is no JSON object")),
+        false => Err(VolumeError::header(&path, "it is not a JSON object")),
     }
 }
 

@@ -67,7 +67,7 @@ impl Comparison {
         }
     }
 
-    /// A sentence on the default setting; the one of those that beat it is named that is the fastest.
+    /// A sentence on the default setting; it names the fastest of those that beat it.
     pub fn verdict(&self, settings: &[Measured]) -> String {
         let name = self.measure.name();
         let seconds = |index: &&usize| settings[**index].seconds;

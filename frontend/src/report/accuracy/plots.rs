@@ -38,7 +38,7 @@ fn plot(report: &AccuracyReport, comparison: &Comparison) -> Chart {
     Chart {
         title: match measure {
             Measure::Rms => "RMS error".to_owned(),
-            Measure::P999 => "Error that 99.9 % of the pixels stay within".to_owned(),
+            Measure::P999 => "99.9th percentile of the error".to_owned(),
             Measure::Max => "Largest error".to_owned(),
         },
         x_label: "seconds of the cast".to_owned(),

@@ -58,7 +58,7 @@ pub(super) fn family_name(family: Family) -> &'static str {
     }
 }
 
-/// Three digits that count.
+/// Three significant digits.
 pub(super) fn digits(number: f64) -> String {
     if number == 0.0 || !number.is_finite() {
         return number.to_string();

@@ -8,7 +8,7 @@ const HALF: f64 = 4.0;
 /// Radius of a ring.
 const RING: f64 = 8.0;
 
-/// A shape at (x, y), with what a browser tells of it.
+/// A shape at (x, y), with its tooltip in a browser.
 pub(super) fn shape(series: &Series, (x, y): (f64, f64), title: &str) -> String {
     let class = series.class();
     let title = if title.is_empty() { String::new() } else { format!("<title>{}</title>", escape(title)) };
@@ -41,7 +41,7 @@ pub(super) fn shape(series: &Series, (x, y): (f64, f64), title: &str) -> String 
     }
 }
 
-/// The line through places; nothing where the series has none.
+/// The line through places; nothing if the series has none.
 pub(super) fn line(series: &Series, places: &[(f64, f64)]) -> String {
     let kind = match series.stroke {
         Stroke::None => return String::new(),

@@ -1,4 +1,4 @@
-//! Plots as SVG that needs nothing else: points and lines on two logarithmic axes, in light and in dark.
+//! Plots as self-contained SVG: points and lines on two logarithmic axes, in light and in dark.
 
 mod axis;
 mod chart;

@@ -42,7 +42,7 @@ pub struct Point {
     pub x: f64,
     /// Along the vertical axis.
     pub y: f64,
-    /// What a browser tells of it.
+    /// Its tooltip in a browser.
     pub title: String,
 }
 

@@ -13,7 +13,7 @@ use toml::Spanned;
 const FACING: Ramp = Ramp { low: 0.8, high: 0.98 };
 /// One minus the cosine of the angle to a clip plane's normal: the same angles.
 const CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
-/// Of the rescaled gradient: homogeneous tissue is no edge.
+/// Of the rescaled gradient: homogeneous tissue is not an edge.
 const EDGES: Ramp = Ramp { low: 0.2, high: 0.8 };
 /// The scalar's change over a voxel that counts as the strongest edge, parts of the domain.
 const GRADIENT_MOST: f64 = 0.1;
@@ -46,7 +46,7 @@ impl EnhancerKind {
     }
 }
 
-/// Keys that say what the tool says of an enhancer that it carries.
+/// Keys that a tool overrides for an enhancer that it carries.
 const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];
 
 type Key = (&'static str, Range<usize>);
@@ -88,7 +88,7 @@ impl SceneText {
         for table in tables {
             let name = table.name.get_ref();
             if bands.iter().any(|band| band.name == *name) {
-                let message = format!("there is a band `{name}` already; give each band its own name");
+                let message = format!("another band is already called `{name}`; give each band its own name");
                 return Err(self.wrong(table.name.span(), message));
             }
             let values = Trapezoid::new(*table.corners.get_ref());
@@ -146,7 +146,9 @@ impl SceneText {
             return Err(self.wrong(carried.span(), message));
         }
         match table.given().find(|(name, _)| OF_THE_TOOL.contains(name)) {
-            Some((_, span)) => Err(self.wrong(span, "the tool that carries it says this; remove this line")),
+            Some((_, span)) => {
+                Err(self.wrong(span, "the tool that carries it decides this; remove this line"))
+            }
             None => Ok(()),
         }
     }

@@ -32,7 +32,7 @@ impl SceneText {
             if time_s <= last {
                 return Err(self.wrong(
                     key.time_s.span(),
-                    "it is not after the keyframe ahead of it; sort keyframes by time",
+                    "it is not after the previous keyframe; sort keyframes by time",
                 ));
             }
             last = time_s;
@@ -84,7 +84,7 @@ impl SceneText {
         let mimda = "the scene accumulates no importance; add optics.importance and a [mimda] table";
         missing(key.importance.as_ref().map(|points| points.span()), has_mimda, mimda)?;
         missing(key.gamma.as_ref().map(|gamma| gamma.span()), has_mimda, mimda)?;
-        let picker = "the scene has no band-picker; add an [[enhancer]] of that kind";
+        let picker = "the scene has no band picker; add an [[enhancer]] of that kind";
         missing(key.pick.as_ref().map(|pick| pick.span()), scene.has_picker, picker)
     }
 

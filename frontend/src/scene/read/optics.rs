@@ -9,7 +9,7 @@ use glam::DVec3;
 use toml::Spanned;
 
 impl SceneText {
-    /// The look of the file; None where it leaves it to the volume.
+    /// The look of the file; None if it leaves it to the volume.
     pub(super) fn look(&self, file: &SceneFile) -> Checked<Option<DataLook>> {
         let Some(optics) = &file.optics else {
             return match &file.mimda {

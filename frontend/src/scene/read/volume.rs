@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-/// Of a volume, metres or times its own: what f32 tells apart from nothing and from everything.
+/// Of a volume, metres or times its own: sizes that f32 distinguishes from nothing and from everything.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 impl SceneText {
@@ -64,7 +64,7 @@ impl SceneText {
         Ok(Placement { centre_m, rotation: rotation_from_deg(deg), axes, size })
     }
 
-    /// Which way the volume stands; None where the file leaves it to the volume.
+    /// Which way the volume stands; None if the file leaves it to the volume.
     fn axes(&self, place: &PlacementTable, table: Range<usize>) -> Checked<Option<VolumeAxes>> {
         if place.up.is_none() && place.front.is_none() && place.right.is_none() {
             return Ok(None);

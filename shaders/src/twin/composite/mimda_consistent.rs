@@ -7,7 +7,7 @@ use crate::twin::{Casting, Real, importance::RISE, refine::MOST_PARTS};
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
 pub struct MimdaConsistent;
 
-/// β: what a rise of the largest importance keeps of what lies before it.
+/// β: what a rise of the largest importance keeps of what lies in front of it.
 #[inline(always)]
 fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
     let before = F::ONE - gamma * largest;

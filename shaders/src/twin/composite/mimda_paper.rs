@@ -7,7 +7,7 @@ use crate::twin::{Casting, Real};
 /// Twin of `wgsl/composite/mimda_paper.wgsl`.
 pub struct MimdaPaper;
 
-/// β: what a rise of the largest importance keeps of what lies before it.
+/// β: what a rise of the largest importance keeps of what lies in front of it.
 #[inline(always)]
 fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
     F::ONE - gamma * (importance - largest).most(F::ZERO)

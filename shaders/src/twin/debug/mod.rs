@@ -1,4 +1,4 @@
-//! What is shown in place of the picture, for those who look at the renderer instead.
+//! What is shown instead of the picture, to look at the renderer itself.
 
 mod heat;
 mod node;

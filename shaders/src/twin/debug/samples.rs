@@ -1,4 +1,4 @@
-//! The debug view of samples: how many a ray took, in place of its colour.
+//! The debug view of samples: how many a ray took, instead of its colour.
 
 use super::heat;
 use crate::twin::Real;

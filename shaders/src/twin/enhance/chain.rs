@@ -12,13 +12,13 @@ use optics::MOST_ENHANCERS;
 /// An enhancer's state along one ray.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkState<F> {
-    /// What it has made of the ray's direction.
+    /// What it made of the ray's direction.
     pub weights: [F; 4],
-    /// Where on the ray its law is not smooth; far where there is no such place.
+    /// Where on the ray its law is not smooth; far away if nowhere.
     pub breaks: [F; 3],
 }
 
-/// Where a segment lies that enhancers look at.
+/// Where the segment lies that enhancers change.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<F> {
     /// Middle of the segment, metres, display frame.
@@ -41,14 +41,14 @@ pub(super) trait Hooks {
         [F::ZERO; 4]
     }
 
-    /// Where its law is not smooth on a straight way; far where there is no such place.
+    /// Where on a straight ray its law is not smooth; far away if nowhere.
     #[inline(always)]
     fn breaks<F: Real>(_: &Constants<F>, _view: Vec3<F>, _: &Ray<F>) -> [F; 3] {
         [far(); 3]
     }
 
-    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 where it does not look
-    /// at gradients.
+    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 if it does not read
+    /// gradients.
     #[inline(always)]
     fn spread<F: Real>(_: &Constants<F>, _: &LinkState<F>, _t: F) -> F {
         F::ZERO
@@ -108,7 +108,7 @@ impl<F: Real> Chain<F> {
         self.follow(casting, ray);
     }
 
-    /// The breaks anew, for another straight way.
+    /// The breaks again, for another straight path.
     #[inline(never)]
     pub fn follow(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
@@ -128,7 +128,7 @@ impl<F: Real> Chain<F> {
         next
     }
 
-    /// How much the links make samples around t vary within a step; 0 where none looks at gradients.
+    /// How much the links make samples around t vary within a step; 0 if none looks at gradients.
     #[inline(always)]
     pub fn spread<K: Kernel>(&self, casting: &Casting<F>, t: F) -> F {
         let mut sum = F::ZERO;

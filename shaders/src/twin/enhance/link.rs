@@ -22,7 +22,7 @@ fn with(v: DVec3, w: f64) -> [f64; 4] {
     [v.x, v.y, v.z, w]
 }
 
-/// Corners that f32 can tell from each other's flanks: a flank that begins a million domains away is level.
+/// Corners that f32 can distinguish from each other's flanks: a flank that begins a million domains away is level.
 fn corners(band: &Trapezoid) -> [f64; 4] {
     band.corners().map(|corner| corner.clamp(-1e6, 1e6))
 }

@@ -10,9 +10,9 @@ use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 pub struct Gradients<F> {
     /// At the level that the sample itself is filtered at.
     pub at: Vec3<F>,
-    /// One level above; told only where the shading looks at it.
+    /// One level above; set only if the shading reads it.
     pub coarse: Vec3<F>,
-    /// Two levels above; told only where the shading looks at it.
+    /// Two levels above; set only if the shading reads it.
     pub coarsest: Vec3<F>,
 }
 

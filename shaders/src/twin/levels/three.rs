@@ -1,5 +1,5 @@
-//! Samples of the node that a ray is in, of its parent and of its grandparent. Kernels of one and of two levels are told
-//! by this twin, too: it then looks at no ancestor, or at the parent alone.
+//! Samples of the node that a ray is in, of its parent and of its grandparent. This is also the twin of kernels with
+//! one level and with two: it then reads no ancestor, or only the parent.
 
 use super::{Level, weights::Weights};
 use crate::compose::Levels;
@@ -8,7 +8,7 @@ use crate::twin::traverse::voxel_edge;
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::{CELL_WORDS, NO_NODE, NO_SLOT, NodeRecord};
 
-/// What stays the same on a straight way through one brick. Where an ancestor has no brick, the level below stands for it.
+/// What stays the same on a straight path through one brick. Where an ancestor has no brick, the level below stands for it.
 #[derive(Clone, Copy)]
 pub struct Brick<'a, F> {
     /// The node.
@@ -29,7 +29,7 @@ pub struct Brick<'a, F> {
 }
 
 impl<'a, F: Real> Brick<'a, F> {
-    /// The brick of a node, on a straight way.
+    /// The brick of a node, on a straight path.
     #[inline(always)]
     pub fn new<K: Kernel>(casting: &Casting<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
         let finest = casting.scene.finest_depth;

@@ -28,7 +28,7 @@ pub(super) fn lighting<F: Real>(
     lit_by(casting, (gradients.at, square), lit, ray, material)
 }
 
-/// Unit vector toward lower values; zero where there is none.
+/// Unit vector toward lower values; zero if there is none.
 #[inline(always)]
 fn outward<F: Real>(gradient: Vec3<F>) -> Vec3<F> {
     let square = gradient.dot(gradient);

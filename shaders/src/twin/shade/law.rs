@@ -23,7 +23,7 @@ pub(super) fn lit_by<F: Real>(
     }
 }
 
-/// |n·h|^shininess, 0 where h has no direction.
+/// |n·h|^shininess, 0 if h has no direction.
 #[inline(always)]
 fn highlight<F: Real>(gradient: Vec3<F>, length: F, halfway: Vec3<F>, shininess: F) -> F {
     let square = halfway.dot(halfway);

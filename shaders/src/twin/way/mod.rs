@@ -1,4 +1,4 @@
-//! How a ray goes through the volume.
+//! How a ray passes through the volume.
 
 mod refracted;
 mod straight;

@@ -1,4 +1,4 @@
-//! A bent ray's way through the volume: straight pairs of steps, with a turn in the middle of each.
+//! A bent ray's path through the volume: straight pairs of steps, with a turn in the middle of each.
 
 use crate::twin::brick::{PairOfSteps, Straight, add_pair};
 use crate::twin::composite::{Accumulated, Composite};

@@ -1,4 +1,4 @@
-//! A straight ray's way through the volume.
+//! A straight ray's path through the volume.
 
 use crate::twin::brick::{PairOfSteps, Straight, add_pair};
 use crate::twin::composite::{Accumulated, Composite};
@@ -16,9 +16,9 @@ struct Marched<F> {
     is_done: bool,
 }
 
-/// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. Where a pair tells that its steps
-/// are too long for the tolerance, each of them is cut into equal parts. Where samples are of more than one level the rest
-/// of the way is laid out anew after each pair, in pairs as long as the level there allows.
+/// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out
+/// too long for the tolerance, each of them is split into equal parts. If samples blend levels, the rest of the way is
+/// divided anew after each pair, into pairs as long as the level there allows.
 #[inline(always)]
 fn march<F: Real, K: Kernel>(
     casting: &Casting<F>,

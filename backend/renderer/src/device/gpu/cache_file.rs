@@ -18,7 +18,7 @@ const OWNER_BYTES_AT: usize = CHECKSUM_AT + size_of::<u32>();
 const OWNER_AT: usize = OWNER_BYTES_AT + size_of::<u32>();
 
 /// A driver never forgets a kernel that it was given, nor what earlier versions of this program composed: a file
-/// beyond this size is given up, and begun anew.
+/// beyond this size is dropped, and started again.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Where one driver's kernels are kept.
@@ -28,7 +28,7 @@ pub(super) struct CacheFile {
     owner: String,
 }
 
-/// The user's folder of compiled kernels, by environment variables; None where there is none, or LIGHTLOOM_NO_CACHE is
+/// The user's folder of compiled kernels, by environment variables; None if there is none, or LIGHTLOOM_NO_CACHE is
 /// set to anything but 0.
 pub(super) fn folder(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let set = |name: &str| variable(name).filter(|value| !value.is_empty());
@@ -55,11 +55,11 @@ impl CacheFile {
     /// The driver's bytes.
     ///
     /// # Errors
-    /// There is no such file, or it is damaged or not this driver's.
+    /// The file is missing, damaged, or another driver's.
     pub(super) fn read(&self) -> io::Result<Vec<u8>> {
         let found = fs::metadata(&self.path)?;
         if !found.is_file() || found.len() > MOST_BYTES {
-            return Err(io::Error::other("it is no file, or too large"));
+            return Err(io::Error::other("it is not a file, or too large"));
         }
         let mut file = fs::read(&self.path)?;
         let start = start_of_blob(&self.owner, &file).map_err(io::Error::other)?;
@@ -107,7 +107,7 @@ fn encode(owner: &str, blob: &[u8]) -> Vec<u8> {
 /// Where the driver's bytes begin, in a file that is whole and the owner's; else what is wrong with it.
 fn start_of_blob(owner: &str, file: &[u8]) -> Result<usize, &'static str> {
     if file.len() < OWNER_AT || !file.starts_with(MAGIC) {
-        return Err("it is no file of compiled kernels");
+        return Err("it is not a file of compiled kernels");
     }
     let number = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| file[at + i]));
     if number(VERSION_AT) != VERSION {

@@ -19,7 +19,7 @@ pub(in crate::device) struct Context {
     pub(super) atlas_format: wgpu::TextureFormat,
     /// Whether the texture unit can interpolate `atlas_format` at all.
     pub(super) has_filter: bool,
-    /// What the driver compiled before; None where it does not tell, or the user does not want it kept.
+    /// What the driver compiled before; None if it does not hand it out, or the user does not want it kept.
     pub(super) pipelines: Option<PipelineCache>,
     turn: Mutex<()>,
 }
@@ -52,7 +52,7 @@ impl Context {
         let limits = adapter.limits();
         if limits.max_storage_buffers_per_shader_stage < MOST_STORAGE_BUFFERS {
             return Err(DeviceError(format!(
-                "{name} binds {} storage buffers at a time and kernels need up to {MOST_STORAGE_BUFFERS}; take --device cpu",
+                "{name} binds {} storage buffers at a time, but kernels need up to {MOST_STORAGE_BUFFERS}; take --device cpu",
                 limits.max_storage_buffers_per_shader_stage
             )));
         }

@@ -104,7 +104,7 @@ impl FrameFeedback {
     /// The oldest table, where it has arrived.
     pub(super) fn take(&mut self, context: &Context) -> Result<Option<TaggedFeedback>, DeviceError> {
         let failed = |why: String| {
-            DeviceError(format!("{} does not give the feedback of a frame back: {why}", context.name))
+            DeviceError(format!("{} does not return the feedback of a frame: {why}", context.name))
         };
         let mut outcome = None;
         let arrived = self.copies.take(|copy| match copy.told.try_recv() {

@@ -23,7 +23,7 @@ impl Kernels {
             .or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
     }
 
-    /// From now on this kernel is run, whatever is needed: for measuring what the composed ones cost.
+    /// From now on this kernel runs, whatever a frame needs: for measuring what the composed ones cost.
     pub(super) fn substitute(&mut self, context: &Context, wgsl: &str) {
         self.substitute = Some(compile(context, "substitute", wgsl, "cast_tile"));
     }

@@ -16,7 +16,7 @@ impl PipelineCache {
     /// What adapters must offer for it.
     pub(super) const FEATURES: wgpu::Features = wgpu::Features::PIPELINE_CACHE;
 
-    /// The cache of an adapter, with what the last run left; None where driver or user will not have one.
+    /// The cache of an adapter, with what the last run left; None if driver or user will not have one.
     pub(super) fn open(device: &wgpu::Device, adapter: &wgpu::AdapterInfo) -> Option<Self> {
         if !device.features().contains(Self::FEATURES) {
             return None;
@@ -38,7 +38,7 @@ impl PipelineCache {
     }
 
     /// Writes what the driver has compiled, where it is not what the file holds. A file that cannot be written costs the
-    /// next run time, and is no error.
+    /// next run time, and is not an error.
     pub(super) fn keep(&self) {
         let Some(blob) = self.cache.get_data() else { return };
         let checksum = crc32fast::hash(&blob);
@@ -53,7 +53,7 @@ impl PipelineCache {
     }
 }
 
-/// A cache that begins with `blob` and its checksum, or empty with 0 where wgpu does not want the blob.
+/// A cache that begins with `blob` and its checksum, or empty with 0 if wgpu does not want the blob.
 fn create(device: &wgpu::Device, blob: Option<Vec<u8>>) -> Option<(wgpu::PipelineCache, u32)> {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let descriptor = wgpu::PipelineCacheDescriptor {
@@ -66,7 +66,7 @@ fn create(device: &wgpu::Device, blob: Option<Vec<u8>>) -> Option<(wgpu::Pipelin
     match (pollster::block_on(scope.pop()), blob) {
         (None, blob) => Some((cache, blob.map_or(0, |blob| crc32fast::hash(&blob)))),
         (Some(why), Some(_)) => {
-            tracing::debug!("the compiled kernels of the last run are not taken: {why}");
+            tracing::debug!("the compiled kernels of the last run are ignored: {why}");
             create(device, None)
         }
         (Some(why), None) => {

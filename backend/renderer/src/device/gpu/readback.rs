@@ -46,7 +46,7 @@ impl Readback {
         });
         context.wait()?;
         let failed =
-            |why: String| DeviceError(format!("{} does not give its results back: {why}", context.name));
+            |why: String| DeviceError(format!("{} does not return its results: {why}", context.name));
         told.recv().map_err(|e| failed(e.to_string()))?.map_err(|e| failed(e.to_string()))?;
         let items = {
             let mapped = slice.get_mapped_range().map_err(|e| failed(e.to_string()))?;

@@ -18,16 +18,16 @@ pub struct LoadedBrick {
     pub bytes: u64,
 }
 
-/// A node, and its brick or why it cannot be had.
+/// A node, and its brick or why it cannot be read.
 pub type Fetched = (NodeKey, Result<LoadedBrick, BrickError>);
 
 /// Bytes of a brick's samples: all bricks have the same.
 pub const SAMPLE_BYTES: u64 = 2 * BRICK_VOXELS as u64;
 
-/// Reads and unpacks a brick. A panic of its reader is an error, so that nobody waits for this brick for ever.
+/// Reads and unpacks a brick. A panic of its reader becomes an error, so that nothing waits for this brick for ever.
 ///
 /// # Errors
-/// It cannot be had.
+/// It cannot be read.
 pub(super) fn load(source: &dyn BrickSource, key: NodeKey) -> Result<LoadedBrick, BrickError> {
     let read = || {
         // Who splits the node asks for its children's bounds, and must not wait for the disk then.

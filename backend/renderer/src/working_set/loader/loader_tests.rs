@@ -1,4 +1,4 @@
-//! Laws of the loader: order, cancellation, no read in vain, and a slow disk holds up nobody.
+//! Laws of the loader: order, cancellation, no read in vain, and a slow disk holds nothing up.
 
 use super::test_source::{TestSource, Trouble, key, keys};
 use super::*;
@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 const PANTRY_BYTES: u64 = 100 * SAMPLE_BYTES;
-/// Longer than any test may take: who waits so long waits in vain.
+/// Longer than any test may take: a longer wait is in vain.
 const LONG: Duration = Duration::from_secs(60);
 
 fn loader(source: &Arc<TestSource>, threads: usize) -> Loader {
@@ -170,7 +170,7 @@ fn each_failure_is_told_once() {
     for round in 1..3 {
         loader.want(&keys(0..4), &keys([9]));
         settle(&loader);
-        // The list again, before anybody was told: no reason to read again.
+        // The list again, before the failure was reported: no reason to read again.
         loader.want(&keys(0..4), &keys([9]));
         let arrived = loader.arrived(u64::MAX);
         let kinds: Vec<_> = arrived.iter().map(|(_, brick)| brick.as_ref().err().map(|e| e.kind)).collect();
@@ -196,7 +196,7 @@ fn failures_of_what_nobody_waits_for_are_told_too() {
     settle(&loader);
     loader.want(&[], &keys([1, 2]));
     settle(&loader);
-    assert_eq!(source.begun().len(), 3, "nothing is read again before the failure was told");
+    assert_eq!(source.begun().len(), 3, "nothing is read again before the failure was reported");
     assert_eq!(names(&loader.arrived(0)), [1, 0]);
     assert!(loader.arrived(0).is_empty());
 }

@@ -56,7 +56,7 @@ struct State {
 }
 
 impl Loader {
-    /// Starts `threads` threads that read from `source`. What they read and nobody has taken stays in memory up to
+    /// Starts `threads` threads that read from `source`. What they read stays in memory until it is taken, up to
     /// `pantry_bytes` of samples, and at least one brick per thread.
     pub fn new(source: Arc<dyn BrickSource>, threads: usize, pantry_bytes: u64) -> Self {
         let threads = threads.max(1);
@@ -66,7 +66,7 @@ impl Loader {
             let (source, seat) = (Arc::clone(&source), Seat(Arc::clone(&desk)));
             std::thread::spawn(move || {
                 seat.0.serve(&*source);
-                // Before the seat: who waits for the thread's end finds the source free.
+                // Before the seat, so that the source is free for whatever waits for the thread's end.
                 drop(source);
                 drop(seat);
             });
@@ -74,8 +74,8 @@ impl Loader {
         Self { desk }
     }
 
-    /// Fetches bricks, in any order of arrival, and hands each, or why it cannot be had, to `arrived`. They go before
-    /// what is wanted. Of a brick that is there already, or being read, there is no other read.
+    /// Fetches bricks, in any order of arrival, and hands each, or why it cannot be read, to `arrived`. They go before
+    /// what is wanted. A brick that is there already, or being read, is not read again.
     ///
     /// # Errors
     /// The threads ended before their time.
@@ -94,15 +94,15 @@ impl Loader {
         Ok(())
     }
 
-    /// Puts another list in place of the last: threads read `ordered` from its first on, and `prefetch`, from its first
+    /// Replaces the list: threads read `ordered` from its first on, and `prefetch`, from its first
     /// on, when nothing of `ordered` is left to begin; one thread, if there are two, stays free of `prefetch`. What is
-    /// being read is finished and kept for a while, wanted or not. Tells how many bricks were queued and are no longer.
+    /// being read is finished and kept for a while, wanted or not. Returns how many queued bricks were dropped.
     ///
     /// `ordered` names what the caller lacks: a brick that was handed over before and is named again is read again.
     pub fn want(&self, ordered: &[NodeKey], prefetch: &[NodeKey]) -> usize {
         let cancelled = self.desk.lock().queue.want(ordered, prefetch);
         self.desk.work.notify_all();
-        // Who waits for news may have some: bricks that were there already.
+        // There may be news for waiting callers: bricks that were there already.
         self.desk.news.notify_all();
         cancelled
     }
@@ -120,7 +120,7 @@ impl Loader {
         arrived
     }
 
-    /// Waits until `arrived` would tell something, nothing is left to read, or the time is over; tells whether it
+    /// Waits until `arrived` would return something, nothing is left to read, or the time is over; returns whether it
     /// would. For callers that have nothing else to do.
     pub fn wait(&self, most: Duration) -> bool {
         let waits = |state: &mut State| !state.queue.has_news() && !state.queue.is_idle() && state.alive > 0;
@@ -183,7 +183,7 @@ impl Desk {
     }
 }
 
-/// A thread's place at the desk: it tells of the thread's end, however it comes.
+/// A thread's place at the desk: it reports the thread's end, however it comes.
 struct Seat(Arc<Desk>);
 
 impl Drop for Seat {
@@ -198,5 +198,5 @@ impl Drop for Seat {
 }
 
 fn lost() -> BrickError {
-    BrickError::unavailable("a loader thread ended before its time; start the program again")
+    BrickError::unavailable("a loader thread ended early; start the program again")
 }

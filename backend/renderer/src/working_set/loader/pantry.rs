@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 /// What a brick is worth: of two, the lesser is given up first. No two bricks are worth the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Worth {
-    /// Nobody asks for it now. The number rises with time: what was left long ago goes first.
+    /// It is not asked for now. The number rises with time: what was left long ago goes first.
     Left(u64),
     /// It may be asked for soon; its place in the list.
     Prefetched(Reverse<u32>),
@@ -54,13 +54,13 @@ impl Pantry {
         self.kept.len() as u64 * SAMPLE_BYTES
     }
 
-    /// Whether a brick of such worth would stay, were `coming` others put in before.
+    /// Whether a brick of this worth would stay after `coming` others were put in.
     pub fn has_room(&self, worth: Worth, coming: usize) -> bool {
         let leaving = (self.kept.len() + coming + 1).saturating_sub(self.capacity);
         leaving == 0 || self.order.keys().nth(leaving - 1).is_some_and(|&last| last < worth)
     }
 
-    /// Puts a brick in. Gives up the one of least worth where there is no room, and tells which: it may be the same.
+    /// Puts a brick in. Without room, gives up the one of least worth and returns which: it may be the same.
     pub fn put(
         &mut self,
         key: NodeKey,
@@ -89,7 +89,7 @@ impl Pantry {
         self.kept.get(&key).map(|(_, brick)| brick)
     }
 
-    /// Rates all bricks by another list; tells how many are wanted now and were not.
+    /// Rates all bricks by another list; returns how many are wanted now and were not.
     pub fn rate(&mut self, listed: &Listed) -> u64 {
         let before = self.order.split_off(&Worth::LEAST_LISTED);
         for key in before.into_values().filter(|key| !listed.contains_key(key)) {

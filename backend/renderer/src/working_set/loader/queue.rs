@@ -26,7 +26,7 @@ pub struct LoaderCounts {
     pub cancelled: u64,
 }
 
-/// Knows no thread and no file: a thread asks what to read, and tells what came of it.
+/// Knows no thread and no file: a thread asks what to read, and returns what came of it.
 #[derive(Debug)]
 pub(in crate::working_set) struct Queue {
     threads: usize,
@@ -37,7 +37,7 @@ pub(in crate::working_set) struct Queue {
     /// The listed keys of which nothing is known yet.
     unread: BTreeMap<Worth, NodeKey>,
     reading: HashSet<NodeKey>,
-    /// Why reads failed, as far as nobody was told.
+    /// Why reads failed, for failures not yet reported.
     failed: HashMap<NodeKey, BrickError>,
     pantry: Pantry,
     counts: LoaderCounts,
@@ -174,7 +174,7 @@ impl Queue {
         arrived
     }
 
-    /// Whether [`Queue::arrived`] would tell anything.
+    /// Whether [`Queue::arrived`] would return anything.
     pub fn has_news(&self) -> bool {
         !self.failed.is_empty() || self.pantry.has_wanted()
     }
@@ -193,7 +193,7 @@ impl Queue {
         }
     }
 
-    /// Nobody wants anything any more; callers that wait are told by the end of their channel.
+    /// Nothing is wanted any more; waiting callers see the end of their channel.
     pub fn close(&mut self) {
         self.errands.clear();
         self.callers.clear();

@@ -1,4 +1,4 @@
-//! A source for the loader's tests: it counts reads, waits at a gate, and fails where it is told to.
+//! A source for the loader's tests: it counts reads, waits at a gate, and fails on request.
 
 use bricks::volume::VolumeFrame;
 use bricks::{BRICK_VOXELS, Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};

@@ -7,7 +7,7 @@ use super::ReplayedFrame;
 pub struct ReplayRun {
     /// Its frames.
     pub frames: Vec<ReplayedFrame>,
-    /// Bricks read from the disk, those that nobody wanted any more included.
+    /// Bricks read from the disk, including those that were no longer wanted.
     pub bricks_read: u64,
     /// The same in bytes as the disk holds them.
     pub bytes_read: u64,
@@ -24,14 +24,14 @@ pub struct Account {
     pub loaded_again: u64,
     /// Bytes that disks read.
     pub bytes_read: u64,
-    /// The mean over frames of what rays found too coarse on average, levels; 0 where no rays met anything.
+    /// The mean over frames of what rays found too coarse on average, levels; 0 if no rays met anything.
     pub mean_deficit: f64,
-    /// That of the frame which 99 in 100 are no worse than.
+    /// That of the frame that 99 in 100 do not exceed.
     pub high_deficit: f64,
     /// The largest deficit in the last frame, levels.
     pub deficit_at_end: f64,
     /// From the first frame to the first one in which rays found nothing too coarse, seconds; of several back-ends the
-    /// longest. None where one never came so far.
+    /// longest. None if one never came so far.
     pub seconds_to_rest: Option<f64>,
     /// Families that came.
     pub splits: u64,
@@ -79,7 +79,7 @@ fn mean(numbers: &[f64]) -> f64 {
     if numbers.is_empty() { 0.0 } else { numbers.iter().sum::<f64>() / numbers.len() as f64 }
 }
 
-/// The smallest of rising numbers that so large a part of them is no larger than; 0 where there are none.
+/// The smallest of some ascending numbers that is at least as large as `part` of them; 0 if there are none.
 fn no_worse(rising: &[f64], part: f64) -> f64 {
     let place = (part * rising.len() as f64).ceil() as usize;
     rising.get(place.saturating_sub(1)).copied().unwrap_or(0.0)

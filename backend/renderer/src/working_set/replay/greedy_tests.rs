@@ -201,7 +201,7 @@ fn skins() -> Optics {
     Optics { domain: (0.0, 1.0), extinction, ..optics(0.5) }
 }
 
-/// Shells three metres wide that pass before the screen of holo72: what rays of five projectors sample where all is as
+/// Shells three metres wide that pass in front of the screen of holo72: what rays of five projectors sample where all is as
 /// fine as the display resolves, as far as there is light left.
 fn pass(volume: &ProceduralVolume, header: &TraceHeader, count: u32) -> Vec<TracedFrame> {
     const SIZE_M: f64 = 3.0;
@@ -253,7 +253,7 @@ fn shells(dims: UVec3) -> ProceduralVolume {
 }
 
 /// LIGHTLOOM_CACHE_MIB=64,256 tries other caches; LIGHTLOOM_TRACE=x.trace plays a recording of shells to and fro from frame
-/// LIGHTLOOM_FROM on, in place of shells of 4096³ voxels that pass.
+/// LIGHTLOOM_FROM on, instead of shells of 4096³ voxels that pass.
 #[test]
 #[ignore = "prints figures, some minutes long"]
 fn figures() {

@@ -43,7 +43,7 @@ pub struct ReplayVolume<'a> {
 pub struct ReplayedFrame {
     /// Its time on the scene's clock, seconds.
     pub time_s: f64,
-    /// How coarse it was; None where rays met nothing.
+    /// How coarse it was; None if rays met nothing.
     pub shortfall: Option<Shortfall>,
     /// Bricks that came into the cache.
     pub bricks_loaded: u64,

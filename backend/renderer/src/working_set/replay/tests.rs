@@ -84,7 +84,7 @@ fn with_room_and_an_instant_disk_all_is_fine_enough_within_the_fades_of_its_dept
     let world = world();
     let frames = frames(&world, 120, 0.0);
     let account = Account::of(&[run(&world, &POLICY, &frames)]);
-    // A family shows itself when the one above it has come whole; rays tell of it a frame later.
+    // A family appears once the one above it is complete; rays report it a frame later.
     let depths = f64::from(world.shape.finest_depth());
     let most_s = depths * (FADE_S + 3.0 * FRAME_S);
     let seconds = account.seconds_to_rest.unwrap();

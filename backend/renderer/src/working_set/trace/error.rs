@@ -22,7 +22,7 @@ pub enum TraceError {
         source: std::io::Error,
     },
     /// A line is not what it should be.
-    #[error("trace {}, line {line}: {why}; record it anew", path.display())]
+    #[error("trace {}, line {line}: {why}; record it again", path.display())]
     Line {
         /// The file.
         path: PathBuf,

@@ -1,4 +1,4 @@
-//! What rays would have told of a cut.
+//! What rays would have reported of a cut.
 
 use super::Demand;
 use crate::working_set::Feedback;
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// say so, in the order of `leaves`. A leaf is seen where it overlaps a demanded node:
 /// - one that holds demanded nodes gets all their rays, since it would have been sampled in their place;
 /// - a demanded node above several leaves shares its rays out among them, as their cross-sections go, but at least one
-///   to each: nothing tells which of them the rays met.
+///   to each: nothing shows which of them the rays met.
 ///
 /// So the rays of a demanded node that lies over fewer leaves than it has rays are as many afterwards as before.
 /// `leaves` are those that rays could meet: the caller leaves out what is empty by the transfer functions.

@@ -1,7 +1,7 @@
 //! Recorded sequences of frames: what rays asked for in each, to compare policies without casting a ray.
 //!
-//! A trace tells the demand, not the feedback on one cut: which regions rays sampled, and at which level. So a replay can
-//! map it onto whatever cut its own policy has made.
+//! A trace records the demand, not the feedback on one cut: which regions rays sampled, and at which level. So a replay
+//! can map it onto the cut that its own policy has made.
 //!
 //! The file has one JSON object per line. The first is a [`TraceHeader`]; each further one is a frame.
 

@@ -80,7 +80,7 @@ impl TraceReader {
     }
 
     fn check(&self, line: &FrameLine) -> Result<(), String> {
-        // A clock that runs backwards, or is no number, would undo fades.
+        // A clock that runs backwards, or is NaN, would undo fades.
         if line.time_s.partial_cmp(&self.last_time_s).is_none_or(std::cmp::Ordering::is_lt) {
             return Err(format!("time_s {} comes after {}", line.time_s, self.last_time_s));
         }
@@ -117,7 +117,7 @@ fn header(text: &str) -> Result<TraceHeader, String> {
     match found {
         None => Err(format!("the file does not begin with the header of a {FORMAT}")),
         Some(Opening { version, .. }) if version != VERSION => {
-            Err(format!("it is of version {version}, and this program reads version {VERSION}"))
+            Err(format!("it has version {version}, but this program reads version {VERSION}"))
         }
         Some(_) => {
             let HeaderLine { header, .. } = parsed(text)?;
@@ -135,7 +135,7 @@ fn node(shape: &OctreeShape, (depth, x, y, z, rays): NodeNumbers) -> Result<(Nod
     shape.contains(key).then_some((key, rays)).ok_or_else(|| format!("the volume has no node {key}"))
 }
 
-/// Every line is its own document, so of the place of an error only the column tells anything.
+/// Every line is its own document, so only the column of an error's place means anything.
 fn parsed<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string().replace(" at line 1 column ", " at column "))
 }

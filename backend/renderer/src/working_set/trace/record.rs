@@ -41,7 +41,7 @@ pub struct TracedFrame {
     pub display_from_volume: DAffine3,
     /// See [`optics::Quality::lod_scale`].
     pub lod_scale: f64,
-    /// What scalars look like: it tells which nodes are empty.
+    /// What scalars look like, and so which nodes are empty.
     pub optics: Arc<Optics>,
     /// What rays sampled.
     pub demand: Demand,

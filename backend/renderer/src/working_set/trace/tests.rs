@@ -163,7 +163,7 @@ fn a_trace_comes_back_as_it_was_written() {
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let text = std::fs::read_to_string(&path).unwrap();
-    assert_eq!(text.matches("\"optics\"").count(), 2, "optics are told once");
+    assert_eq!(text.matches("\"optics\"").count(), 2, "optics are written once");
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn fault(line: usize, spoil: impl Fn(&str) -> String) -> String {
 fn a_spoiled_line_is_told_by_file_and_number() {
     for (line, from, to, why) in [
         (1, "lightloom trace", "another", "line 1: the file does not begin with the header"),
-        (1, "\"version\":1", "\"version\":7", "line 1: it is of version 7"),
+        (1, "\"version\":1", "\"version\":7", "line 1: it has version 7"),
         (1, "448", "0", "line 1: dims [0, 0, 0] are no size"),
         (2, "{", "", "line 2: "),
         (2, "\"optics\"", "\"other\"", "line 2: the first frame has no `optics`"),
