@@ -1,6 +1,6 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
-use layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, Params};
+use layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, SceneBlock, ViewBlock};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shaders::compose::KernelKey;
 use std::mem::{offset_of, size_of};
@@ -75,10 +75,8 @@ fn host_structs_and_wgsl_structs_agree() {
     let module = parse(&key.wgsl());
     assert_layout!(
         &module,
-        Params,
-        screen_from_pixel,
+        SceneBlock,
         volume_from_display,
-        beam,
         volume,
         light,
         material,
@@ -86,10 +84,10 @@ fn host_structs_and_wgsl_structs_agree() {
         mimda,
         texel,
         atlas,
-        raster,
         tables,
         resolution
     );
+    assert_layout!(&module, ViewBlock, screen_from_pixel, beam, raster, extent);
     assert_layout!(
         &module,
         NodeRecord,

@@ -85,7 +85,7 @@ struct Step {
 // Adds one step, cut into parts.
 fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, parts: f32) -> Accumulated {
     let part = step.length / parts;
-    let thickness = params.quality.z * part;
+    let thickness = scene.quality.z * part;
     var front = front_of_step;
     var alone = vec4<f32>(0.0);
     var from_s = step.s0;
@@ -126,7 +126,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
 // another, which is the same where light is not bent. Yields the number of parts that each was cut into.
 fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
     t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>) -> f32 {
-    let thickness = params.quality.z * step;
+    let thickness = scene.quality.z * step;
     var pair = pair_of(s0, s1, s2, range);
     let middle = t0 + step;
     var gradients = NO_GRADIENTS;

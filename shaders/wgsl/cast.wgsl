@@ -4,19 +4,19 @@
 fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_id) local: vec3<u32>) {
     let listed = group.x + group.y * groups.x;
-    if listed >= params.tables.z {
+    if listed >= projector.extent.x {
         return;
     }
     let tile = tiles[listed];
-    let across = params.raster.w;
+    let across = projector.raster.w;
     let in_tiles = vec2<u32>(tile % across, tile / across) * TILE_EDGE + local.xy;
-    let pixel = in_tiles * params.raster.z + vec2<u32>(params.raster.z / 2u);
-    if pixel.x >= params.raster.x || pixel.y >= params.raster.y {
+    let pixel = in_tiles * projector.raster.z + vec2<u32>(projector.raster.z / 2u);
+    if pixel.x >= projector.raster.x || pixel.y >= projector.raster.y {
         return;
     }
     var count = 0u;
     let colour = cast_ray(ray_of_pixel(vec2<f32>(pixel) + 0.5), &count);
-    let index = pixel.y * params.raster.x + pixel.x;
+    let index = pixel.y * projector.raster.x + pixel.x;
     pixels[index] = debug_pixel(colour, count & ~MISSING);
     counts[index] = count;
 }

@@ -18,7 +18,7 @@ fn importance_at(u: f32, cell: u32) -> f32 {
 }
 
 fn importance_between(s0: f32, s1: f32) -> Importance {
-    let entries = params.tables.y;
+    let entries = scene.tables.y;
     let u0 = min(s0, s1) * f32(entries - 1u);
     let u1 = max(s0, s1) * f32(entries - 1u);
     let c0 = min(u32(u0), entries - 2u);

@@ -1,9 +1,8 @@
-// The structs that the host fills and reads; their Rust forms stand in src/layout/.
+// The structs that the host fills and reads; their Rust forms stand in the crate layout.
 
-struct Params {
-    screen_from_pixel: array<vec4<f32>, 3>,
+// See src/twin/scene.rs.
+struct SceneBlock {
     volume_from_display: array<vec4<f32>, 4>,
-    beam: vec4<f32>,
     volume: vec4<f32>,
     light: vec4<f32>,
     material: vec4<f32>,
@@ -11,9 +10,16 @@ struct Params {
     mimda: vec4<f32>,
     texel: vec4<f32>,
     atlas: vec4<u32>,
-    raster: vec4<u32>,
     tables: vec4<u32>,
     resolution: vec4<f32>,
+}
+
+// See src/twin/projector.rs.
+struct ViewBlock {
+    screen_from_pixel: array<vec4<f32>, 3>,
+    beam: vec4<f32>,
+    raster: vec4<u32>,
+    extent: vec4<u32>,
 }
 
 struct NodeRecord {
@@ -61,7 +67,8 @@ const CELL_WORDS: u32 = 16u;
 // Set in the count of samples where a ray met a node that is too coarse.
 const MISSING: u32 = 0x80000000u;
 
-@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(0) var<uniform> scene: SceneBlock;
+@group(0) @binding(16) var<uniform> projector: ViewBlock;
 @group(0) @binding(1) var<storage, read> nodes: array<NodeRecord>;
 @group(0) @binding(2) var<storage, read> optics_table: array<OpticsEntry>;
 @group(0) @binding(3) var<storage, read> tiles: array<u32>;

@@ -22,23 +22,23 @@ const FAR: f32 = 1e30;
 const PARALLEL: f32 = 1e-12;
 
 fn ray_of_pixel(pixel: vec2<f32>) -> Ray {
-    let on_screen = params.screen_from_pixel[0].xyz * pixel.x + params.screen_from_pixel[1].xyz * pixel.y
-        + params.screen_from_pixel[2].xyz;
+    let on_screen = projector.screen_from_pixel[0].xyz * pixel.x + projector.screen_from_pixel[1].xyz * pixel.y
+        + projector.screen_from_pixel[2].xyz;
     let screen = vec3<f32>(on_screen.xy / on_screen.z, 0.0);
-    let beam = params.beam;
+    let beam = projector.beam;
     let origin = vec3<f32>(beam.x + beam.y * screen.x, beam.z, beam.w);
     let reach = length(screen - origin);
     var ray: Ray;
     ray.origin_in_display = screen;
     ray.start = -reach;
-    let m = params.volume_from_display;
+    let m = scene.volume_from_display;
     ray.origin_in_volume = m[0].xyz * screen.x + m[1].xyz * screen.y + m[3].xyz;
     return turned(ray, (screen - origin) / reach);
 }
 
 // A ray from the same origin along another unit vector.
 fn turned(from_ray: Ray, direction_in_display: vec3<f32>) -> Ray {
-    let m = params.volume_from_display;
+    let m = scene.volume_from_display;
     let v = direction_in_display;
     var ray = from_ray;
     ray.direction_in_display = v;
@@ -70,7 +70,7 @@ fn clip_to_volume(ray: Ray) -> vec2<f32> {
     var span = vec2<f32>(ray.start, FAR);
     for (var axis = 0u; axis < 3u; axis++) {
         let origin = ray.origin_in_volume[axis];
-        let high = params.volume[axis];
+        let high = scene.volume[axis];
         if is_parallel(ray, axis) {
             if origin < 0.0 || origin > high {
                 return vec2<f32>(FAR, -FAR);

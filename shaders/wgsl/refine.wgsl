@@ -10,8 +10,8 @@ const UNSEEN: f32 = 0.25;
 // The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
 // optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no tolerance) do not grow.
 fn step_voxels(depth: f32) -> f32 {
-    let shortest = params.quality.x;
-    if params.quality.w >= 1.0 || depth * shortest >= SAFE_DEPTH {
+    let shortest = scene.quality.x;
+    if scene.quality.w >= 1.0 || depth * shortest >= SAFE_DEPTH {
         return shortest;
     }
     return min(SAFE_DEPTH / max(depth, 1e-30), max(shortest, LONGEST_STEP));
@@ -26,7 +26,7 @@ struct Voxel {
 }
 
 fn voxel_of(node: NodeRecord, ray: Ray) -> Voxel {
-    return Voxel(voxel_edge(node.depth) / ray.speed, node.most_extinction * params.quality.z);
+    return Voxel(voxel_edge(node.depth) / ray.speed, node.most_extinction * scene.quality.z);
 }
 
 // The longest step from t on, in metres. Where samples are of more than one level, voxels of the fractional level count: so
@@ -76,7 +76,7 @@ fn parts_of_step(pair: Pair, thickness: f32, visible: f32, spread: f32) -> f32 {
     let order = abs(first.xyz * second.w - second.xyz * first.w) * order_scale;
     let uneven = first.w * second.w * order_scale * (SHADE_SPREAD + spread);
     let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, uneven)));
-    return clamp(ceil(sqrt(worst * visible / params.quality.w)), 1.0, MOST_PARTS);
+    return clamp(ceil(sqrt(worst * visible / scene.quality.w)), 1.0, MOST_PARTS);
 }
 
 // The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the larger

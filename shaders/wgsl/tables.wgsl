@@ -10,7 +10,7 @@ struct Located {
 }
 
 fn locate(s: f32) -> Located {
-    let entries = params.tables.x;
+    let entries = scene.tables.x;
     let u = s * f32(entries - 1u);
     let cell = min(u32(u), entries - 2u);
     return Located(u, cell, mix(optics_table[cell].value, optics_table[cell + 1u].value, u - f32(cell)));
@@ -38,7 +38,7 @@ fn optics_between(a: Located, b: Located) -> vec4<f32> {
 
 // Whether nothing within scalars [low, high] changes a picture.
 fn is_vacant(low: f32, high: f32) -> bool {
-    let entries = params.tables.x;
+    let entries = scene.tables.x;
     let c0 = min(u32(low * f32(entries - 1u)), entries - 2u);
     let c1 = min(u32(high * f32(entries - 1u)), entries - 2u);
     return occupied[c0] == occupied[c1 + 1u];

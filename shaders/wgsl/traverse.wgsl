@@ -7,7 +7,7 @@ struct Exit {
 
 // Edge of a node's voxel in finest voxels.
 fn voxel_edge(depth: u32) -> f32 {
-    return f32(1u << (params.atlas.w - depth));
+    return f32(1u << (scene.atlas.w - depth));
 }
 
 fn node_low(node: NodeRecord) -> vec3<f32> {

@@ -5,10 +5,8 @@
 
 // The structs that the host fills and reads; their Rust forms stand in src/layout/.
 
-struct Params {
-    screen_from_pixel: array<vec4<f32>, 3>,
+struct SceneBlock {
     volume_from_display: array<vec4<f32>, 4>,
-    beam: vec4<f32>,
     volume: vec4<f32>,
     light: vec4<f32>,
     material: vec4<f32>,
@@ -16,8 +14,15 @@ struct Params {
     mimda: vec4<f32>,
     texel: vec4<f32>,
     atlas: vec4<u32>,
-    raster: vec4<u32>,
     tables: vec4<u32>,
+    resolution: vec4<f32>,
+}
+
+struct ViewBlock {
+    screen_from_pixel: array<vec4<f32>, 3>,
+    beam: vec4<f32>,
+    raster: vec4<u32>,
+    extent: vec4<u32>,
 }
 
 struct NodeRecord {
@@ -64,7 +69,8 @@ const CELL_WORDS: u32 = 16u;
 // Set in the count of samples where a ray met a node that is too coarse.
 const MISSING: u32 = 0x80000000u;
 
-@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(0) var<uniform> scene: SceneBlock;
+@group(0) @binding(16) var<uniform> projector: ViewBlock;
 @group(0) @binding(1) var<storage, read> nodes: array<NodeRecord>;
 @group(0) @binding(2) var<storage, read> optics_table: array<OpticsEntry>;
 @group(0) @binding(3) var<storage, read> tiles: array<u32>;
@@ -100,16 +106,16 @@ const FAR: f32 = 1e30;
 const PARALLEL: f32 = 1e-12;
 
 fn ray_of_pixel(pixel: vec2<f32>) -> Ray {
-    let on_screen = params.screen_from_pixel[0].xyz * pixel.x + params.screen_from_pixel[1].xyz * pixel.y
-        + params.screen_from_pixel[2].xyz;
+    let on_screen = projector.screen_from_pixel[0].xyz * pixel.x + projector.screen_from_pixel[1].xyz * pixel.y
+        + projector.screen_from_pixel[2].xyz;
     let screen = vec3<f32>(on_screen.xy / on_screen.z, 0.0);
-    let beam = params.beam;
+    let beam = projector.beam;
     let origin = vec3<f32>(beam.x + beam.y * screen.x, beam.z, beam.w);
     let reach = length(screen - origin);
     var ray: Ray;
     ray.direction_in_display = (screen - origin) / reach;
     ray.start = -reach;
-    let m = params.volume_from_display;
+    let m = scene.volume_from_display;
     let v = ray.direction_in_display;
     ray.origin_in_volume = m[0].xyz * screen.x + m[1].xyz * screen.y + m[3].xyz;
     ray.direction_in_volume = m[0].xyz * v.x + m[1].xyz * v.y + m[2].xyz * v.z;
@@ -136,7 +142,7 @@ fn clip_to_volume(ray: Ray) -> vec2<f32> {
     var span = vec2<f32>(ray.start, FAR);
     for (var axis = 0u; axis < 3u; axis++) {
         let origin = ray.origin_in_volume[axis];
-        let high = params.volume[axis];
+        let high = scene.volume[axis];
         if is_parallel(ray, axis) {
             if origin < 0.0 || origin > high {
                 return vec2<f32>(FAR, -FAR);
@@ -159,7 +165,7 @@ struct Exit {
 
 // Edge of a node's voxel in finest voxels.
 fn voxel_edge(depth: u32) -> f32 {
-    return f32(1u << (params.atlas.w - depth));
+    return f32(1u << (scene.atlas.w - depth));
 }
 
 fn node_low(node: NodeRecord) -> vec3<f32> {
@@ -248,7 +254,7 @@ struct Located {
 }
 
 fn locate(s: f32) -> Located {
-    let entries = params.tables.x;
+    let entries = scene.tables.x;
     let u = s * f32(entries - 1u);
     let cell = min(u32(u), entries - 2u);
     return Located(u, cell, mix(optics_table[cell].value, optics_table[cell + 1u].value, u - f32(cell)));
@@ -276,7 +282,7 @@ fn optics_between(a: Located, b: Located) -> vec4<f32> {
 
 // Whether nothing within scalars [low, high] changes a picture.
 fn is_vacant(low: f32, high: f32) -> bool {
-    let entries = params.tables.x;
+    let entries = scene.tables.x;
     let c0 = min(u32(low * f32(entries - 1u)), entries - 2u);
     let c1 = min(u32(high * f32(entries - 1u)), entries - 2u);
     return occupied[c0] == occupied[c1 + 1u];
@@ -302,8 +308,8 @@ const UNSEEN: f32 = 0.25;
 // The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
 // optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no tolerance) do not grow.
 fn step_voxels(depth: f32) -> f32 {
-    let shortest = params.quality.x;
-    if params.quality.w >= 1.0 || depth * shortest >= SAFE_DEPTH {
+    let shortest = scene.quality.x;
+    if scene.quality.w >= 1.0 || depth * shortest >= SAFE_DEPTH {
         return shortest;
     }
     return min(SAFE_DEPTH / max(depth, 1e-30), max(shortest, LONGEST_STEP));
@@ -339,7 +345,7 @@ fn parts_of_step(pair: Pair, thickness: f32, visible: f32) -> f32 {
     let order = abs(pair.first.xyz * pair.second.w - pair.second.xyz * pair.first.w) * order_scale;
     let shaded = pair.first.w * pair.second.w * order_scale * SPREAD;
     let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, shaded)));
-    return clamp(ceil(sqrt(worst * visible / params.quality.w)), 1.0, MOST_PARTS);
+    return clamp(ceil(sqrt(worst * visible / scene.quality.w)), 1.0, MOST_PARTS);
 }
 
 // The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the larger
@@ -362,7 +368,7 @@ const GRID: f32 = 4096.0;
 // `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5.
 fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
     let exact = origin + round(point * GRID) / GRID;
-    return textureSampleLevel(atlas, trilinear, exact * params.texel.xyz, 0.0).x;
+    return textureSampleLevel(atlas, trilinear, exact * scene.texel.xyz, 0.0).x;
 }
 
 // No shading: a segment shows its own colour.
@@ -431,8 +437,8 @@ struct Brick {
 }
 
 fn slot_origin(slot: u32) -> vec3<f32> {
-    let across = params.atlas.x;
-    let layer = params.atlas.x * params.atlas.y;
+    let across = scene.atlas.x;
+    let layer = scene.atlas.x * scene.atlas.y;
     return vec3<f32>(vec3<u32>(slot % across, (slot % layer) / across, slot / layer) * BRICK_EDGE);
 }
 
@@ -509,7 +515,7 @@ fn add_whole(front: Accumulated, k: vec4<f32>, s0: f32, s1: f32, thickness: f32,
 fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, s0: f32, s1: f32, t0: f32, step: f32,
     parts: f32) -> Accumulated {
     let part = step / parts;
-    let thickness = params.quality.z * part;
+    let thickness = scene.quality.z * part;
     var front = front_of_step;
     var alone = vec4<f32>(0.0);
     var from_s = s0;
@@ -553,10 +559,10 @@ fn march(front_of_brick: Accumulated, node: NodeRecord, ray: Ray, t_in: f32, t_o
     let brick = brick_of(node, ray);
     let span = t_out - t_in;
     let edge = voxel_edge(node.depth);
-    let longest = step_voxels(node.most_extinction * params.quality.z * (edge / ray.speed));
+    let longest = step_voxels(node.most_extinction * scene.quality.z * (edge / ray.speed));
     let pairs = max(1.0, ceil(span * ray.speed / (2.0 * longest * edge)));
     let step = 0.5 * span / pairs;
-    let thickness = params.quality.z * step;
+    let thickness = scene.quality.z * step;
     var marched = Marched(front_of_brick, 0u, false);
     var known = false;
     var s2 = 0.0;
@@ -596,7 +602,7 @@ fn march(front_of_brick: Accumulated, node: NodeRecord, ray: Ray, t_in: f32, t_o
             marched.front = add_parts(marched.front, brick, ray, s1, s2, t0 + step, step, parts);
             marched.samples += 2u * u32(parts - 1.0);
         }
-        if still_to_come(marched.front) < params.quality.y {
+        if still_to_come(marched.front) < scene.quality.y {
             marched.is_done = true;
             break;
         }
@@ -645,19 +651,19 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
 fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_id) local: vec3<u32>) {
     let listed = group.x + group.y * groups.x;
-    if listed >= params.tables.z {
+    if listed >= projector.extent.x {
         return;
     }
     let tile = tiles[listed];
-    let across = params.raster.w;
+    let across = projector.raster.w;
     let in_tiles = vec2<u32>(tile % across, tile / across) * TILE_EDGE + local.xy;
-    let pixel = in_tiles * params.raster.z + vec2<u32>(params.raster.z / 2u);
-    if pixel.x >= params.raster.x || pixel.y >= params.raster.y {
+    let pixel = in_tiles * projector.raster.z + vec2<u32>(projector.raster.z / 2u);
+    if pixel.x >= projector.raster.x || pixel.y >= projector.raster.y {
         return;
     }
     var count = 0u;
     let colour = cast_ray(ray_of_pixel(vec2<f32>(pixel) + 0.5), &count);
-    let index = pixel.y * params.raster.x + pixel.x;
+    let index = pixel.y * projector.raster.x + pixel.x;
     pixels[index] = colour;
     counts[index] = count;
 }

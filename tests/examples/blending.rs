@@ -31,7 +31,7 @@ fn median(mut numbers: Vec<f64>) -> f64 {
 /// Rows of a scene: each contender against the first.
 fn compare(display: &Display, scene: &TestScene, contenders: &[(&str, TwinScene, Needs)]) {
     let view = view(display, PROJECTOR, &scene.frame, &*scene.source).rounded();
-    let rays = f64::from(view.raster[0] * view.raster[1]);
+    let rays = f64::from(view.rays.raster[0] * view.rays.raster[1]);
     let mut devices: Vec<Device> = contenders
         .iter()
         .map(|(_, twin, _)| {

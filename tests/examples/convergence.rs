@@ -16,7 +16,7 @@ use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::lod_rule;
 use lightloom_tests::scenes::{frame, optics, placed};
-use lightloom_tests::twin_scene::{TwinScene, view};
+use lightloom_tests::twin_scene::{TwinScene, View, view};
 use optics::{Curve, Light, Mimda, MimdaForm, Quality};
 use protocol::FrameState;
 use rayon::prelude::*;
@@ -145,7 +145,7 @@ fn errors<F: Real>(
     display: &Display,
     case: &Case,
     name: String,
-    round: impl Fn(&shaders::twin::View<f64>) -> shaders::twin::View<F>,
+    round: impl Fn(&View<f64>) -> View<F>,
     truths: &[Vec<[f64; 4]>],
 ) -> Curves {
     let twin = TwinScene::new(display, &case.frame, &*case.source);
@@ -171,7 +171,7 @@ fn wide<F: Real>(number: F) -> f64 {
 fn both(display: &Display, case: &Case, against: &str, truths: &[Vec<[f64; 4]>]) -> Vec<Curves> {
     let name = |bits: &str| format!("{}{against}, {bits}", case.name);
     vec![
-        errors(display, case, name("f32"), shaders::twin::View::rounded, truths),
+        errors(display, case, name("f32"), View::rounded, truths),
         errors(display, case, name("f64"), Clone::clone, truths),
     ]
 }

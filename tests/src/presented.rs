@@ -1,18 +1,17 @@
 //! A cut given leaf by leaf, with weights at the leaves' corners: one for the devices, the twin and the reference.
 
 use crate::compare::lod_rule;
-use crate::twin_scene::{TwinScene, resident};
+use crate::twin_scene::{TwinScene, View, resident};
 use bricks::{BRICK_VOXELS, BrickSource, CellRanges, NodeKey};
 use display_config::Display;
 use glam::{IVec3, UVec3};
 use layout::{CELL_WORDS, FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 use protocol::FrameState;
 use reference::StoredField;
-use renderer::device::{CastJob, Device, Gather, TileGrid};
+use renderer::device::{CastJob, Device, Gather, Part};
 use renderer::working_set::{Cut, IndexRules, build_index};
 use shaders::compose::{Compositing, Needs, Way};
 use shaders::tables::Tables;
-use shaders::twin::View;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -214,10 +213,10 @@ impl TwinScene {
 
 /// Every pixel of a view of what was loaded, and the number of samples taken.
 pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>, u64) {
-    let grid = TileGrid::new(view.raster[0], view.raster[1], 1);
-    let tiles: Vec<u32> = (0..grid.count()).collect();
+    let View { scene, rays } = view;
+    let (views, part) = (std::slice::from_ref(rays), Part::Every { stride: 1 });
     let outcome = device
-        .cast(&CastJob { view, needs, grid, tiles: &tiles, gather: Gather::Own, counts: true })
+        .cast(&CastJob { scene, views, first_picture: 0, needs, part, gather: Gather::Own, counts: true })
         .expect("the device stays");
-    (device.picture().expect("the device stays"), outcome.samples)
+    (device.picture(0).expect("the device stays"), outcome.samples)
 }

@@ -9,8 +9,9 @@ use rayon::prelude::*;
 use renderer::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle, settled_weights};
 use shaders::compose::Needs;
 use shaders::tables::Tables;
-use shaders::twin::view::Placement;
-use shaders::twin::{FeedbackCell, Real, Scene, View, cast_pixel};
+use shaders::twin::{
+    Casting, FeedbackCell, Observer, Placement, ProjectorRays, Real, SceneNumbers, Volume, cast_pixel,
+};
 
 /// All that a twin reads of a scene, for any view of it. Fields are open so that tests can spoil them.
 #[derive(Clone)]
@@ -25,6 +26,22 @@ pub struct TwinScene {
     pub cells: Vec<u32>,
     /// What the scene needs.
     pub needs: Needs,
+}
+
+/// A scene as one projector casts it.
+#[derive(Clone, Copy, Debug)]
+pub struct View<F> {
+    /// What all projectors share.
+    pub scene: SceneNumbers<F>,
+    /// The projector's own.
+    pub rays: ProjectorRays<F>,
+}
+
+impl View<f64> {
+    /// The same in f32, as a kernel reads it.
+    pub fn rounded(&self) -> View<f32> {
+        View { scene: self.scene.rounded(), rays: self.rays.rounded() }
+    }
 }
 
 impl TwinScene {
@@ -76,17 +93,24 @@ impl TwinScene {
     /// The colours of some pixels (x, y).
     pub fn cast<F: Real>(&self, view: &View<F>, pixels: &[(u32, u32)]) -> Vec<[F; 4]> {
         let feedback: Vec<FeedbackCell> = self.nodes.iter().map(|_| FeedbackCell::default()).collect();
-        let scene = Scene {
-            view,
-            nodes: &self.nodes,
+        let casting = self.casting(&view.scene, &feedback);
+        let cast = |&(x, y): &(u32, u32)| cast_pixel(&casting, &view.rays, x, y).rgba;
+        pixels.par_iter().map(cast).collect()
+    }
+
+    /// All that a twin reads, with a table of feedback for the nodes.
+    pub fn casting<'a, F>(
+        &'a self,
+        scene: &'a SceneNumbers<F>,
+        feedback: &'a [FeedbackCell],
+    ) -> Casting<'a, F> {
+        Casting {
+            scene,
+            volume: Volume { nodes: &self.nodes, cells: &self.cells, atlas: &self.atlas },
             tables: &self.tables,
             needs: &self.needs,
-            cells: &self.cells,
-            atlas: &self.atlas,
-            feedback: &feedback,
-        };
-        let cast = |&(x, y): &(u32, u32)| cast_pixel(&scene, x, y).rgba;
-        pixels.par_iter().map(cast).collect()
+            observer: Observer { feedback },
+        }
     }
 }
 
@@ -109,12 +133,13 @@ pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn 
         .expect("a test scene goes with its display");
     let shape = source.shape();
     let place = Placement {
-        raster: &display.projectors[projector as usize].raster,
-        law: &law,
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
         resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
     };
-    View::new(place, &frame.optics, frame.light_in_effect(), &frame.quality)
+    View {
+        scene: SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality),
+        rays: ProjectorRays::new(&display.projectors[projector as usize].raster, &law),
+    }
 }

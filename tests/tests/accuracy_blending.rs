@@ -12,7 +12,7 @@ use lightloom_tests::compare::{Errors, Limits, errors_of, lod_rule};
 use lightloom_tests::draw;
 use lightloom_tests::presented::{Presented, picture};
 use lightloom_tests::scenes::{TestScene, with_raster};
-use lightloom_tests::twin_scene::{TwinScene, view};
+use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::FrameState;
 use rayon::prelude::*;
 use reference::{Field, Integrator, Ray, StoredField, Tracer};
@@ -23,7 +23,7 @@ use shaders::twin::levels::Brick;
 use shaders::twin::refine::Voxel;
 use shaders::twin::shade::Plain;
 use shaders::twin::vector::Vec3;
-use shaders::twin::{FeedbackCell, Real, Scene, ray};
+use shaders::twin::{Casting, FeedbackCell, ProjectorRays, Real, ray};
 use std::sync::Arc;
 
 const PROJECTOR: u32 = 5;
@@ -234,9 +234,14 @@ fn weights_of_zero_are_the_parents_picture() {
 
 /// What a node shows at a point of its border, and how long steps are there, by the f64 twin; and by the reference, just
 /// within.
-fn on_border(scene: &Scene<f64>, node: &NodeRecord, point: DVec3, direction: DVec3) -> [f64; 2] {
+fn on_border(
+    casting: &Casting<f64>,
+    rays: &ProjectorRays<f64>,
+    node: &NodeRecord,
+    (point, direction): (DVec3, DVec3),
+) -> [f64; 2] {
     let [origin, along] = [point, direction].map(|v| Vec3(v.to_array()));
-    let ray = ray::Ray::of_pixel(scene.view, 0.5, 0.5);
+    let ray = ray::Ray::of_pixel(casting.scene, rays, 0.5, 0.5);
     let inverse = direction.to_array().map(|d| if d == 0.0 { 1e30 } else { 1.0 / d });
     let ray = ray::Ray {
         origin_in_volume: origin,
@@ -245,9 +250,9 @@ fn on_border(scene: &Scene<f64>, node: &NodeRecord, point: DVec3, direction: DVe
         speed: direction.length(),
         ..ray
     };
-    let brick = Brick::new::<Plainest>(scene, node, &ray);
-    let step = Voxel::new(scene, node, &ray).longest_step::<Plainest>(scene, &brick, &ray, 0.0);
-    [brick.scalar_at::<Plainest>(scene, &ray, 0.0), step]
+    let brick = Brick::new::<Plainest>(casting, node, &ray);
+    let step = Voxel::new(casting, node, &ray).longest_step::<Plainest>(casting, &brick, &ray, 0.0);
+    [brick.scalar_at::<Plainest>(casting, &ray, 0.0), step]
 }
 
 /// The largest jumps of value, of step length (as a ratio) and of the reference's value over the faces between leaves.
@@ -255,8 +260,8 @@ fn jumps(display: &Display, scene: &TestScene, cut: &Presented) -> [f64; 3] {
     let twin = cut.scene(display, &scene.frame);
     let view = view(display, PROJECTOR, &scene.frame, &*scene.source);
     let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
-    let TwinScene { nodes, atlas, tables, cells, needs } = &twin;
-    let seen = Scene { view: &view, nodes, tables, needs, cells, atlas, feedback: &feedback };
+    let View { scene: numbers, rays } = &view;
+    let seen = twin.casting(numbers, &feedback);
     let field = cut.field(&scene.frame);
     let finest = scene.source.shape().finest_depth();
     let mut most = [0.0_f64; 3];
@@ -274,11 +279,11 @@ fn jumps(display: &Display, scene: &TestScene, cut: &Presented) -> [f64; 3] {
                 let across = DVec3::from_array(std::array::from_fn(|i| f64::from(u8::from(i == axis))));
                 let ray = ray::Ray {
                     direction_in_volume: Vec3(across.to_array()),
-                    ..ray::Ray::of_pixel(&view, 0.5, 0.5)
+                    ..ray::Ray::of_pixel(numbers, rays, 0.5, 0.5)
                 };
                 let sides = [-1e-9, 1e-9].map(|shift| {
                     let at = Vec3((point + shift * across).to_array());
-                    on_border(&seen, &nodes[seen.leaf_at(at, &ray) as usize], point, across)
+                    on_border(&seen, rays, &twin.nodes[seen.leaf_at(at, &ray) as usize], (point, across))
                 });
                 let [below, above] = [-1e-9, 1e-9].map(|shift| field.value(point + shift * across).unwrap());
                 most[0] = most[0].max((sides[0][0] - sides[1][0]).abs());

@@ -7,10 +7,9 @@ use display_config::Display;
 use layout::FeedbackEntry;
 use lightloom_tests::draw;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
-use lightloom_tests::twin_scene::{TwinScene, view};
+use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{DeviceChoice, FilterChoice};
-use renderer::device::{CastJob, CastOutcome, Device, Gather, TileGrid, open_device};
-use shaders::twin::View;
+use renderer::device::{CastJob, CastOutcome, Device, Gather, Part, open_device};
 use std::time::{Duration, Instant};
 
 /// A table that has not come by then never will.
@@ -56,11 +55,9 @@ impl Stage {
     }
 
     fn cast(&mut self, view: usize, gather: Gather, counts: bool) -> CastOutcome {
-        let [width, height] = self.views[view].raster;
-        let grid = TileGrid::new(width, height, 1);
-        let tiles: Vec<u32> = (0..grid.count()).collect();
-        let needs = self.scene.needs;
-        let job = CastJob { view: &self.views[view], needs, grid, tiles: &tiles, gather, counts };
+        let View { scene, rays } = &self.views[view];
+        let (views, part, needs) = (std::slice::from_ref(rays), Part::Every { stride: 1 }, self.scene.needs);
+        let job = CastJob { scene, views, first_picture: 0, needs, part, gather, counts };
         self.device.cast(&job).unwrap()
     }
 
@@ -125,13 +122,49 @@ fn a_cast_of_a_frame_draws_the_same_and_counts_where_it_is_asked() {
     for choice in draw::devices() {
         let mut stage = Stage::new(choice);
         let own = stage.cast(0, Gather::Own, true);
-        let picture = stage.device.picture().unwrap();
+        let picture = stage.device.picture(0).unwrap();
         let counted = stage.cast(0, Gather::Frame, true);
         assert_eq!((counted.rays, counted.samples), (own.rays, own.samples), "{choice:?}");
         assert!(own.samples > 0 && own.rays == 72 * 54);
         let plain = stage.cast(0, Gather::Frame, false);
-        assert!(stage.device.picture().unwrap() == picture, "{choice:?}");
+        assert!(stage.device.picture(0).unwrap() == picture, "{choice:?}");
         assert_eq!((plain.rays, plain.samples, plain.missing_tiles.len()), (own.rays, 0, 0), "{choice:?}");
+    }
+}
+
+#[test]
+fn views_cast_together_are_views_cast_one_by_one() {
+    let _turn = draw::turn();
+    for choice in draw::devices() {
+        let mut stage = Stage::new(choice);
+        let alone = [0, 1].map(|view| (stage.own(view), stage.device.picture(0).unwrap()));
+        assert!(alone[0].1 != alone[1].1, "two views that look alike tell nothing here");
+        let views = [0, 1].map(|view| stage.views[view].rays);
+        let job = CastJob {
+            scene: &stage.views[0].scene,
+            views: &views,
+            first_picture: 1,
+            needs: stage.scene.needs,
+            part: Part::Every { stride: 1 },
+            gather: Gather::Own,
+            counts: true,
+        };
+        let both = stage.device.cast(&job).unwrap();
+        assert_eq!((both.rays, both.missing_tiles.len()), (2 * 72 * 54, 2), "{choice:?}");
+        assert!(both.feedback == union(&alone[0].0, &alone[1].0), "{choice:?}");
+        assert!(stage.device.picture(0).unwrap() == alone[1].1, "the picture of another cast stays");
+        for (index, (_, picture)) in alone.iter().enumerate() {
+            assert!(stage.device.picture(1 + index).unwrap() == *picture, "{choice:?}, view {index}");
+        }
+        // A view without tiles keeps its picture.
+        let tiles = [vec![], vec![0]];
+        let job = CastJob { views: &[views[1], views[0]], part: Part::Tiles(&tiles), ..job };
+        assert_eq!(stage.device.cast(&job).unwrap().rays, 64, "{choice:?}");
+        assert!(stage.device.picture(1).unwrap() == alone[0].1, "{choice:?}");
+        let mixed = stage.device.picture(2).unwrap();
+        let pixels = |picture: &[f32]| [picture[..4 * 8].to_vec(), picture[4 * 72 * 54 - 4..].to_vec()];
+        let expected = [&pixels(&alone[0].1)[0], &pixels(&alone[1].1)[1]].map(Clone::clone);
+        assert!(pixels(&mixed) == expected, "{choice:?}");
     }
 }
 

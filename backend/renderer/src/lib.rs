@@ -5,4 +5,4 @@ pub mod output;
 mod render;
 pub mod working_set;
 
-pub use render::{RenderError, Renderer, view_of};
+pub use render::{RenderError, Renderer};

@@ -106,7 +106,7 @@ impl KernelKey {
             chain.as_str(),
             module!("refine"),
             module!("brick"),
-            module!("report"),
+            module!("observer"),
             debug.as_str(),
             way,
             module!("cast"),

@@ -10,7 +10,7 @@ use super::material::material_at;
 use super::refine::{Pair, parts_of_step};
 use super::shade::{Lighting, Shade};
 use super::tables::{attenuation_mean, locate};
-use super::{Real, Scene, ray::Ray, vector::Vec3};
+use super::{Casting, Real, ray::Ray, vector::Vec3};
 
 /// Texels along the edge of a cell.
 const CELL: f64 = 4.0;
@@ -108,7 +108,7 @@ fn segment_light<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) 
 /// Adds one step with its middle `at` a place on a ray, lit as given.
 #[inline(always)]
 fn add_whole<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     front: Accumulated<F>,
     sample: &Sample<F>,
     thickness: F,
@@ -118,41 +118,41 @@ fn add_whole<F: Real, K: Kernel>(
     if K::Composite::is_clear(sample.k[3]) {
         return front;
     }
-    let light = debug_light::<F, K>(scene, segment_light(sample, thickness, light), at);
-    K::Composite::composite(scene, front, light, sample)
+    let light = debug_light::<F, K>(casting, segment_light(sample, thickness, light), at);
+    K::Composite::composite(casting, front, light, sample)
 }
 
 /// Adds one step, cut into parts.
 #[inline(always)]
 fn add_parts<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
     step: &Step<F>,
     parts: F,
 ) -> Accumulated<F> {
     if K::IS_FULL {
-        add_parts_apart::<F, K>(scene, chain, front, step, parts)
+        add_parts_apart::<F, K>(casting, chain, front, step, parts)
     } else {
-        add_parts_here::<F, K>(scene, chain, front, step, parts)
+        add_parts_here::<F, K>(casting, chain, front, step, parts)
     }
 }
 
 /// The same, not inlined: there is much of it in kernels with everything.
 #[inline(never)]
 fn add_parts_apart<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
     step: &Step<F>,
     parts: F,
 ) -> Accumulated<F> {
-    add_parts_here::<F, K>(scene, chain, front, step, parts)
+    add_parts_here::<F, K>(casting, chain, front, step, parts)
 }
 
 #[inline(always)]
 fn add_parts_here<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     chain: &Chain<F>,
     mut front: Accumulated<F>,
     step: &Step<F>,
@@ -160,43 +160,43 @@ fn add_parts_here<F: Real, K: Kernel>(
 ) -> Accumulated<F> {
     let Straight { brick, ray } = step.way;
     let part = step.length / parts;
-    let thickness = scene.view.extinction_per_metre * part;
+    let thickness = casting.scene.extinction_per_metre * part;
     let half = F::of(0.5);
     let mut alone = Light::NONE;
     let (mut from, end) = step.scalars;
-    let mut from_located = locate(&scene.tables.optics, from);
+    let mut from_located = locate(&casting.tables.optics, from);
     let count = parts.to_index();
     for j in 1..=count {
         let t = step.t0 + F::of_u32(j) * part;
-        let to = if j < count { brick.scalar_at::<K>(scene, ray, t) } else { end };
-        let to_located = locate(&scene.tables.optics, to);
-        let plain = K::Composite::sample_between(scene, [&from_located, &to_located], (from, to));
+        let to = if j < count { brick.scalar_at::<K>(casting, ray, t) } else { end };
+        let to_located = locate(&casting.tables.optics, to);
+        let plain = K::Composite::sample_between(casting, [&from_located, &to_located], (from, to));
         if !K::Composite::is_clear(plain.k[3]) {
             let middle = t - half * part;
             let mut gradients = Gradients::NONE;
-            let enhancers_look = chain.spread::<K>(scene, middle) > F::ZERO;
-            if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(scene.needs) || enhancers_look) {
-                gradients = Gradients::new::<K>(scene, brick, ray, middle);
+            let enhancers_look = chain.spread::<K>(casting, middle) > F::ZERO;
+            if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
+                gradients = Gradients::new::<K>(casting, brick, ray, middle);
             }
-            let sample = chain.enhance::<K>(scene, plain, (ray, middle), (from, to), &gradients);
+            let sample = chain.enhance::<K>(casting, plain, (ray, middle), (from, to), &gradients);
             let light = if sample.k[3] > F::ZERO {
-                let material = material_at::<F, K>(scene, half * (from + to));
-                K::Shade::lighting(scene, &gradients, ray, material)
+                let material = material_at::<F, K>(casting, half * (from + to));
+                K::Shade::lighting(casting, &gradients, ray, material)
             } else {
                 Lighting::NONE
             };
             let light = segment_light(&sample, thickness, light);
-            let light = debug_light::<F, K>(scene, light, (ray, middle));
+            let light = debug_light::<F, K>(casting, light, (ray, middle));
             if K::Composite::ONCE_PER_STEP {
                 alone = alone.then(light);
             } else {
-                front = K::Composite::composite(scene, front, light, &sample);
+                front = K::Composite::composite(casting, front, light, &sample);
             }
         }
         (from, from_located) = (to, to_located);
     }
     if K::Composite::ONCE_PER_STEP {
-        K::Composite::composite(scene, front, alone, &step.whole)
+        K::Composite::composite(casting, front, alone, &step.whole)
     } else {
         front
     }
@@ -205,46 +205,46 @@ fn add_parts_here<F: Real, K: Kernel>(
 /// Adds a pair of steps. Yields what was gathered, and the number of parts that each step was cut into.
 #[inline(always)]
 pub(super) fn add_pair<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
     steps: &PairOfSteps<F>,
 ) -> (Accumulated<F>, F) {
-    let view = scene.view;
+    let scene = casting.scene;
     let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range } = *steps;
-    let thickness = view.extinction_per_metre * length;
-    let mut pair = Pair::new::<K::Composite>(scene, [s0, s1, s2], range);
+    let thickness = scene.extinction_per_metre * length;
+    let mut pair = Pair::new::<K::Composite>(casting, [s0, s1, s2], range);
     let middle = t0 + length;
     let mut gradients = Gradients::NONE;
     // Only enhancers whose samples vary with the gradient look at it.
-    let chain_spread = chain.spread::<K>(scene, middle);
+    let chain_spread = chain.spread::<K>(casting, middle);
     let enhancers_look = chain_spread > F::ZERO;
     if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
-        gradients = Gradients::new::<K>(scene, first.brick, first.ray, middle);
+        gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
     }
     let half = F::of(0.5) * length;
-    pair.first = chain.enhance::<K>(scene, pair.first, (first.ray, t0 + half), (s0, s1), &gradients);
-    pair.second = chain.enhance::<K>(scene, pair.second, (second.ray, t1 + half), (s1, s2), &gradients);
-    pair.both = chain.enhance::<K>(scene, pair.both, (first.ray, middle), (s0, s2), &gradients);
-    pair.reach = chain.enhance::<K>(scene, pair.reach, (first.ray, middle), range, &gradients);
-    let visible = K::Composite::still_to_come(scene, front);
-    let spread = F::of(K::Shade::spread(scene.needs)) + chain_spread;
-    let parts = parts_of_step(&pair, thickness, visible, spread, view.tolerance)
-        .most(K::Composite::parts_of_rise(scene, front, &pair.reach));
+    pair.first = chain.enhance::<K>(casting, pair.first, (first.ray, t0 + half), (s0, s1), &gradients);
+    pair.second = chain.enhance::<K>(casting, pair.second, (second.ray, t1 + half), (s1, s2), &gradients);
+    pair.both = chain.enhance::<K>(casting, pair.both, (first.ray, middle), (s0, s2), &gradients);
+    pair.reach = chain.enhance::<K>(casting, pair.reach, (first.ray, middle), range, &gradients);
+    let visible = K::Composite::still_to_come(casting, front);
+    let spread = F::of(K::Shade::spread(casting.needs)) + chain_spread;
+    let parts = parts_of_step(&pair, thickness, visible, spread, scene.tolerance)
+        .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
     if parts > F::ONE {
         let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };
-        let front = add_parts::<F, K>(scene, chain, front, &step, parts);
+        let front = add_parts::<F, K>(casting, chain, front, &step, parts);
         let step = Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length };
-        return (add_parts::<F, K>(scene, chain, front, &step, parts), parts);
+        return (add_parts::<F, K>(casting, chain, front, &step, parts), parts);
     }
     // The light in the middle of the pair serves both steps.
     let mut light = Lighting::NONE;
-    if K::Shade::reads_gradients(scene.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
+    if K::Shade::reads_gradients(casting.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
         if !enhancers_look {
-            gradients = Gradients::new::<K>(scene, first.brick, first.ray, middle);
+            gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
         }
-        light = K::Shade::lighting(scene, &gradients, first.ray, material_at::<F, K>(scene, s1));
+        light = K::Shade::lighting(casting, &gradients, first.ray, material_at::<F, K>(casting, s1));
     }
-    let front = add_whole::<F, K>(scene, front, &pair.first, thickness, light, (first.ray, t0 + half));
-    (add_whole::<F, K>(scene, front, &pair.second, thickness, light, (second.ray, t1 + half)), parts)
+    let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray, t0 + half));
+    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray, t1 + half)), parts)
 }

@@ -1,14 +1,14 @@
 //! The material of a scalar: the light's own, or that of a table.
 
-use super::{Real, Scene, kernel::Kernel};
+use super::{Casting, Real, kernel::Kernel};
 
 /// Ambient, diffuse, specular, shininess.
 #[inline(always)]
-pub fn material_at<F: Real, K: Kernel>(scene: &Scene<F>, s: F) -> [F; 4] {
-    if !K::IS_FULL || !scene.needs.has_materials {
-        return scene.view.material;
+pub fn material_at<F: Real, K: Kernel>(casting: &Casting<F>, s: F) -> [F; 4] {
+    if !K::IS_FULL || !casting.needs.has_materials {
+        return casting.scene.material;
     }
-    let table = &scene.tables.materials;
+    let table = &casting.tables.materials;
     let u = s * F::of_u32(table.len() as u32 - 1);
     let cell = (u.to_index() as usize).min(table.len() - 2);
     let f = u - F::of_u32(cell as u32);

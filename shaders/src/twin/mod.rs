@@ -8,6 +8,7 @@
 
 mod brick;
 pub mod cast;
+mod casting;
 pub mod composite;
 pub mod debug;
 pub mod enhance;
@@ -17,19 +18,24 @@ pub mod importance;
 pub mod kernel;
 pub mod levels;
 mod material;
+mod observer;
+mod projector;
 pub mod ray;
 pub mod real;
 pub mod refine;
 pub mod sample;
-pub mod scene;
+mod scene;
 pub mod shade;
 pub mod tables;
 pub mod traverse;
 pub mod vector;
-pub mod view;
+mod volume;
 mod way;
 
 pub use cast::{Cast, cast_pixel};
+pub use casting::Casting;
+pub use observer::{FeedbackCell, Observer};
+pub use projector::{ProjectorRays, Tiling};
 pub use real::Real;
-pub use scene::{FeedbackCell, Scene};
-pub use view::View;
+pub use scene::{Placement, SceneNumbers};
+pub use volume::Volume;

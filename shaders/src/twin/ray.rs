@@ -1,6 +1,6 @@
 //! The ray of a projector pixel (LFD eq. 1), seen from the volume.
 
-use super::{Real, View, vector::Vec3};
+use super::{ProjectorRays, Real, SceneNumbers, vector::Vec3};
 
 /// Stands for infinity, as in the kernel.
 const FAR: f64 = 1e30;
@@ -29,15 +29,15 @@ pub struct Ray<F> {
 impl<F: Real> Ray<F> {
     /// The ray through a point of the raster, in pixels.
     #[inline(always)]
-    pub fn of_pixel(view: &View<F>, x: F, y: F) -> Self {
-        let h = &view.screen_from_pixel;
+    pub fn of_pixel(scene: &SceneNumbers<F>, rays: &ProjectorRays<F>, x: F, y: F) -> Self {
+        let h = &rays.screen_from_pixel;
         let on_screen = h[0] * x + h[1] * y + h[2];
         let screen = Vec3([on_screen.0[0] / on_screen.0[2], on_screen.0[1] / on_screen.0[2], F::ZERO]);
-        let beam = view.beam;
+        let beam = rays.beam;
         let origin = Vec3([beam[0] + beam[1] * screen.0[0], beam[2], beam[3]]);
         let toward = screen - origin;
         let reach = toward.length();
-        let m = &view.volume_from_display;
+        let m = &scene.volume_from_display;
         let ray = Self {
             origin_in_volume: m[0] * screen.0[0] + m[1] * screen.0[1] + m[3],
             direction_in_volume: Vec3::ZERO,
@@ -47,13 +47,13 @@ impl<F: Real> Ray<F> {
             start: -reach,
             speed: F::ZERO,
         };
-        ray.turned(view, toward.map(|c| c / reach))
+        ray.turned(scene, toward.map(|c| c / reach))
     }
 
     /// A ray from the same origin along another unit vector.
     #[inline(always)]
-    pub fn turned(self, view: &View<F>, direction_in_display: Vec3<F>) -> Self {
-        let (m, v) = (&view.volume_from_display, direction_in_display);
+    pub fn turned(self, scene: &SceneNumbers<F>, direction_in_display: Vec3<F>) -> Self {
+        let (m, v) = (&scene.volume_from_display, direction_in_display);
         let direction_in_volume = m[0] * v.0[0] + m[1] * v.0[1] + m[2] * v.0[2];
         Self {
             direction_in_volume,

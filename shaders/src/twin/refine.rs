@@ -7,7 +7,7 @@ use super::levels::Brick;
 use super::shade::Shade;
 use super::tables::locate;
 use super::traverse::voxel_edge;
-use super::{Real, Scene, ray::Ray};
+use super::{Casting, Real, ray::Ray};
 use layout::NodeRecord;
 
 /// A step is cut into this many parts at most.
@@ -41,18 +41,18 @@ pub struct Voxel<F> {
 impl<F: Real> Voxel<F> {
     /// Of a node.
     #[inline(always)]
-    pub fn new(scene: &Scene<F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
-        let edge = voxel_edge::<F>(scene.view.finest_depth, node.depth) / ray.speed;
-        Self { edge, most_extinction: F::of_f32(node.most_extinction) * scene.view.extinction_per_metre }
+    pub fn new(casting: &Casting<F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+        let edge = voxel_edge::<F>(casting.scene.finest_depth, node.depth) / ray.speed;
+        Self { edge, most_extinction: F::of_f32(node.most_extinction) * casting.scene.extinction_per_metre }
     }
 
     /// The longest step from t on, in metres, by the fractional level there; see the WGSL.
     #[inline(always)]
-    pub fn longest_step<K: Kernel>(&self, scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> F {
+    pub fn longest_step<K: Kernel>(&self, casting: &Casting<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> F {
         let has_fractions = brick.has_fractions::<K>();
-        let edge = if has_fractions { self.edge * brick.fraction(scene, ray, t).exp2() } else { self.edge };
-        let (view, safe) = (scene.view, F::of(K::Shade::safe_depth(scene.needs)));
-        step_voxels(view.step_voxels, self.most_extinction * edge, safe, view.tolerance) * edge
+        let edge = if has_fractions { self.edge * brick.fraction(casting, ray, t).exp2() } else { self.edge };
+        let (scene, safe) = (casting.scene, F::of(K::Shade::safe_depth(casting.needs)));
+        step_voxels(scene.step_voxels, self.most_extinction * edge, safe, scene.tolerance) * edge
     }
 }
 
@@ -72,15 +72,15 @@ pub struct Pair<F> {
 impl<F: Real> Pair<F> {
     /// Over scalars s0 to s1 to s2, with `reach` as [`scalars_in_reach`] tells it.
     #[inline(always)]
-    pub fn new<C: Composite>(scene: &Scene<F>, [s0, s1, s2]: [F; 3], reach: (F, F)) -> Self {
-        let table = &scene.tables.optics;
+    pub fn new<C: Composite>(casting: &Casting<F>, [s0, s1, s2]: [F; 3], reach: (F, F)) -> Self {
+        let table = &casting.tables.optics;
         let (l0, l1, l2) = (locate(table, s0), locate(table, s1), locate(table, s2));
         let (low, high) = (locate(table, reach.0), locate(table, reach.1));
         Self {
-            first: C::sample_between(scene, [&l0, &l1], (s0, s1)),
-            second: C::sample_between(scene, [&l1, &l2], (s1, s2)),
-            both: C::sample_between(scene, [&l0, &l2], (s0, s2)),
-            reach: C::sample_between(scene, [&low, &high], reach),
+            first: C::sample_between(casting, [&l0, &l1], (s0, s1)),
+            second: C::sample_between(casting, [&l1, &l2], (s1, s2)),
+            both: C::sample_between(casting, [&l0, &l2], (s0, s2)),
+            reach: C::sample_between(casting, [&low, &high], reach),
         }
     }
 }

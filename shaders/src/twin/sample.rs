@@ -1,7 +1,7 @@
 //! The stored sample at a point of a brick: the twin of `wgsl/sample/exact.wgsl`. The texture unit has no twin.
 
 use super::four::{between_corners, each, mix};
-use super::{Real, scene::BRICK_VOXELS, vector::Vec3};
+use super::{Real, vector::Vec3, volume::BRICK_VOXELS};
 
 /// Stored samples along an edge.
 const EDGE: u32 = 32;

@@ -1,73 +1,167 @@
-//! What a twin reads, and the feedback it writes.
+//! The numbers of a scene that all projectors share, as [`SceneBlock`] holds them for a kernel.
 
-use super::{Real, View};
-use crate::compose::Needs;
-use crate::tables::Tables;
-use layout::{CELL_WORDS, FeedbackEntry, NodeRecord, code_from_deficit};
-use std::sync::atomic::{AtomicU32, Ordering};
+use super::enhance::{Constants, constants};
+use super::vector::Vec3;
+use crate::tables::TABLE_ENTRIES;
+use glam::{DAffine3, DMat3, DVec3, UVec3};
+use layout::{Link, SceneBlock};
+use optics::{Detail, Light, MOST_ENHANCERS, Optics, Quality};
 
-/// Codes of one brick: 32³.
-pub const BRICK_VOXELS: usize = 32 * 32 * 32;
-
-/// A view of a scene, ready to cast.
-#[derive(Clone, Copy)]
-pub struct Scene<'a, F> {
-    /// The view.
-    pub view: &'a View<F>,
-    /// The spatial index, root first.
-    pub nodes: &'a [NodeRecord],
-    /// The transfer functions.
-    pub tables: &'a Tables,
-    /// What the scene needs.
-    pub needs: &'a Needs,
-    /// Which 4³ cells of each slot's brick show anything: 16 words of bits a slot, see [`layout::CELL_WORDS`].
-    pub cells: &'a [u32],
-    /// The brick cache: slot i holds the codes from i · 32³.
-    pub atlas: &'a [u16],
-    /// One per node.
-    pub feedback: &'a [FeedbackCell],
+/// See [`SceneBlock`]; one field for each number that the twin needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneNumbers<F> {
+    /// Columns of the display-to-volume affine map, translation last; voxels per metre.
+    pub volume_from_display: [Vec3<F>; 4],
+    /// Voxels of the volume along each axis.
+    pub dims: Vec3<F>,
+    /// Edge of the finest voxel, metres.
+    pub voxel_m: F,
+    /// Toward the light, display frame.
+    pub toward_light: Vec3<F>,
+    /// Square of the gradient at which shading has half its strength.
+    pub gradient_half_square: F,
+    /// Ambient, diffuse, specular, shininess.
+    pub material: [F; 4],
+    /// Longest step, voxels of the node.
+    pub step_voxels: F,
+    /// Termination ε.
+    pub termination: F,
+    /// Error allowed per step.
+    pub tolerance: F,
+    /// Extinction per metre where the table says 1.
+    pub extinction_per_metre: F,
+    /// γ.
+    pub gamma: F,
+    /// Largest importance of the transfer function.
+    pub largest_importance: F,
+    /// Depth of the finest level.
+    pub finest_depth: u32,
+    /// c0 and c1 of the wanted level above the finest, log2(c0 + c1 |z|).
+    pub resolution: [F; 2],
+    /// Strength of the shading of detail.
+    pub detail: F,
+    /// The volume's diagonal, metres.
+    pub diagonal_m: F,
+    /// The constants of the chain's links.
+    pub links: [Constants<F>; MOST_ENHANCERS],
 }
 
-/// Feedback of one node, written by many threads.
-#[derive(Debug, Default)]
-pub struct FeedbackCell {
-    deficit_code: AtomicU32,
-    rays: AtomicU32,
+/// Where a volume stands in a display.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    /// Volume frame to display frame.
+    pub display_from_volume: DAffine3,
+    /// Voxels of the volume along each axis.
+    pub dims: UVec3,
+    /// Depth of the octree's finest level.
+    pub finest_depth: u8,
+    /// s0 and 2 tan(Φ/2) of the display's resolution s(z) = s0 + 2 |z| tan(Φ/2), metres and metres per metre.
+    pub resolution: (f64, f64),
 }
 
-impl FeedbackCell {
-    /// Notes a ray that samples a node of this deficit.
-    #[inline]
-    pub fn note(&self, deficit: f32) {
-        let code = code_from_deficit(deficit);
-        // Most rays find the same code: look before the locked write.
-        if self.deficit_code.load(Ordering::Relaxed) < code {
-            self.deficit_code.fetch_max(code, Ordering::Relaxed);
+/// Strength of the shading of detail, where there is any.
+fn detail_strength(light: &Light) -> f64 {
+    match light.detail {
+        Detail::None => 0.0,
+        Detail::Unsharp { strength } => strength,
+        Detail::Exaggerated { contrast } => contrast,
+    }
+}
+
+/// The longest of a box's four diagonals.
+fn longest_diagonal(display_from_volume: DMat3, dims: DVec3) -> f64 {
+    let signs =
+        [DVec3::ONE, DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, -1.0)];
+    signs.iter().map(|sign| (display_from_volume * (dims * *sign)).length()).fold(0.0, f64::max)
+}
+
+/// The constants of the links that do anything, in order.
+fn links(optics: &Optics) -> [Constants<f64>; MOST_ENHANCERS] {
+    let mut links = optics.enhancers.iter().filter(|e| !e.is_neutral()).map(constants);
+    std::array::from_fn(|_| links.next().unwrap_or_default())
+}
+
+impl SceneNumbers<f64> {
+    /// The numbers of a volume in its place, seen through `optics` in this light at this quality.
+    pub fn new(place: Placement, optics: &Optics, light: Option<Light>, quality: &Quality) -> Self {
+        let vector = |v: DVec3| Vec3(v.to_array());
+        let inverse = place.display_from_volume.inverse();
+        let m = inverse.matrix3;
+        let voxel_m = place.display_from_volume.matrix3.determinant().abs().cbrt();
+        let light = light.unwrap_or_default();
+        let mimda = optics.mimda.as_ref();
+        let m3 = place.display_from_volume.matrix3;
+        let finest_m = m3.x_axis.length().max(m3.y_axis.length()).max(m3.z_axis.length());
+        let per_finest = quality.lod_scale / finest_m;
+        Self {
+            volume_from_display: [m.x_axis, m.y_axis, m.z_axis, inverse.translation].map(vector),
+            dims: vector(place.dims.as_dvec3()),
+            voxel_m,
+            toward_light: vector(light.toward_light_in_display),
+            gradient_half_square: light.gradient_half * light.gradient_half,
+            material: [light.ambient, light.diffuse, light.specular, light.shininess],
+            step_voxels: quality.step_voxels,
+            termination: quality.termination,
+            tolerance: quality.tolerance,
+            extinction_per_metre: optics.extinction_per_metre(voxel_m),
+            gamma: mimda.map_or(0.0, |m| m.gamma),
+            largest_importance: optics.most_importance_on(0.0, 1.0),
+            finest_depth: u32::from(place.finest_depth),
+            resolution: [place.resolution.0 * per_finest, place.resolution.1 * per_finest],
+            detail: detail_strength(&light),
+            diagonal_m: longest_diagonal(m3, place.dims.as_dvec3()),
+            links: links(optics),
         }
-        self.rays.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// What was noted.
-    pub fn entry(&self) -> FeedbackEntry {
-        FeedbackEntry {
-            deficit_code: self.deficit_code.load(Ordering::Relaxed),
-            rays: self.rays.load(Ordering::Relaxed),
+    /// The same numbers in f32, as a kernel reads them.
+    pub fn rounded(&self) -> SceneNumbers<f32> {
+        let vector = Vec3::rounded;
+        SceneNumbers {
+            volume_from_display: self.volume_from_display.map(vector),
+            dims: vector(self.dims),
+            voxel_m: self.voxel_m as f32,
+            toward_light: vector(self.toward_light),
+            gradient_half_square: self.gradient_half_square as f32,
+            material: self.material.map(|x| x as f32),
+            step_voxels: self.step_voxels as f32,
+            termination: self.termination as f32,
+            tolerance: self.tolerance as f32,
+            extinction_per_metre: self.extinction_per_metre as f32,
+            gamma: self.gamma as f32,
+            largest_importance: self.largest_importance as f32,
+            finest_depth: self.finest_depth,
+            resolution: self.resolution.map(|x| x as f32),
+            detail: self.detail as f32,
+            diagonal_m: self.diagonal_m as f32,
+            links: self.links.map(|link| link.map(|vector| vector.map(|x| x as f32))),
         }
     }
 }
 
-impl<'a, F: Real> Scene<'a, F> {
-    /// The visible cells of a slot.
-    #[inline(always)]
-    pub fn cells(&self, slot: u32) -> &'a [u32; CELL_WORDS] {
-        let start = slot as usize * CELL_WORDS;
-        self.cells[start..start + CELL_WORDS].first_chunk().expect("a slot has 16 words of cells")
+impl SceneNumbers<f32> {
+    /// The uniform block of this scene over an atlas of so many slots along x, y, z.
+    pub fn block(&self, atlas_slots: [u32; 3]) -> SceneBlock {
+        let column = |v: Vec3<f32>| [v.0[0], v.0[1], v.0[2], 0.0];
+        let with = |v: Vec3<f32>, w: f32| [v.0[0], v.0[1], v.0[2], w];
+        let texels = atlas_slots.map(|n| 1.0 / (n * 32) as f32);
+        let entries = TABLE_ENTRIES as u32;
+        SceneBlock {
+            volume_from_display: self.volume_from_display.map(column),
+            volume: with(self.dims, self.voxel_m),
+            light: with(self.toward_light, self.gradient_half_square),
+            material: self.material,
+            quality: [self.step_voxels, self.termination, self.extinction_per_metre, self.tolerance],
+            mimda: [self.gamma, self.largest_importance, 0.0, 0.0],
+            texel: [texels[0], texels[1], texels[2], 0.0],
+            atlas: [atlas_slots[0], atlas_slots[1], atlas_slots[2], self.finest_depth],
+            tables: [entries, entries, 0, 0],
+            resolution: [self.resolution[0], self.resolution[1], self.detail, self.diagonal_m],
+        }
     }
 
-    /// The codes of a slot.
-    #[inline(always)]
-    pub fn brick(&self, slot: u32) -> &'a [u16; BRICK_VOXELS] {
-        let start = slot as usize * BRICK_VOXELS;
-        self.atlas[start..start + BRICK_VOXELS].first_chunk().expect("a slot holds 32³ codes")
+    /// The chain's constants, as kernels with enhancers read them.
+    pub fn links(&self) -> [Link; MOST_ENHANCERS] {
+        self.links.map(|[a, b, c, d]| Link { a, b, c, d })
     }
 }

@@ -1,7 +1,7 @@
 //! Stackless traversal of the octree along neighbour links.
 
 use super::ray::far;
-use super::{Real, Scene, ray::Ray, vector::Vec3};
+use super::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::{NO_NODE, NodeRecord};
 
 /// Own voxels of a node along an edge.
@@ -29,11 +29,11 @@ pub fn node_low<F: Real>(finest_depth: u32, node: &NodeRecord) -> Vec3<F> {
     Vec3(node.cell.map(|c| F::of_u32(c) * edge))
 }
 
-impl<F: Real> Scene<'_, F> {
+impl<F: Real> Casting<'_, F> {
     /// Where the ray leaves the node.
     #[inline(always)]
     pub fn exit_of(&self, node: &NodeRecord, ray: &Ray<F>) -> Exit<F> {
-        let finest = self.view.finest_depth;
+        let finest = self.scene.finest_depth;
         let edge = F::of(OWN_EDGE) * voxel_edge::<F>(finest, node.depth);
         let low = node_low::<F>(finest, node);
         let mut exit = Exit { t: far(), axis: 0 };
@@ -52,7 +52,7 @@ impl<F: Real> Scene<'_, F> {
     /// Which child a point belongs to; on a border, the one the ray goes into.
     #[inline(always)]
     fn octant_of(&self, node: &NodeRecord, point: Vec3<F>, ray: &Ray<F>) -> u32 {
-        let finest = self.view.finest_depth;
+        let finest = self.scene.finest_depth;
         let half = F::of(0.5 * OWN_EDGE) * voxel_edge::<F>(finest, node.depth);
         let low = node_low::<F>(finest, node);
         let mut octant = 0;
@@ -69,7 +69,7 @@ impl<F: Real> Scene<'_, F> {
     pub fn leaf_at(&self, point: Vec3<F>, ray: &Ray<F>) -> u32 {
         let mut at = 0;
         loop {
-            let node = &self.nodes[at as usize];
+            let node = &self.volume.nodes[at as usize];
             if node.first_child == NO_NODE {
                 return at;
             }
@@ -88,7 +88,7 @@ impl<F: Real> Scene<'_, F> {
         let mut cell = node.cell;
         cell[axis] = if forward { cell[axis].wrapping_add(1) } else { cell[axis].wrapping_sub(1) };
         loop {
-            let next = &self.nodes[at as usize];
+            let next = &self.volume.nodes[at as usize];
             if next.first_child == NO_NODE {
                 return at;
             }

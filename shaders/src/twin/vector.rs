@@ -7,6 +7,13 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vec3<F>(pub [F; 3]);
 
+impl Vec3<f64> {
+    /// The nearest in f32.
+    pub fn rounded(self) -> Vec3<f32> {
+        Vec3(self.0.map(|x| x as f32))
+    }
+}
+
 impl<F: Real> Vec3<F> {
     /// (0, 0, 0).
     pub const ZERO: Self = Self([F::ZERO; 3]);

@@ -31,5 +31,5 @@ fn is_clear(extinction: f32) -> bool {
 
 // The opacity that what follows may still add, when the largest importance is yet to come.
 fn still_to_come(front: Accumulated) -> f32 {
-    return 1.0 - kept(front.importance, max(params.mimda.y, front.importance)) * front.alpha;
+    return 1.0 - kept(front.importance, max(scene.mimda.y, front.importance)) * front.alpha;
 }

@@ -2,11 +2,11 @@
 
 // β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
 fn kept(largest: f32, importance: f32) -> f32 {
-    let before = 1.0 - params.mimda.x * largest;
+    let before = 1.0 - scene.mimda.x * largest;
     if importance <= largest || before <= 0.0 {
         return 1.0;
     }
-    return (1.0 - params.mimda.x * importance) / before;
+    return (1.0 - scene.mimda.x * importance) / before;
 }
 
 // Whether the parts of a step are composited among themselves first: the product of their β telescopes as they are.
@@ -26,6 +26,6 @@ fn composite(front: Accumulated, light: vec4<f32>, sample: Sample) -> Accumulate
 // Parts of each step of a pair, by what a rise of importance within reach may have erased unseen. Its error falls with
 // the parts, not with their square.
 fn parts_of_rise(front: Accumulated, reach: Sample) -> f32 {
-    let unseen = (1.0 - kept(front.importance, reach.importance.most)) * front.alpha * (RISE / params.quality.w);
+    let unseen = (1.0 - kept(front.importance, reach.importance.most)) * front.alpha * (RISE / scene.quality.w);
     return clamp(ceil(unseen), 1.0, MOST_PARTS);
 }

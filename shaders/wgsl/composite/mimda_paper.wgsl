@@ -2,7 +2,7 @@
 
 // β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
 fn kept(largest: f32, importance: f32) -> f32 {
-    return 1.0 - params.mimda.x * max(importance - largest, 0.0);
+    return 1.0 - scene.mimda.x * max(importance - largest, 0.0);
 }
 
 // The equation is one of steps, and its picture depends on them: the parts of a step are composited among themselves

@@ -18,7 +18,7 @@ fn debug_weight(node: NodeRecord, point: vec3<f32>) -> f32 {
 fn debug_value(node: NodeRecord, point: vec3<f32>) -> f32 {
     switch DEBUG_SHOWS {
         case DEBUG_LOD: {
-            return f32(params.atlas.w - node.depth);
+            return f32(scene.atlas.w - node.depth);
         }
         case DEBUG_DEFICIT: {
             return node.deficit;

@@ -13,8 +13,8 @@ struct Level {
 }
 
 fn slot_origin(slot: u32) -> vec3<f32> {
-    let across = params.atlas.x;
-    let layer = params.atlas.x * params.atlas.y;
+    let across = scene.atlas.x;
+    let layer = scene.atlas.x * scene.atlas.y;
     return vec3<f32>(vec3<u32>(slot % across, (slot % layer) / across, slot / layer) * BRICK_EDGE);
 }
 

@@ -23,7 +23,7 @@ fn brick_of(node: NodeRecord, ray: Ray) -> Brick {
     brick.grandparent = brick.own;
     brick.words = node.slot * CELL_WORDS;
     brick.pace = abs(ray.inverse) * voxel_edge(node.depth);
-    brick.above_finest = f32(params.atlas.w - node.depth);
+    brick.above_finest = f32(scene.atlas.w - node.depth);
     brick.coarsest = 0.0;
     if node.parent != NO_NODE {
         let parent = nodes[node.parent];
@@ -55,7 +55,7 @@ fn fraction_at(brick: Brick, ray: Ray, t: f32) -> f32 {
     var f = 0.0;
     if FILTERS_LEVELS {
         let z = ray.origin_in_display.z + ray.direction_in_display.z * t;
-        let wanted = log2(max(params.resolution.x + params.resolution.y * abs(z), 1e-30)) - brick.above_finest;
+        let wanted = log2(max(scene.resolution.x + scene.resolution.y * abs(z), 1e-30)) - brick.above_finest;
         f = clamp(wanted, 0.0, brick.coarsest);
     }
     if is_blended(brick.weights) {

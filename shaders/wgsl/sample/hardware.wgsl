@@ -9,5 +9,5 @@ const GRID: f32 = 4096.0;
 // `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5.
 fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
     let exact = origin + round(point * GRID) / GRID;
-    return textureSampleLevel(atlas, trilinear, exact * params.texel.xyz, 0.0).x;
+    return textureSampleLevel(atlas, trilinear, exact * scene.texel.xyz, 0.0).x;
 }

@@ -9,8 +9,8 @@ const SHADE_SPREAD: f32 = 0.1;
 
 // The light on a gradient of length sqrt(square) > 0, of which the share `lit` is scattered.
 fn lit_by(gradient: vec3<f32>, square: f32, lit: f32, ray: Ray, material: vec4<f32>) -> Lighting {
-    let weight = square / (square + params.light.w);
-    let halfway = params.light.xyz - ray.direction_in_display;
+    let weight = square / (square + scene.light.w);
+    let halfway = scene.light.xyz - ray.direction_in_display;
     let halfway_square = dot(halfway, halfway);
     var specular = 0.0;
     if halfway_square > 1e-12 {

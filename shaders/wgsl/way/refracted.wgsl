@@ -22,7 +22,7 @@ const LEAST_CELLS: f32 = 0.5;
 
 // The refraction index at a scalar.
 fn index_at(s: f32) -> f32 {
-    let entries = params.tables.x;
+    let entries = scene.tables.x;
     let u = s * f32(entries - 1u);
     let cell = min(u32(u), entries - 2u);
     return mix(index_table[cell], index_table[cell + 1u], u - f32(cell));
@@ -30,11 +30,11 @@ fn index_at(s: f32) -> f32 {
 
 // Its mean slope between two scalars. The cell of a jump has none: surfaces are met by crossing them.
 fn index_slope(s0: f32, s1: f32) -> f32 {
-    let cells = f32(params.tables.x - 1u);
+    let cells = f32(scene.tables.x - 1u);
     if abs(s1 - s0) * cells >= LEAST_CELLS {
         return (index_at(s1) - index_at(s0)) / (s1 - s0);
     }
-    let cell = min(u32(0.5 * (s0 + s1) * cells), params.tables.x - 2u);
+    let cell = min(u32(0.5 * (s0 + s1) * cells), scene.tables.x - 2u);
     let change = index_table[cell + 1u] - index_table[cell];
     return select(change * cells, 0.0, abs(change) > SURFACE);
 }
@@ -72,7 +72,7 @@ fn direction_beyond(bent: ptr<function, Bent>, gradient: vec3<f32>, s0: f32, s2:
         return v;
     }
     if abs(n2 - n0) <= SURFACE {
-        return normalize(v * (0.5 * (n0 + n2)) + gradient * (index_slope(s0, s2) * length / params.volume.w));
+        return normalize(v * (0.5 * (n0 + n2)) + gradient * (index_slope(s0, s2) * length / scene.volume.w));
     }
     var normal = gradient / sqrt(square);
     let towards = dot(normal, v);
@@ -102,7 +102,7 @@ fn exit_of_volume(ray: Ray) -> f32 {
     var t = FAR;
     for (var axis = 0u; axis < 3u; axis++) {
         if !is_parallel(ray, axis) {
-            let face = select(0.0, params.volume[axis], is_forward(ray, axis));
+            let face = select(0.0, scene.volume[axis], is_forward(ray, axis));
             t = min(t, (face - ray.origin_in_volume[axis]) * ray.inverse[axis]);
         }
     }
@@ -116,7 +116,7 @@ fn is_in_node(node: NodeRecord, point: vec3<f32>) -> bool {
 }
 
 fn is_in_volume(point: vec3<f32>) -> bool {
-    return all(point >= vec3<f32>(0.0)) && all(point <= params.volume.xyz);
+    return all(point >= vec3<f32>(0.0)) && all(point <= scene.volume.xyz);
 }
 
 // Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
@@ -133,7 +133,7 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     bent.way = 0.0;
     bent.is_passing = false;
     follow_chain(bent.ray);
-    let longest_way = params.resolution.w * LONGEST_WAY_DIAGONALS;
+    let longest_way = scene.resolution.w * LONGEST_WAY_DIAGONALS;
     var at = leaf_at(bent.ray.origin_in_volume, bent.ray);
     var reported = NO_NODE;
     var known = false;
@@ -160,7 +160,7 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         if reported != at {
             reported = at;
             known = false;
-            report(at, node.deficit);
+            note(at, node.deficit);
             *count |= select(0u, MISSING, node.deficit > 0.0);
         }
         let brick = brick_of(node, bent.ray);
@@ -221,7 +221,7 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         if !is_vacant(range.x, range.y) {
             let parts = add_pair(&front, brick, ray, t0, next_brick, bent.ray, t1, step, s0, s1, s2, range);
             *count += 2u * u32(parts - 1.0);
-            if still_to_come(front) < params.quality.y {
+            if still_to_come(front) < scene.quality.y {
                 break;
             }
         }

@@ -51,7 +51,7 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         }
         let parts = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range);
         marched.samples += 2u * u32(parts - 1.0);
-        if still_to_come(front) < params.quality.y {
+        if still_to_come(front) < scene.quality.y {
             marched.is_done = true;
             break;
         }
@@ -76,7 +76,7 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         let exit = exit_of(node, ray);
         let t_out = min(max(exit.t, t), span.y);
         if node.slot != NO_SLOT && t_out > t {
-            report(at, node.deficit);
+            note(at, node.deficit);
             let brick = brick_of(node, ray);
             let voxel = voxel_of(node, ray);
             var is_done = false;

@@ -1,21 +1,23 @@
 //! The CPU device: the kernels' f32 twin on all cores.
 
+use super::job::ViewJob;
 use super::under_way::UnderWay;
 use super::{CastJob, CastOutcome, DeviceError, Gather};
 use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, NodeRecord};
 use rayon::prelude::*;
 use shaders::tables::Tables;
-use shaders::twin::{Cast, FeedbackCell, Scene, cast_pixel};
+use shaders::twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixel};
 
-/// The brick cache in main memory, and the last picture.
+/// The brick cache in main memory, and the pictures.
 #[derive(Debug)]
 pub struct CpuDevice {
     atlas: Vec<u16>,
     nodes: Vec<NodeRecord>,
     cells: Vec<u32>,
     tables: Tables,
-    pixels: Vec<f32>,
+    /// The colours of each picture.
+    pictures: Vec<Vec<f32>>,
     /// What the casts of this frame have told.
     frame_feedback: Vec<FeedbackCell>,
     /// The tables of earlier frames, which are there at once.
@@ -33,7 +35,7 @@ impl CpuDevice {
             nodes: Vec::new(),
             cells: Vec::new(),
             tables: Tables::default(),
-            pixels: Vec::new(),
+            pictures: Vec::new(),
             frame_feedback: Vec::new(),
             tables_of_frames: UnderWay::default(),
         }
@@ -64,30 +66,28 @@ impl CpuDevice {
             Gather::Own => no_feedback(&self.nodes),
             Gather::Frame => Vec::new(),
         };
-        let scene = Scene {
-            view: job.view,
-            nodes: &self.nodes,
+        let casting = Casting {
+            scene: job.scene,
+            volume: Volume { nodes: &self.nodes, cells: &self.cells, atlas: &self.atlas },
             tables: &self.tables,
             needs: &job.needs,
-            cells: &self.cells,
-            atlas: &self.atlas,
-            feedback: if job.gather == Gather::Own { &own } else { &self.frame_feedback },
+            observer: Observer {
+                feedback: if job.gather == Gather::Own { &own } else { &self.frame_feedback },
+            },
         };
-        let casts: Vec<TileCasts> = job.tiles.par_iter().map(|&tile| cast_tile(&scene, job, tile)).collect();
-        let [width, height] = job.view.raster;
-        self.pixels.resize(4 * width as usize * height as usize, 0.0);
-        let mut outcome = CastOutcome::default();
-        for (&tile, casts) in job.tiles.iter().zip(&casts) {
-            for &((x, y), cast) in casts {
-                let at = 4 * (y as usize * width as usize + x as usize);
-                self.pixels[at..at + 4].copy_from_slice(&cast.rgba);
-                if job.tells_counts() {
-                    outcome.samples += u64::from(cast.samples);
-                }
-            }
-            outcome.rays += casts.len() as u64;
-            if job.tells_counts() && casts.iter().any(|(_, cast)| cast.is_missing) {
-                outcome.missing_tiles.push(tile);
+        self.pictures.resize_with(self.pictures.len().max(job.first_picture + job.views.len()), Vec::new);
+        let mut outcome = CastOutcome::nothing(job);
+        for (index, view) in job.view_jobs() {
+            let casts: Vec<TileCasts> =
+                view.tiles.par_iter().map(|&tile| cast_tile(&casting, &view, tile)).collect();
+            put_down(&casts, &view, &mut self.pictures[view.picture]);
+            outcome.rays += casts.iter().map(|casts| casts.len() as u64).sum::<u64>();
+            if job.has_counts() {
+                let is_missing = |casts: &TileCasts| casts.iter().any(|(_, cast)| cast.is_missing);
+                let tiles = view.tiles.iter().zip(&casts).filter(|(_, casts)| is_missing(casts));
+                outcome.missing_tiles[index] = tiles.map(|(&tile, _)| tile).collect();
+                outcome.samples +=
+                    casts.iter().flatten().map(|(_, cast)| u64::from(cast.samples)).sum::<u64>();
             }
         }
         outcome.feedback = own.iter().map(FeedbackCell::entry).collect();
@@ -110,8 +110,18 @@ impl CpuDevice {
         self.take_feedback()
     }
 
-    pub(super) fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
-        Ok(self.pixels.clone())
+    pub(super) fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
+        Ok(self.pictures[index].clone())
+    }
+}
+
+/// Puts the colours of rays into their view's picture.
+fn put_down(casts: &[TileCasts], view: &ViewJob, picture: &mut Vec<f32>) {
+    let [width, height] = view.rays.raster.map(|n| n as usize);
+    picture.resize(4 * width * height, 0.0);
+    for &((x, y), cast) in casts.iter().flatten() {
+        let at = 4 * (y as usize * width + x as usize);
+        picture[at..at + 4].copy_from_slice(&cast.rgba);
     }
 }
 
@@ -122,27 +132,26 @@ fn no_feedback(nodes: &[NodeRecord]) -> Vec<FeedbackCell> {
 
 /// Casts one tile with the widest instructions this machine has. Wider registers change no result: nothing is
 /// contracted or reordered.
-fn cast_tile(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts {
+fn cast_tile(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has just been asked for AVX2.
-        return unsafe { cast_tile_avx2(scene, job, tile) };
+        return unsafe { cast_tile_avx2(casting, view, tile) };
     }
-    cast_tile_anywhere(scene, job, tile)
+    cast_tile_anywhere(casting, view, tile)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn cast_tile_avx2(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts {
-    cast_tile_anywhere(scene, job, tile)
+fn cast_tile_avx2(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
+    cast_tile_anywhere(casting, view, tile)
 }
 
 #[inline(always)]
-fn cast_tile_anywhere(scene: &Scene<f32>, job: &CastJob, tile: u32) -> TileCasts {
-    let [width, height] = job.view.raster;
+fn cast_tile_anywhere(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
     let mut casts = Vec::with_capacity(64);
-    for (x, y) in job.grid.pixels(tile, width, height) {
-        casts.push(((x, y), cast_pixel(scene, x, y)));
+    for (x, y) in view.pixels(tile) {
+        casts.push(((x, y), cast_pixel(casting, view.rays, x, y)));
     }
     casts
 }

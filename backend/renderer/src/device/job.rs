@@ -2,7 +2,8 @@
 
 use layout::{FeedbackEntry, TILE_EDGE};
 use shaders::compose::Needs;
-use shaders::twin::View;
+use shaders::twin::{ProjectorRays, SceneNumbers};
+use std::borrow::Cow;
 
 /// The tiles of a raster: squares of 8 × 8 cast pixels, `stride` pixels apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,34 +58,90 @@ pub enum Gather {
     Frame,
 }
 
-/// One cast.
+/// Which pixels of its views a cast casts.
+#[derive(Clone, Copy, Debug)]
+pub enum Part<'a> {
+    /// The middle one of every `stride` × `stride` pixels.
+    Every {
+        /// Pixels between cast rays: 1 casts them all.
+        stride: u32,
+    },
+    /// All pixels of some tiles, which are listed view by view; stride 1.
+    Tiles(&'a [Vec<u32>]),
+}
+
+/// One cast: the same scene for some projectors.
 #[derive(Clone, Copy, Debug)]
 pub struct CastJob<'a> {
-    /// The view, in f32.
-    pub view: &'a View<f32>,
+    /// The scene, in f32.
+    pub scene: &'a SceneNumbers<f32>,
+    /// The projectors' rays, in f32.
+    pub views: &'a [ProjectorRays<f32>],
+    /// Index among the device's pictures of that of the first view; those of the others follow.
+    pub first_picture: usize,
     /// What the scene needs of a kernel.
     pub needs: Needs,
-    /// The raster's tiles.
-    pub grid: TileGrid,
-    /// Those to cast.
-    pub tiles: &'a [u32],
+    /// Which pixels.
+    pub part: Part<'a>,
     /// Where its feedback goes.
     pub gather: Gather,
-    /// Whether samples and missing tiles are told; told only where every pixel is cast. A GPU is waited for if so.
+    /// Whether to count samples and list missing tiles (full-resolution casts only; makes a GPU cast blocking).
     pub counts: bool,
 }
 
+/// What a cast casts of one view.
+#[derive(Clone, Debug)]
+pub(super) struct ViewJob<'a> {
+    /// Index of its picture.
+    pub(super) picture: usize,
+    /// Its rays.
+    pub(super) rays: &'a ProjectorRays<f32>,
+    /// Its tiles.
+    pub(super) grid: TileGrid,
+    /// Those to cast; at least one.
+    pub(super) tiles: Cow<'a, [u32]>,
+}
+
 impl CastJob<'_> {
+    /// What to cast of each view, those without tiles left out; with the view's index.
+    pub(super) fn view_jobs(&self) -> impl Iterator<Item = (usize, ViewJob<'_>)> {
+        let jobs = self.views.iter().enumerate().map(|(index, rays)| (index, self.view_job(index, rays)));
+        jobs.filter(|(_, view)| !view.tiles.is_empty())
+    }
+
+    fn view_job<'a>(&'a self, index: usize, rays: &'a ProjectorRays<f32>) -> ViewJob<'a> {
+        let [width, height] = rays.raster;
+        let picture = self.first_picture + index;
+        match self.part {
+            Part::Every { stride } => {
+                let grid = TileGrid::new(width, height, stride);
+                ViewJob { picture, rays, grid, tiles: (0..grid.count()).collect() }
+            }
+            Part::Tiles(tiles) => {
+                let tiles = tiles.get(index).map_or(&[][..], Vec::as_slice);
+                ViewJob { picture, rays, grid: TileGrid::new(width, height, 1), tiles: tiles.into() }
+            }
+        }
+    }
+
+    /// Whether samples are counted and missing tiles listed.
+    pub(super) fn has_counts(&self) -> bool {
+        self.counts && !matches!(self.part, Part::Every { stride: 2.. })
+    }
+}
+
+impl ViewJob<'_> {
     /// Rays that it casts.
     #[cfg(feature = "gpu")]
-    pub(super) fn rays(&self) -> u64 {
-        let [width, height] = self.view.raster;
+    pub(super) fn ray_count(&self) -> u64 {
+        let [width, height] = self.rays.raster;
         self.tiles.iter().map(|&tile| self.grid.rays(tile, width, height)).sum()
     }
 
-    /// Whether samples and missing tiles are told.
-    pub(super) fn tells_counts(&self) -> bool {
-        self.counts && self.grid.stride == 1
+    /// The pixels that a tile casts.
+    pub(super) fn pixels(&self, tile: u32) -> impl Iterator<Item = (u32, u32)> {
+        let [width, height] = self.rays.raster;
+        self.grid.pixels(tile, width, height)
     }
 }
 
@@ -93,12 +150,20 @@ impl CastJob<'_> {
 pub struct CastOutcome {
     /// One per place of the index; empty where the frame's table has it.
     pub feedback: Vec<FeedbackEntry>,
-    /// Tiles of which a ray met a node that is too coarse; empty where it was not asked for.
-    pub missing_tiles: Vec<u32>,
+    /// View by view, the tiles of which a ray met a node that is too coarse; empty where they were not asked for.
+    pub missing_tiles: Vec<Vec<u32>>,
     /// Rays cast.
     pub rays: u64,
-    /// Samples taken; 0 where it was not asked for.
+    /// Samples taken; 0 where they were not asked for.
     pub samples: u64,
+}
+
+impl CastOutcome {
+    /// Before anything is found.
+    pub(super) fn nothing(job: &CastJob) -> Self {
+        let lists = if job.has_counts() { job.views.len() } else { 0 };
+        Self { missing_tiles: vec![Vec::new(); lists], ..Self::default() }
+    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ mod under_way;
 pub(crate) use choose::slots_within;
 pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
-pub use job::{CastJob, CastOutcome, Gather, TileGrid};
+pub use job::{CastJob, CastOutcome, Gather, Part, TileGrid};
 
 pub(crate) use under_way::MOST_UNDER_WAY;
 
@@ -101,8 +101,8 @@ impl Device {
         on_device!(self, device => device.wait_feedback())
     }
 
-    /// Casts the rays of some tiles; their colours stay on the device. Where neither feedback nor counts are asked of it,
-    /// a GPU casts on while this returns.
+    /// Casts the rays of some views; their colours stay on the device, a picture per view. Where neither feedback nor
+    /// counts are asked of it, a GPU casts on while this returns.
     ///
     /// # Errors
     /// The device stopped answering.
@@ -110,8 +110,15 @@ impl Device {
         on_device!(self, device => device.cast(job))
     }
 
-    /// The colours of the view last cast: 4 numbers per pixel, rows from the top.
-    pub fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
-        on_device!(self, device => device.picture())
+    /// The colours of the view last cast into this picture (see [`CastJob::first_picture`]): 4 numbers per pixel, rows
+    /// from the top.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    ///
+    /// # Panics
+    /// Where nothing was cast into it yet.
+    pub fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
+        on_device!(self, device => device.picture(index))
     }
 }

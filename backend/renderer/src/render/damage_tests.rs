@@ -2,9 +2,9 @@
 
 use super::rules::FrameRules;
 use super::test_scene::{Pictures, display, draw, frame, renderer};
-use super::views::{ProjectorView, views};
+use super::views::{ProjectorView, scene_numbers, views};
 use super::*;
-use crate::device::{CastJob, CpuDevice, Gather, TileGrid};
+use crate::device::{CastJob, CpuDevice, Gather, Part};
 use crate::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle};
 use bricks::LodRule;
 use bricks::is_shown;
@@ -126,13 +126,15 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     refresh(&mut cut, &rules, &order);
     settle(&mut cut);
     device.write_index(&build_index(&cut, &[], &rules), &cells);
-    let views = views(&display, &[0, 1], frame, &shape).unwrap();
+    let scene = scene_numbers(&display, frame, &shape);
+    let views = views(&display, &[0, 1], frame).unwrap();
     let picture = |view: &ProjectorView| {
-        let grid = TileGrid::new(48, 36, 1);
-        let tiles: Vec<u32> = (0..grid.count()).collect();
+        let (views, part) = (std::slice::from_ref(&view.rays), Part::Every { stride: 1 });
         let (gather, counts) = (Gather::Own, true);
-        device.cast(&CastJob { view: &view.view, needs, grid, tiles: &tiles, gather, counts }).unwrap();
-        device.picture().unwrap()
+        device
+            .cast(&CastJob { scene: &scene, views, first_picture: 0, needs, part, gather, counts })
+            .unwrap();
+        device.picture(0).unwrap()
     };
     views.iter().map(picture).collect()
 }

@@ -2,9 +2,9 @@
 
 use super::residency::{Residency, milliseconds};
 use super::rules::FrameRules;
-use super::views::{ProjectorView, views};
+use super::views::{ProjectorView, scene_numbers, views};
 use super::{RenderError, Renderer};
-use crate::device::{CastJob, CastOutcome, Gather, TileGrid};
+use crate::device::{CastJob, CastOutcome, Gather, Part};
 use crate::working_set::Touched;
 use bricks::LodRule;
 use bricks::NodeKey;
@@ -12,6 +12,7 @@ use protocol::RenderEvent;
 use protocol::{FrameReport, FrameState, ProjectorImage, Stages, Upkeep};
 use shaders::compose::Needs;
 use shaders::tables::Tables;
+use shaders::twin::SceneNumbers;
 use std::collections::HashSet;
 use std::time::Instant;
 
@@ -28,6 +29,7 @@ pub(super) const MOST_DAMAGES: usize = 16;
 struct Drawing<'a> {
     renderer: &'a mut Renderer,
     rules: FrameRules<'a>,
+    scene: SceneNumbers<f32>,
     needs: Needs,
     stages: Stages,
     /// Number of the last cast; the cut remembers by it what was used when.
@@ -46,8 +48,8 @@ pub(super) fn draw(
     let started = Instant::now();
     let setting = Setting::new(renderer, frame)?;
     let total = setting.rays();
-    let Setting { views, needs, tables } = setting;
-    let mut drawing = Drawing::new(renderer, frame, needs, &tables);
+    let Setting { scene, views, needs, tables } = setting;
+    let mut drawing = Drawing::new(renderer, frame, (scene, needs), &tables);
     drawing.start(frame)?;
     sink(RenderEvent::Progress { done: 0, total });
     drawing.look(&views, &mut || sink(RenderEvent::Progress { done: 0, total }))?;
@@ -66,6 +68,7 @@ pub(super) fn draw(
 
 /// What a frame, which has been checked, is drawn with.
 pub(super) struct Setting {
+    pub(super) scene: SceneNumbers<f32>,
     pub(super) views: Vec<ProjectorView>,
     /// Blending apart, which the working set tells.
     pub(super) needs: Needs,
@@ -74,15 +77,16 @@ pub(super) struct Setting {
 
 impl Setting {
     pub(super) fn new(renderer: &Renderer, frame: &FrameState) -> Result<Self, RenderError> {
-        let views = views(&renderer.display, &renderer.projectors, frame, &renderer.residency.shape())?;
+        let views = views(&renderer.display, &renderer.projectors, frame)?;
+        let scene = scene_numbers(&renderer.display, frame, &renderer.residency.shape());
         let needs =
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
-        Ok(Self { views, needs, tables: Tables::new(&frame.optics, &needs) })
+        Ok(Self { scene, views, needs, tables: Tables::new(&frame.optics, &needs) })
     }
 
     /// Rays of all views.
     pub(super) fn rays(&self) -> u64 {
-        self.views.iter().map(|v| u64::from(v.view.raster[0]) * u64::from(v.view.raster[1])).sum()
+        self.views.iter().map(|v| u64::from(v.rays.raster[0]) * u64::from(v.rays.raster[1])).sum()
     }
 }
 
@@ -116,11 +120,17 @@ impl WorkingSets {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(renderer: &'a mut Renderer, frame: &'a FrameState, needs: Needs, tables: &'a Tables) -> Self {
+    fn new(
+        renderer: &'a mut Renderer,
+        frame: &'a FrameState,
+        (scene, needs): (SceneNumbers<f32>, Needs),
+        tables: &'a Tables,
+    ) -> Self {
         // Casts are numbered across frames, so that detail of older frames is the first to go.
         let cast = renderer.residency.set.cut.node(0).last_used;
         let rules = FrameRules::new(renderer, frame, tables);
         Self {
+            scene,
             needs,
             renderer,
             rules,
@@ -141,16 +151,17 @@ impl<'a> Drawing<'a> {
         residency.start_frame(frame, &self.rules, device, &mut self.stages)
     }
 
-    fn cast(
-        &mut self,
-        view: &ProjectorView,
-        grid: TileGrid,
-        tiles: &[u32],
-    ) -> Result<CastOutcome, RenderError> {
+    fn cast(&mut self, view: &ProjectorView, part: Part) -> Result<CastOutcome, RenderError> {
         let started = Instant::now();
-        let (gather, counts) = (Gather::Own, true);
-        let needs = Needs { blends: self.renderer.residency.blends, ..self.needs };
-        let job = CastJob { view: &view.view, needs, grid, tiles, gather, counts };
+        let job = CastJob {
+            scene: &self.scene,
+            views: std::slice::from_ref(&view.rays),
+            first_picture: 0,
+            needs: Needs { blends: self.renderer.residency.blends, ..self.needs },
+            part,
+            gather: Gather::Own,
+            counts: true,
+        };
         let outcome = self.renderer.device.cast(&job)?;
         self.cast += 1;
         self.rays += outcome.rays;
@@ -165,10 +176,7 @@ impl<'a> Drawing<'a> {
         loop {
             let mut changed = false;
             for view in views {
-                let [width, height] = view.view.raster;
-                let grid = TileGrid::new(width, height, COARSE_STRIDE);
-                let tiles: Vec<u32> = (0..grid.count()).collect();
-                let outcome = self.cast(view, grid, &tiles)?;
+                let outcome = self.cast(view, Part::Every { stride: COARSE_STRIDE })?;
                 let Renderer { residency, device, .. } = &mut *self.renderer;
                 let wanted = Touched::default().take_in(&mut residency.set.cut, &outcome.feedback, self.cast);
                 let refined = residency.refine(&wanted, first_cast, &self.rules, device, &mut self.stages)?;
@@ -183,13 +191,12 @@ impl<'a> Drawing<'a> {
 
     /// Casts every pixel of a view, and again the tiles that missed something, until none does or the cache is full.
     fn settle(&mut self, view: &ProjectorView) -> Result<HashSet<NodeKey>, RenderError> {
-        let [width, height] = view.view.raster;
-        let grid = TileGrid::new(width, height, 1);
-        let mut tiles: Vec<u32> = (0..grid.count()).collect();
+        let mut missing: Option<Vec<Vec<u32>>> = None;
         let mut touched = Touched::default();
         let first_cast = self.cast + 1;
-        while !tiles.is_empty() {
-            let outcome = self.cast(view, grid, &tiles)?;
+        loop {
+            let part = missing.as_deref().map_or(Part::Every { stride: 1 }, Part::Tiles);
+            let outcome = self.cast(view, part)?;
             let Renderer { residency, device, .. } = &mut *self.renderer;
             let wanted = touched.take_in(&mut residency.set.cut, &outcome.feedback, self.cast);
             if wanted.is_empty() {
@@ -200,16 +207,19 @@ impl<'a> Drawing<'a> {
                 self.short.extend(refined.without_room);
                 break;
             }
-            tiles = outcome.missing_tiles;
+            if outcome.missing_tiles.iter().all(Vec::is_empty) {
+                break;
+            }
+            missing = Some(outcome.missing_tiles);
         }
         Ok(touched.leaves(&self.renderer.residency.set.cut))
     }
 
     fn picture(&mut self, view: &ProjectorView) -> Result<ProjectorImage, RenderError> {
         let started = Instant::now();
-        let rgba = self.renderer.device.picture()?;
+        let rgba = self.renderer.device.picture(0)?;
         self.stages.readback_ms += milliseconds(started);
-        let [width, height] = view.view.raster;
+        let [width, height] = view.rays.raster;
         Ok(ProjectorImage { projector: view.projector, width, height, rgba })
     }
 

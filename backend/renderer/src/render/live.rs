@@ -4,7 +4,7 @@ use super::frame::Setting;
 use super::residency::milliseconds;
 use super::rules::FrameRules;
 use super::{RenderError, Renderer};
-use crate::device::{CastJob, Gather, MOST_UNDER_WAY, TileGrid};
+use crate::device::{CastJob, Gather, MOST_UNDER_WAY, Part};
 use crate::working_set::{Arrival, LoadedBrick, Met, Moment, Shortfall, corner_weights, most_in_flight};
 use bricks::LodRule;
 use bricks::{BrickError, BrickErrorKind, NodeKey};
@@ -213,18 +213,23 @@ impl Live {
         let mut casts = Casts::default();
         device.begin_feedback();
         for view in &setting.views {
-            let [width, height] = view.view.raster;
-            let grid = TileGrid::new(width, height, 1);
-            let tiles: Vec<u32> = (0..grid.count()).collect();
-            let job =
-                CastJob { view: &view.view, needs, grid, tiles: &tiles, gather: Gather::Frame, counts: true };
+            let [width, height] = view.rays.raster;
+            let job = CastJob {
+                scene: &setting.scene,
+                views: std::slice::from_ref(&view.rays),
+                first_picture: 0,
+                needs,
+                part: Part::Every { stride: 1 },
+                gather: Gather::Frame,
+                counts: true,
+            };
             let cast = Instant::now();
             let outcome = device.cast(&job)?;
             stages.cast_ms += milliseconds(cast);
             casts.rays += outcome.rays;
             casts.samples += outcome.samples;
             let readback = Instant::now();
-            let rgba = device.picture()?;
+            let rgba = device.picture(0)?;
             stages.readback_ms += milliseconds(readback);
             sink(RenderEvent::Image(ProjectorImage { projector: view.projector, width, height, rgba }));
             sink(RenderEvent::Progress { done: casts.rays, total: setting.rays() });

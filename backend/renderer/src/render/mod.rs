@@ -19,8 +19,6 @@ mod short_tests;
 mod test_scene;
 mod views;
 
-pub use views::view_of;
-
 use crate::device::{ChosenDevice, Device, DeviceError, open_device};
 use crate::working_set::{Loader, PANTRY_BYTES};
 use bricks::{BrickError, BrickSource, NodeKey};

@@ -1,11 +1,10 @@
-//! The views of a frame: one per projector.
+//! What a frame is cast with: the scene's numbers, and each projector's rays.
 
 use super::RenderError;
 use bricks::OctreeShape;
-use display_config::{BeamLaw, Display};
+use display_config::Display;
 use protocol::FrameState;
-use shaders::twin::View;
-use shaders::twin::view::Placement;
+use shaders::twin::{Placement, ProjectorRays, SceneNumbers};
 
 /// One projector's view.
 #[derive(Clone, Debug)]
@@ -13,44 +12,35 @@ pub(super) struct ProjectorView {
     /// Index of the projector in the display.
     pub(super) projector: u32,
     /// What a kernel reads.
-    pub(super) view: View<f32>,
+    pub(super) rays: ProjectorRays<f32>,
 }
 
-/// The view of one projector, in f64.
-///
-/// # Errors
-/// The observer or η of the frame does not go with the projector.
-pub fn view_of(
-    display: &Display,
-    projector: u32,
-    frame: &FrameState,
-    shape: &OctreeShape,
-) -> Result<View<f64>, RenderError> {
-    let found = &display.projectors[projector as usize];
-    let law = BeamLaw::new(found.centre_in_display, frame.observer_in_display, frame.eta)
-        .map_err(|error| RenderError::Ray { projector: found.name.clone(), why: error.to_string() })?;
+/// The numbers that all projectors share, as kernels read them.
+pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &OctreeShape) -> SceneNumbers<f32> {
     let place = Placement {
-        raster: &found.raster,
-        law: &law,
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
         resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
     };
-    Ok(View::new(place, &frame.optics, frame.light_in_effect(), &frame.quality))
+    SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality).rounded()
 }
 
 /// The views of some projectors, as kernels read them.
+///
+/// # Errors
+/// The observer or η of the frame does not go with a projector.
 pub(super) fn views(
     display: &Display,
     projectors: &[u32],
     frame: &FrameState,
-    shape: &OctreeShape,
 ) -> Result<Vec<ProjectorView>, RenderError> {
-    projectors
-        .iter()
-        .map(|&projector| {
-            Ok(ProjectorView { projector, view: view_of(display, projector, frame, shape)?.rounded() })
-        })
-        .collect()
+    let view = |&projector: &u32| {
+        let found = &display.projectors[projector as usize];
+        let law = display
+            .beam_law(projector as usize, frame.observer_in_display, frame.eta)
+            .map_err(|error| RenderError::Ray { projector: found.name.clone(), why: error.to_string() })?;
+        Ok(ProjectorView { projector, rays: ProjectorRays::new(&found.raster, &law).rounded() })
+    };
+    projectors.iter().map(view).collect()
 }

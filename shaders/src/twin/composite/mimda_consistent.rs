@@ -2,7 +2,7 @@
 
 use super::{Accumulated, Composite, Light, Sample, mimda};
 use crate::twin::tables::Located;
-use crate::twin::{Real, Scene, importance::RISE, refine::MOST_PARTS};
+use crate::twin::{Casting, Real, importance::RISE, refine::MOST_PARTS};
 
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
 pub struct MimdaConsistent;
@@ -22,8 +22,12 @@ impl Composite for MimdaConsistent {
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]
-    fn sample_between<F: Real>(scene: &Scene<F>, located: [&Located<F>; 2], scalars: (F, F)) -> Sample<F> {
-        mimda::sample_between(scene, located, scalars)
+    fn sample_between<F: Real>(
+        casting: &Casting<F>,
+        located: [&Located<F>; 2],
+        scalars: (F, F),
+    ) -> Sample<F> {
+        mimda::sample_between(casting, located, scalars)
     }
 
     #[inline(always)]
@@ -33,7 +37,7 @@ impl Composite for MimdaConsistent {
 
     #[inline(always)]
     fn composite<F: Real>(
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         front: Accumulated<F>,
         light: Light<F>,
         sample: &Sample<F>,
@@ -41,22 +45,22 @@ impl Composite for MimdaConsistent {
         // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
         let middle = front.importance.most(sample.importance.mean);
         let end = middle.most(sample.importance.most);
-        let beta = kept(scene.view.gamma, front.importance, middle);
-        let rest = kept(scene.view.gamma, middle, end);
+        let beta = kept(casting.scene.gamma, front.importance, middle);
+        let rest = kept(casting.scene.gamma, middle, end);
         let all = front.then(beta, light, end);
         Accumulated { rgb: all.rgb * rest, alpha: all.alpha * rest, importance: end }
     }
 
     #[inline(always)]
-    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
-        let beyond = kept(scene.view.gamma, front.importance, reach.importance.most);
-        let unseen = (F::ONE - beyond) * front.alpha * (F::of(RISE) / scene.view.tolerance);
+    fn parts_of_rise<F: Real>(casting: &Casting<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
+        let beyond = kept(casting.scene.gamma, front.importance, reach.importance.most);
+        let unseen = (F::ONE - beyond) * front.alpha * (F::of(RISE) / casting.scene.tolerance);
         unseen.ceil().most(F::ONE).least(F::of(MOST_PARTS))
     }
 
     #[inline(always)]
-    fn still_to_come<F: Real>(scene: &Scene<F>, front: Accumulated<F>) -> F {
-        F::ONE - kept(scene.view.gamma, front.importance, scene.view.largest_importance) * front.alpha
+    fn still_to_come<F: Real>(casting: &Casting<F>, front: Accumulated<F>) -> F {
+        F::ONE - kept(casting.scene.gamma, front.importance, casting.scene.largest_importance) * front.alpha
     }
 }
 

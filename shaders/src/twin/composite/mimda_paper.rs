@@ -2,7 +2,7 @@
 
 use super::{Accumulated, Composite, Light, Sample, mimda};
 use crate::twin::tables::Located;
-use crate::twin::{Real, Scene};
+use crate::twin::{Casting, Real};
 
 /// Twin of `wgsl/composite/mimda_paper.wgsl`.
 pub struct MimdaPaper;
@@ -18,8 +18,12 @@ impl Composite for MimdaPaper {
     const ONCE_PER_STEP: bool = true;
 
     #[inline(always)]
-    fn sample_between<F: Real>(scene: &Scene<F>, located: [&Located<F>; 2], scalars: (F, F)) -> Sample<F> {
-        mimda::sample_between(scene, located, scalars)
+    fn sample_between<F: Real>(
+        casting: &Casting<F>,
+        located: [&Located<F>; 2],
+        scalars: (F, F),
+    ) -> Sample<F> {
+        mimda::sample_between(casting, located, scalars)
     }
 
     #[inline(always)]
@@ -29,23 +33,23 @@ impl Composite for MimdaPaper {
 
     #[inline(always)]
     fn composite<F: Real>(
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         front: Accumulated<F>,
         light: Light<F>,
         sample: &Sample<F>,
     ) -> Accumulated<F> {
         let importance = sample.importance.mean;
-        let beta = kept(scene.view.gamma, front.importance, importance);
+        let beta = kept(casting.scene.gamma, front.importance, importance);
         front.then(beta, light, front.importance.most(importance))
     }
 
     #[inline(always)]
-    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
+    fn parts_of_rise<F: Real>(_: &Casting<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
         F::ONE
     }
 
     #[inline(always)]
-    fn still_to_come<F: Real>(scene: &Scene<F>, front: Accumulated<F>) -> F {
-        F::ONE - kept(scene.view.gamma, front.importance, scene.view.largest_importance) * front.alpha
+    fn still_to_come<F: Real>(casting: &Casting<F>, front: Accumulated<F>) -> F {
+        F::ONE - kept(casting.scene.gamma, front.importance, casting.scene.largest_importance) * front.alpha
     }
 }

@@ -10,7 +10,7 @@ pub use mimda_paper::MimdaPaper;
 pub use over::Over;
 
 use super::importance::Importance;
-use super::{Real, Scene, tables::Located, vector::Vec3};
+use super::{Casting, Real, tables::Located, vector::Vec3};
 
 /// What has been gathered so far.
 #[derive(Clone, Copy, Debug)]
@@ -80,18 +80,19 @@ pub trait Composite {
     /// Whether the parts of a step are composited among themselves first.
     const ONCE_PER_STEP: bool;
     /// What a segment between two scalars shows.
-    fn sample_between<F: Real>(scene: &Scene<F>, located: [&Located<F>; 2], scalars: (F, F)) -> Sample<F>;
+    fn sample_between<F: Real>(casting: &Casting<F>, located: [&Located<F>; 2], scalars: (F, F))
+    -> Sample<F>;
     /// Whether a segment without extinction changes nothing.
     fn is_clear<F: Real>(extinction: F) -> bool;
     /// A segment's light, behind what is in front.
     fn composite<F: Real>(
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         front: Accumulated<F>,
         light: Light<F>,
         sample: &Sample<F>,
     ) -> Accumulated<F>;
     /// Parts of each step of a pair, by what a rise of importance over the scalars within reach may have erased unseen.
-    fn parts_of_rise<F: Real>(scene: &Scene<F>, front: Accumulated<F>, reach: &Sample<F>) -> F;
+    fn parts_of_rise<F: Real>(casting: &Casting<F>, front: Accumulated<F>, reach: &Sample<F>) -> F;
     /// The opacity that what follows may still add.
-    fn still_to_come<F: Real>(scene: &Scene<F>, front: Accumulated<F>) -> F;
+    fn still_to_come<F: Real>(casting: &Casting<F>, front: Accumulated<F>) -> F;
 }

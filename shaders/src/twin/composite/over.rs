@@ -3,7 +3,7 @@
 use super::{Accumulated, Composite, Light, Sample};
 use crate::twin::importance::Importance;
 use crate::twin::tables::{Located, optics_between};
-use crate::twin::{Real, Scene};
+use crate::twin::{Casting, Real};
 
 /// Twin of `wgsl/composite/over.wgsl`.
 pub struct Over;
@@ -13,8 +13,8 @@ impl Composite for Over {
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]
-    fn sample_between<F: Real>(scene: &Scene<F>, [a, b]: [&Located<F>; 2], _: (F, F)) -> Sample<F> {
-        let k = optics_between(&scene.tables.optics, a, b);
+    fn sample_between<F: Real>(casting: &Casting<F>, [a, b]: [&Located<F>; 2], _: (F, F)) -> Sample<F> {
+        let k = optics_between(&casting.tables.optics, a, b);
         Sample { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
     }
 
@@ -25,7 +25,7 @@ impl Composite for Over {
 
     #[inline(always)]
     fn composite<F: Real>(
-        _: &Scene<F>,
+        _: &Casting<F>,
         front: Accumulated<F>,
         light: Light<F>,
         _: &Sample<F>,
@@ -39,12 +39,12 @@ impl Composite for Over {
     }
 
     #[inline(always)]
-    fn parts_of_rise<F: Real>(_: &Scene<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
+    fn parts_of_rise<F: Real>(_: &Casting<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
         F::ONE
     }
 
     #[inline(always)]
-    fn still_to_come<F: Real>(_: &Scene<F>, front: Accumulated<F>) -> F {
+    fn still_to_come<F: Real>(_: &Casting<F>, front: Accumulated<F>) -> F {
         F::ONE - front.alpha
     }
 }

@@ -8,27 +8,27 @@ pub use heat::{heat, ramps};
 
 use super::composite::Light;
 use super::kernel::Kernel;
-use super::{Real, Scene, ray::Ray};
+use super::{Casting, Real, ray::Ray};
 use optics::DebugView;
 
 /// A segment's light around t: itself, where no debug view colours it.
 #[inline(always)]
 pub(super) fn debug_light<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     light: Light<F>,
     at: (&Ray<F>, F),
 ) -> Light<F> {
     if !K::IS_FULL {
         return light;
     }
-    match scene.needs.debug {
+    match casting.needs.debug {
         None | Some(DebugView::Samples) => light,
-        Some(view) => node::light(scene, view, light, at),
+        Some(view) => node::light(casting, view, light, at),
     }
 }
 
 /// A ray's colour: itself, where no debug view counts its samples.
 #[inline(always)]
-pub(super) fn debug_pixel<F: Real>(scene: &Scene<F>, rgba: [F; 4], samples: u32) -> [F; 4] {
-    if scene.needs.debug == Some(DebugView::Samples) { samples::pixel(samples) } else { rgba }
+pub(super) fn debug_pixel<F: Real>(casting: &Casting<F>, rgba: [F; 4], samples: u32) -> [F; 4] {
+    if casting.needs.debug == Some(DebugView::Samples) { samples::pixel(samples) } else { rgba }
 }

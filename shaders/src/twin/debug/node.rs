@@ -3,7 +3,7 @@
 use super::heat;
 use crate::twin::composite::Light;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
-use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::NodeRecord;
 use optics::DebugView;
 
@@ -29,15 +29,15 @@ fn value<F: Real>(finest: u32, view: DebugView, node: &NodeRecord, point: Vec3<F
 /// A segment's light around t, as a view shows it.
 #[inline(never)]
 pub(super) fn light<F: Real>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     view: DebugView,
     light: Light<F>,
     (ray, t): (&Ray<F>, F),
 ) -> Light<F> {
     let point = ray.point(t);
     // From the root, so that nothing has to be carried along the ray for this.
-    let node = &scene.nodes[scene.leaf_at(point, ray) as usize];
-    let value = value(scene.view.finest_depth, view, node, point);
+    let node = &casting.volume.nodes[casting.leaf_at(point, ray) as usize];
+    let value = value(casting.scene.finest_depth, view, node, point);
     let (least, most) = view.scale();
     let share = ((value - F::of(least)) / F::of(most - least)).most(F::ZERO).least(F::ONE);
     let (low, high) = view.colours();

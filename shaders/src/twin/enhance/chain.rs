@@ -6,7 +6,7 @@ use crate::twin::composite::{Accumulated, Composite, Sample};
 use crate::twin::gradient::Gradients;
 use crate::twin::kernel::Kernel;
 use crate::twin::ray::{Ray, far};
-use crate::twin::{Real, Scene, vector::Vec3};
+use crate::twin::{Casting, Real, vector::Vec3};
 use optics::MOST_ENHANCERS;
 
 /// An enhancer's state along one ray.
@@ -91,28 +91,28 @@ pub struct Chain<F> {
 impl<F: Real> Chain<F> {
     /// For a ray as it leaves the eye.
     #[inline(always)]
-    pub fn start<K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Self {
+    pub fn start<K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -> Self {
         let unused = LinkState { weights: [F::ZERO; 4], breaks: [far(); 3] };
         let mut chain = Self { view: ray.direction_in_display, links: [unused; MOST_ENHANCERS] };
         if K::IS_FULL {
-            chain.start_links(scene, ray);
+            chain.start_links(casting, ray);
         }
         chain
     }
 
     #[inline(never)]
-    fn start_links(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
-        for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            self.links[i].weights = hook!(kind, start(&scene.view.links[i], self.view));
+    fn start_links(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
+        for (i, kind) in casting.needs.chain.kinds().enumerate() {
+            self.links[i].weights = hook!(kind, start(&casting.scene.links[i], self.view));
         }
-        self.follow(scene, ray);
+        self.follow(casting, ray);
     }
 
     /// The breaks anew, for another straight way.
     #[inline(never)]
-    pub fn follow(&mut self, scene: &Scene<F>, ray: &Ray<F>) {
-        for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            self.links[i].breaks = hook!(kind, breaks(&scene.view.links[i], self.view, ray));
+    pub fn follow(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
+        for (i, kind) in casting.needs.chain.kinds().enumerate() {
+            self.links[i].breaks = hook!(kind, breaks(&casting.scene.links[i], self.view, ray));
         }
     }
 
@@ -130,11 +130,11 @@ impl<F: Real> Chain<F> {
 
     /// How much the links make samples around t vary within a step; 0 where none looks at gradients.
     #[inline(always)]
-    pub fn spread<K: Kernel>(&self, scene: &Scene<F>, t: F) -> F {
+    pub fn spread<K: Kernel>(&self, casting: &Casting<F>, t: F) -> F {
         let mut sum = F::ZERO;
         if K::IS_FULL {
-            for (i, kind) in scene.needs.chain.kinds().enumerate() {
-                sum = sum + hook!(kind, spread(&scene.view.links[i], &self.links[i], t));
+            for (i, kind) in casting.needs.chain.kinds().enumerate() {
+                sum = sum + hook!(kind, spread(&casting.scene.links[i], &self.links[i], t));
             }
         }
         sum
@@ -144,36 +144,36 @@ impl<F: Real> Chain<F> {
     #[inline(always)]
     pub fn enhance<K: Kernel>(
         &self,
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         plain: Sample<F>,
         (ray, t): (&Ray<F>, F),
         scalars: (F, F),
         gradients: &Gradients<F>,
     ) -> Sample<F> {
-        if !K::IS_FULL || scene.needs.chain.is_empty() {
+        if !K::IS_FULL || casting.needs.chain.is_empty() {
             return plain;
         }
         let has_importance = K::Composite::READS_IMPORTANCE;
         let point = ray.point_in_display(t);
         let place = Place { point, gradient: gradients.at, scalars, view: self.view, has_importance };
-        self.enhance_at(scene, plain, &place)
+        self.enhance_at(casting, plain, &place)
     }
 
     /// Not inlined: it is called from many places, and rarely.
     #[inline(never)]
-    fn enhance_at(&self, scene: &Scene<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
-        for (i, kind) in scene.needs.chain.kinds().enumerate() {
-            sample = hook!(kind, at(&scene.view.links[i], &self.links[i], sample, place));
+    fn enhance_at(&self, casting: &Casting<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
+        for (i, kind) in casting.needs.chain.kinds().enumerate() {
+            sample = hook!(kind, at(&casting.scene.links[i], &self.links[i], sample, place));
         }
         sample
     }
 
     /// What the links make of a ray at its end.
     #[inline(always)]
-    pub fn end<K: Kernel>(&self, scene: &Scene<F>, mut front: Accumulated<F>) -> Accumulated<F> {
+    pub fn end<K: Kernel>(&self, casting: &Casting<F>, mut front: Accumulated<F>) -> Accumulated<F> {
         if K::IS_FULL {
-            for (i, kind) in scene.needs.chain.kinds().enumerate() {
-                front = hook!(kind, end(&scene.view.links[i], &self.links[i], front));
+            for (i, kind) in casting.needs.chain.kinds().enumerate() {
+                front = hook!(kind, end(&casting.scene.links[i], &self.links[i], front));
             }
         }
         front

@@ -3,7 +3,7 @@
 use super::central::gradient_in;
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
-use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 
 /// Of the scalar per finest voxel's edge, display frame.
 #[derive(Clone, Copy, Debug)]
@@ -22,34 +22,34 @@ impl<F: Real> Gradients<F> {
 
     /// At t.
     #[inline(always)]
-    pub fn new<K: Kernel>(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
-        if (K::IS_FULL && scene.needs.reads_grandparents()) || brick.is_blended::<K>() {
-            return Self::over_levels(scene, brick, ray, t);
+    pub fn new<K: Kernel>(casting: &Casting<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
+        if (K::IS_FULL && casting.needs.reads_grandparents()) || brick.is_blended::<K>() {
+            return Self::over_levels(casting, brick, ray, t);
         }
-        Self { at: gradient_in(scene, &brick.own, t), ..Self::NONE }
+        Self { at: gradient_in(casting, &brick.own, t), ..Self::NONE }
     }
 
     /// Not inlined: it is called from many places.
     #[inline(never)]
-    fn over_levels(scene: &Scene<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
-        let f = brick.fraction(scene, ray, t);
-        if scene.needs.shading.has_detail() {
-            return Self::detailed(scene, brick, f, t);
+    fn over_levels(casting: &Casting<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
+        let f = brick.fraction(casting, ray, t);
+        if casting.needs.shading.has_detail() {
+            return Self::detailed(casting, brick, f, t);
         }
         let (near, far, share) = if f < F::ONE {
             (&brick.own, &brick.parent, f)
         } else {
             (&brick.parent, &brick.grandparent, f - F::ONE)
         };
-        let near = gradient_in(scene, near, t);
-        let at = if share <= F::ZERO { near } else { near.lerp(gradient_in(scene, far, t), share) };
+        let near = gradient_in(casting, near, t);
+        let at = if share <= F::ZERO { near } else { near.lerp(gradient_in(casting, far, t), share) };
         Self { at, ..Self::NONE }
     }
 
-    fn detailed(scene: &Scene<F>, brick: &Brick<F>, f: F, t: F) -> Self {
-        let own = gradient_in(scene, &brick.own, t);
-        let parent = gradient_in(scene, &brick.parent, t);
-        let grandparent = gradient_in(scene, &brick.grandparent, t);
+    fn detailed(casting: &Casting<F>, brick: &Brick<F>, f: F, t: F) -> Self {
+        let own = gradient_in(casting, &brick.own, t);
+        let parent = gradient_in(casting, &brick.parent, t);
+        let grandparent = gradient_in(casting, &brick.grandparent, t);
         let between = |f: F| {
             let share = |f: F| f.most(F::ZERO).least(F::ONE);
             own.lerp(parent, share(f)).lerp(grandparent, share(f - F::ONE))

@@ -1,9 +1,9 @@
 //! One level of detail around a ray: where a brick's samples lie on it.
 
 use crate::twin::sample::sample_brick;
-use crate::twin::scene::BRICK_VOXELS;
 use crate::twin::traverse::{node_low, voxel_edge};
-use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use crate::twin::volume::BRICK_VOXELS;
+use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::NodeRecord;
 
 /// See `Level` in `wgsl/levels/level.wgsl`.
@@ -26,13 +26,13 @@ impl<'a, F: Real> Level<'a, F> {
 
     /// Of a node with a brick.
     #[inline(always)]
-    pub fn new(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
-        let finest = scene.view.finest_depth;
+    pub fn new(casting: &Casting<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+        let finest = casting.scene.finest_depth;
         let edge = voxel_edge::<F>(finest, node.depth);
         let overlap = F::of(Self::OVERLAP);
         let scale = F::of_f32(node.scale);
         Self {
-            codes: scene.brick(node.slot),
+            codes: casting.volume.brick(node.slot),
             base: (ray.origin_in_volume - node_low(finest, node)).map(|c| c / edge + overlap),
             slope: ray.direction_in_volume.map(|c| c / edge),
             gradient_scale: F::of(0.5) * scale / edge,

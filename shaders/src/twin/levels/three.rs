@@ -5,7 +5,7 @@ use super::{Level, weights::Weights};
 use crate::compose::Levels;
 use crate::twin::kernel::Kernel;
 use crate::twin::traverse::voxel_edge;
-use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::{CELL_WORDS, NO_NODE, NO_SLOT, NodeRecord};
 
 /// What stays the same on a straight way through one brick. Where an ancestor has no brick, the level below stands for it.
@@ -31,26 +31,26 @@ pub struct Brick<'a, F> {
 impl<'a, F: Real> Brick<'a, F> {
     /// The brick of a node, on a straight way.
     #[inline(always)]
-    pub fn new<K: Kernel>(scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
-        let finest = scene.view.finest_depth;
+    pub fn new<K: Kernel>(casting: &Casting<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+        let finest = casting.scene.finest_depth;
         let edge = voxel_edge::<F>(finest, node.depth);
-        let own = Level::new(scene, node, ray);
+        let own = Level::new(casting, node, ray);
         let mut brick = Self {
             own,
             parent: own,
             grandparent: own,
             weights: Weights::FULL,
-            cells: scene.cells(node.slot),
+            cells: casting.volume.cells(node.slot),
             pace: ray.inverse.map(|c| c.abs() * edge),
             above_finest: F::of_u32(finest - node.depth),
             coarsest: F::ZERO,
-            filters_levels: K::IS_FULL && scene.needs.levels == Levels::Quadrilinear,
+            filters_levels: K::IS_FULL && casting.needs.levels == Levels::Quadrilinear,
         };
-        if K::BLENDS && scene.needs.blends {
+        if K::BLENDS && casting.needs.blends {
             brick.weights = Weights::new(node);
         }
-        if K::BLENDS && (brick.weights.is_blended || (K::IS_FULL && scene.needs.reads_grandparents())) {
-            brick.add_ancestors(scene, node, ray);
+        if K::BLENDS && (brick.weights.is_blended || (K::IS_FULL && casting.needs.reads_grandparents())) {
+            brick.add_ancestors(casting, node, ray);
         }
         brick
     }
@@ -74,43 +74,43 @@ impl<'a, F: Real> Brick<'a, F> {
     }
 
     #[inline(never)]
-    fn add_ancestors(&mut self, scene: &Scene<'a, F>, node: &NodeRecord, ray: &Ray<F>) {
+    fn add_ancestors(&mut self, casting: &Casting<'a, F>, node: &NodeRecord, ray: &Ray<F>) {
         let above = |node: &NodeRecord| {
-            let parent = scene.nodes.get(node.parent as usize).filter(|_| node.parent != NO_NODE)?;
+            let parent = casting.volume.nodes.get(node.parent as usize).filter(|_| node.parent != NO_NODE)?;
             (parent.slot != NO_SLOT).then_some(parent)
         };
         let Some(parent) = above(node) else {
             self.weights = Weights::FULL;
             return;
         };
-        self.parent = Level::new(scene, parent, ray);
+        self.parent = Level::new(casting, parent, ray);
         (self.grandparent, self.coarsest) = (self.parent, F::ONE);
         let Some(grandparent) = above(parent) else { return };
-        self.grandparent = Level::new(scene, grandparent, ray);
+        self.grandparent = Level::new(casting, grandparent, ray);
         self.coarsest = F::of(2.0);
     }
 
     /// The fractional level of samples at t, 0 is the node, 1 the parent, 2 the grandparent: the one that they are
     /// filtered at, or the parent's share by the node's corners where that is more.
     #[inline(always)]
-    pub fn fraction(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        let filtered = if self.filters_levels { self.filtered_fraction(scene, ray, t) } else { F::ZERO };
+    pub fn fraction(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
+        let filtered = if self.filters_levels { self.filtered_fraction(casting, ray, t) } else { F::ZERO };
         if self.weights.is_blended { filtered.most(self.parents_share(t)) } else { filtered }
     }
 
     #[inline(always)]
-    fn filtered_fraction(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
+    fn filtered_fraction(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
         let z = ray.origin_in_display.0[2] + ray.direction_in_display.0[2] * t;
-        let [c0, c1] = scene.view.resolution;
+        let [c0, c1] = casting.scene.resolution;
         let wanted = (c0 + c1 * z.abs()).most(F::of(1e-30)).log2() - self.above_finest;
         wanted.most(F::ZERO).least(self.coarsest)
     }
 
     /// The scalar at t.
     #[inline(always)]
-    pub fn scalar_at<K: Kernel>(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
+    pub fn scalar_at<K: Kernel>(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
         let s = if K::IS_FULL && (self.filters_levels || self.weights.is_blended) {
-            self.scalar_over_levels(scene, ray, t)
+            self.scalar_over_levels(casting, ray, t)
         } else if self.is_blended::<K>() {
             self.scalar_toward_parent(t)
         } else {
@@ -121,8 +121,8 @@ impl<'a, F: Real> Brick<'a, F> {
 
     /// Not inlined: it is called from many places.
     #[inline(never)]
-    fn scalar_over_levels(&self, scene: &Scene<F>, ray: &Ray<F>, t: F) -> F {
-        let f = self.fraction(scene, ray, t);
+    fn scalar_over_levels(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
+        let f = self.fraction(casting, ray, t);
         if f <= F::ONE {
             return self.scalar_between(f, t);
         }

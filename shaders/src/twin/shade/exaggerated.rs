@@ -3,12 +3,12 @@
 use super::Lighting;
 use super::law::lit_by;
 use crate::twin::gradient::{Gradients, LEAST_SQUARE};
-use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 
 /// See `wgsl/shade/exaggerated.wgsl`.
 #[inline(always)]
 pub(super) fn lighting<F: Real>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     gradients: &Gradients<F>,
     ray: &Ray<F>,
     material: [F; 4],
@@ -17,15 +17,15 @@ pub(super) fn lighting<F: Real>(
     if square < F::of(LEAST_SQUARE) {
         return Lighting::NONE;
     }
-    let light = scene.view.toward_light;
+    let light = casting.scene.toward_light;
     let [n0, n1, n2] = [gradients.at, gradients.coarse, gradients.coarsest].map(outward);
-    let contrast = scene.view.detail;
+    let contrast = casting.scene.detail;
     let levels = F::of(0.5) * raked(n0, n1, light, contrast)
         + F::of(0.3) * raked(n1, n2, light, contrast)
         + F::of(0.2) * n2.dot(light);
     let half = F::of(0.5);
     let lit = (half + half * levels).most(F::ZERO).least(F::ONE);
-    lit_by(scene, (gradients.at, square), lit, ray, material)
+    lit_by(casting, (gradients.at, square), lit, ray, material)
 }
 
 /// Unit vector toward lower values; zero where there is none.

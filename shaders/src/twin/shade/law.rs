@@ -1,21 +1,21 @@
 //! The shading law: two-sided Phong, weighted by the strength of the gradient.
 
 use super::Lighting;
-use crate::twin::{Real, Scene, ray::Ray, vector::Vec3};
+use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 
 /// The light on a gradient of length sqrt(square) > 0, of which the share `lit` is scattered.
 #[inline(always)]
 pub(super) fn lit_by<F: Real>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     (gradient, square): (Vec3<F>, F),
     lit: F,
     ray: &Ray<F>,
     material: [F; 4],
 ) -> Lighting<F> {
-    let view = scene.view;
-    let weight = square / (square + view.gradient_half_square);
+    let scene = casting.scene;
+    let weight = square / (square + scene.gradient_half_square);
     let [ambient, diffuse, specular, shininess] = material;
-    let halfway = view.toward_light - ray.direction_in_display;
+    let halfway = scene.toward_light - ray.direction_in_display;
     let highlight = highlight(gradient, square.sqrt(), halfway, shininess);
     Lighting {
         body: F::ONE - weight + weight * (ambient + diffuse * lit),

@@ -10,7 +10,7 @@ pub use phong::Phong;
 pub use plain::Plain;
 
 use super::gradient::Gradients;
-use super::{Real, Scene, ray::Ray};
+use super::{Casting, Real, ray::Ray};
 use crate::compose::{Needs, Shading};
 
 /// A module for the shading slot.
@@ -24,7 +24,7 @@ pub trait Shade {
 
     /// The light on a segment of `material`: ambient, diffuse, specular, shininess.
     fn lighting<F: Real>(
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         gradients: &Gradients<F>,
         ray: &Ray<F>,
         material: [F; 4],
@@ -66,16 +66,16 @@ impl Shade for AnyShade {
 
     #[inline(always)]
     fn lighting<F: Real>(
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         gradients: &Gradients<F>,
         ray: &Ray<F>,
         material: [F; 4],
     ) -> Lighting<F> {
-        match scene.needs.shading {
+        match casting.needs.shading {
             Shading::Plain => Lighting::NONE,
-            Shading::Phong => Phong::lighting(scene, gradients, ray, material),
-            Shading::Unsharp => unsharp::lighting(scene, gradients, ray, material),
-            Shading::Exaggerated => exaggerated::lighting(scene, gradients, ray, material),
+            Shading::Phong => Phong::lighting(casting, gradients, ray, material),
+            Shading::Unsharp => unsharp::lighting(casting, gradients, ray, material),
+            Shading::Exaggerated => exaggerated::lighting(casting, gradients, ray, material),
         }
     }
 }

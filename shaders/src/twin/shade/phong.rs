@@ -4,7 +4,7 @@ use super::law::lit_by;
 use super::{Lighting, Shade};
 use crate::compose::Needs;
 use crate::twin::gradient::{Gradients, LEAST_SQUARE};
-use crate::twin::{Real, Scene, ray::Ray};
+use crate::twin::{Casting, Real, ray::Ray};
 
 /// Twin of `wgsl/shade/phong.wgsl`.
 pub struct Phong;
@@ -27,7 +27,7 @@ impl Shade for Phong {
 
     #[inline(always)]
     fn lighting<F: Real>(
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         gradients: &Gradients<F>,
         ray: &Ray<F>,
         material: [F; 4],
@@ -36,7 +36,7 @@ impl Shade for Phong {
         if square < F::of(LEAST_SQUARE) {
             return Lighting::NONE;
         }
-        let lit = gradients.at.dot(scene.view.toward_light).abs() / square.sqrt();
-        lit_by(scene, (gradients.at, square), lit, ray, material)
+        let lit = gradients.at.dot(casting.scene.toward_light).abs() / square.sqrt();
+        lit_by(casting, (gradients.at, square), lit, ray, material)
     }
 }

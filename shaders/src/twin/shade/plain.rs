@@ -3,7 +3,7 @@
 use super::{Lighting, Shade};
 use crate::compose::Needs;
 use crate::twin::gradient::Gradients;
-use crate::twin::{Real, Scene, ray::Ray};
+use crate::twin::{Casting, Real, ray::Ray};
 
 /// Twin of `wgsl/shade/plain.wgsl`.
 pub struct Plain;
@@ -25,7 +25,7 @@ impl Shade for Plain {
     }
 
     #[inline(always)]
-    fn lighting<F: Real>(_: &Scene<F>, _: &Gradients<F>, _: &Ray<F>, _: [F; 4]) -> Lighting<F> {
+    fn lighting<F: Real>(_: &Casting<F>, _: &Gradients<F>, _: &Ray<F>, _: [F; 4]) -> Lighting<F> {
         Lighting::NONE
     }
 }

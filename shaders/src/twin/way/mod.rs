@@ -4,16 +4,16 @@ mod refracted;
 mod straight;
 
 use super::composite::Accumulated;
-use super::{Cast, Real, Scene, kernel::Kernel, ray::Ray};
+use super::{Cast, Casting, Real, kernel::Kernel, ray::Ray};
 use crate::compose::Way;
 
 /// A ray from the eye to its colour.
 #[inline(always)]
-pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Cast<F> {
-    if K::IS_FULL && scene.needs.way == Way::Refracted {
-        return refracted::cast_ray::<F, K>(scene, ray);
+pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -> Cast<F> {
+    if K::IS_FULL && casting.needs.way == Way::Refracted {
+        return refracted::cast_ray::<F, K>(casting, ray);
     }
-    straight::cast_ray::<F, K>(scene, ray)
+    straight::cast_ray::<F, K>(casting, ray)
 }
 
 impl<F: Real> Cast<F> {

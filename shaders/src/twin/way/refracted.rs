@@ -10,7 +10,7 @@ use crate::twin::ray::{Ray, far};
 use crate::twin::refine::{Voxel, scalars_in_reach};
 use crate::twin::tables::is_vacant;
 use crate::twin::traverse::{OWN_EDGE, node_low, voxel_edge};
-use crate::twin::{Cast, Real, Scene, vector::Vec3};
+use crate::twin::{Cast, Casting, Real, vector::Vec3};
 use layout::{NO_NODE, NO_SLOT, NodeRecord};
 
 /// See `wgsl/way/refracted.wgsl` for these eight.
@@ -68,12 +68,12 @@ impl<F: Real> Bent<F> {
     #[inline(always)]
     fn direction_beyond(
         &mut self,
-        scene: &Scene<F>,
+        casting: &Casting<F>,
         gradient: Vec3<F>,
         (s0, s2): (F, F),
         length: F,
     ) -> Vec3<F> {
-        let table = &scene.tables.index;
+        let table = &casting.tables.index;
         let v = self.ray.direction_in_display;
         let (n0, n2) = (index_at(table, s0), index_at(table, s2));
         // A ray that was turned by a surface and has not passed it yet goes straight on; then it has the index beyond.
@@ -90,7 +90,7 @@ impl<F: Real> Bent<F> {
             return v;
         }
         if (n2 - n0).abs() <= F::of(SURFACE) {
-            let bend = index_slope(table, s0, s2) * length / scene.view.voxel_m;
+            let bend = index_slope(table, s0, s2) * length / casting.scene.voxel_m;
             return normalize(v * (F::of(0.5) * (n0 + n2)) + gradient * bend);
         }
         let size = square.sqrt();
@@ -112,18 +112,18 @@ impl<F: Real> Bent<F> {
 
 /// The same ray, turned at t.
 #[inline(always)]
-fn turned_at<F: Real>(scene: &Scene<F>, ray: &Ray<F>, t: F, direction_in_display: Vec3<F>) -> Ray<F> {
+fn turned_at<F: Real>(casting: &Casting<F>, ray: &Ray<F>, t: F, direction_in_display: Vec3<F>) -> Ray<F> {
     let next = Ray { origin_in_volume: ray.point(t), origin_in_display: ray.point_in_display(t), ..*ray };
-    next.turned(scene.view, direction_in_display)
+    next.turned(casting.scene, direction_in_display)
 }
 
 /// Where the ray, which is inside, leaves the volume.
 #[inline(always)]
-fn exit_of_volume<F: Real>(scene: &Scene<F>, ray: &Ray<F>) -> F {
+fn exit_of_volume<F: Real>(casting: &Casting<F>, ray: &Ray<F>) -> F {
     let mut t = far::<F>();
     for axis in 0..3 {
         if !ray.is_parallel(axis) {
-            let face = if ray.is_forward(axis) { scene.view.dims.0[axis] } else { F::ZERO };
+            let face = if ray.is_forward(axis) { casting.scene.dims.0[axis] } else { F::ZERO };
             t = t.least((face - ray.origin_in_volume.0[axis]) * ray.inverse.0[axis]);
         }
     }
@@ -136,8 +136,8 @@ fn is_in_box<F: Real>(point: Vec3<F>, low: Vec3<F>, high: Vec3<F>) -> bool {
 }
 
 #[inline(always)]
-fn is_in_node<F: Real>(scene: &Scene<F>, node: &NodeRecord, point: Vec3<F>) -> bool {
-    let finest = scene.view.finest_depth;
+fn is_in_node<F: Real>(casting: &Casting<F>, node: &NodeRecord, point: Vec3<F>) -> bool {
+    let finest = casting.scene.finest_depth;
     let low = node_low::<F>(finest, node);
     let edge = F::of(OWN_EDGE) * voxel_edge::<F>(finest, node.depth);
     is_in_box(point, low, low + Vec3::splat(edge))
@@ -150,30 +150,30 @@ fn bends<F: Real>(table: &[f32], s0: F, s1: F) -> bool {
 }
 
 #[inline(never)]
-pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -> Cast<F> {
+pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, eye_ray: &Ray<F>) -> Cast<F> {
     let mut front = Accumulated::NOTHING;
     let mut cast = Cast::NOTHING;
-    let span = eye_ray.clip_to_volume(scene.view.dims);
+    let span = eye_ray.clip_to_volume(casting.scene.dims);
     if !matches!(span.0.partial_cmp(&span.1), Some(std::cmp::Ordering::Less)) {
         return cast;
     }
-    let mut chain = Chain::start::<K>(scene, eye_ray);
-    let ray = turned_at(scene, eye_ray, span.0, eye_ray.direction_in_display);
+    let mut chain = Chain::start::<K>(casting, eye_ray);
+    let ray = turned_at(casting, eye_ray, span.0, eye_ray.direction_in_display);
     let mut bent = Bent { ray, t: F::ZERO, way: F::ZERO, passing: None };
-    chain.follow(scene, &bent.ray);
-    let longest_way = scene.view.diagonal_m * F::of(LONGEST_WAY_DIAGONALS);
-    let mut at = scene.leaf_at(bent.ray.origin_in_volume, &bent.ray);
+    chain.follow(casting, &bent.ray);
+    let longest_way = casting.scene.diagonal_m * F::of(LONGEST_WAY_DIAGONALS);
+    let mut at = casting.leaf_at(bent.ray.origin_in_volume, &bent.ray);
     let mut reported = NO_NODE;
     let mut known = None;
     while at != NO_NODE && bent.way < longest_way {
-        let node = &scene.nodes[at as usize];
+        let node = &casting.volume.nodes[at as usize];
         if bent.t * bent.ray.speed > F::of(LONGEST_STRAIGHT) {
-            bent.ray = turned_at(scene, &bent.ray, bent.t, bent.ray.direction_in_display);
+            bent.ray = turned_at(casting, &bent.ray, bent.t, bent.ray.direction_in_display);
             bent.t = F::ZERO;
-            chain.follow(scene, &bent.ray);
+            chain.follow(casting, &bent.ray);
         }
-        let exit = scene.exit_of(node, &bent.ray);
-        let t_out = exit.t.least(exit_of_volume(scene, &bent.ray));
+        let exit = casting.exit_of(node, &bent.ray);
+        let t_out = exit.t.least(exit_of_volume(casting, &bent.ray));
         if node.slot == NO_SLOT {
             known = None;
             bent.way = bent.way + (t_out - bent.t).most(F::ZERO);
@@ -181,22 +181,22 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
             if t_out < exit.t {
                 break;
             }
-            at = scene.leaf_beyond(node, exit.axis, bent.ray.point(bent.t), &bent.ray);
+            at = casting.leaf_beyond(node, exit.axis, bent.ray.point(bent.t), &bent.ray);
             continue;
         }
         if reported != at {
             reported = at;
             known = None;
-            scene.feedback[at as usize].note(node.deficit);
+            casting.observer.note(at, node.deficit);
             cast.is_missing |= node.deficit > 0.0;
         }
-        let brick = Brick::new::<K>(scene, node, &bent.ray);
-        let voxel = Voxel::new(scene, node, &bent.ray);
+        let brick = Brick::new::<K>(casting, node, &bent.ray);
+        let voxel = Voxel::new(casting, node, &bent.ray);
         // As many equal pairs as lie between here and the border or the next break; one of them is taken.
         let span_left =
             (t_out.least(chain.next_break::<K>(bent.t)) - bent.t).most(F::of(LEAST_PAIR) * voxel.edge);
         let two = F::of(2.0);
-        let longest = voxel.longest_step::<K>(scene, &brick, &bent.ray, bent.t);
+        let longest = voxel.longest_step::<K>(casting, &brick, &bent.ray, bent.t);
         let longest = longest.least(F::of(MOST_STEP) * voxel.edge);
         let pairs = (span_left / (two * longest)).ceil().most(F::ONE);
         let mut step = F::of(0.5) * span_left / pairs;
@@ -211,37 +211,37 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
                 if t_out < exit.t {
                     break;
                 }
-                at = scene.leaf_beyond(node, exit.axis, bent.ray.point(bent.t), &bent.ray);
+                at = casting.leaf_beyond(node, exit.axis, bent.ray.point(bent.t), &bent.ray);
             }
             continue;
         }
         let ray = bent.ray;
-        let s0 = known.unwrap_or_else(|| brick.scalar_at::<K>(scene, &ray, t0));
-        let table = &scene.tables.index;
-        let mut s2 = brick.scalar_at::<K>(scene, &ray, t0 + two * step);
+        let s0 = known.unwrap_or_else(|| brick.scalar_at::<K>(casting, &ray, t0));
+        let table = &casting.tables.index;
+        let mut s2 = brick.scalar_at::<K>(casting, &ray, t0 + two * step);
         for _ in 0..MOST_HALVINGS {
             if (index_at(table, s2) - index_at(table, s0)).abs() <= F::of(LARGE_CHANGE) {
                 break;
             }
             step = F::of(0.5) * step;
-            s2 = brick.scalar_at::<K>(scene, &ray, t0 + two * step);
+            s2 = brick.scalar_at::<K>(casting, &ray, t0 + two * step);
             cast.samples += 1;
         }
         let mut t1 = t0 + step;
-        let s1 = brick.scalar_at::<K>(scene, &ray, t1);
+        let s1 = brick.scalar_at::<K>(casting, &ray, t1);
         cast.samples += 3;
         let mut next_brick = brick;
         let mut is_turned = false;
         if bends(table, s0, s2) {
-            let gradient = Gradients::new::<K>(scene, &brick, &ray, t1).at;
-            let direction = bent.direction_beyond(scene, gradient, (s0, s2), two * step);
+            let gradient = Gradients::new::<K>(casting, &brick, &ray, t1).at;
+            let direction = bent.direction_beyond(casting, gradient, (s0, s2), two * step);
             is_turned = direction != ray.direction_in_display;
             if is_turned {
-                bent.ray = turned_at(scene, &ray, t1, direction);
-                chain.follow(scene, &bent.ray);
-                next_brick = Brick::new::<K>(scene, node, &bent.ray);
+                bent.ray = turned_at(casting, &ray, t1, direction);
+                chain.follow(casting, &bent.ray);
+                next_brick = Brick::new::<K>(casting, node, &bent.ray);
                 t1 = F::ZERO;
-                s2 = next_brick.scalar_at::<K>(scene, &bent.ray, step);
+                s2 = next_brick.scalar_at::<K>(casting, &bent.ray, step);
                 cast.samples += 1;
             }
         }
@@ -249,7 +249,7 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
         bent.t = t1 + step;
         bent.way = bent.way + two * step;
         let range = scalars_in_reach(s0, s1, s2);
-        if !is_vacant(&scene.tables.occupied, range.0, range.1) {
+        if !is_vacant(&casting.tables.occupied, range.0, range.1) {
             let steps = PairOfSteps {
                 first: Straight { brick: &brick, ray: &ray },
                 second: Straight { brick: &next_brick, ray: &bent.ray },
@@ -258,27 +258,27 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, eye_ray: &Ray<F>) -
                 scalars: [s0, s1, s2],
                 range,
             };
-            let (added, parts) = add_pair::<F, K>(scene, &chain, front, &steps);
+            let (added, parts) = add_pair::<F, K>(casting, &chain, front, &steps);
             front = added;
             cast.samples += 2 * (parts.to_index() - 1);
-            if K::Composite::still_to_come(scene, front) < scene.view.termination {
+            if K::Composite::still_to_come(casting, front) < casting.scene.termination {
                 break;
             }
         }
         let point = bent.ray.point(bent.t);
         if is_turned {
-            if !is_in_box(point, Vec3::ZERO, scene.view.dims) {
+            if !is_in_box(point, Vec3::ZERO, casting.scene.dims) {
                 break;
             }
-            if !is_in_node(scene, node, point) {
-                at = scene.leaf_at(point, &bent.ray);
+            if !is_in_node(casting, node, point) {
+                at = casting.leaf_at(point, &bent.ray);
             }
         } else if bent.t >= t_out {
             if t_out < exit.t {
                 break;
             }
-            at = scene.leaf_beyond(node, exit.axis, point, &bent.ray);
+            at = casting.leaf_beyond(node, exit.axis, point, &bent.ray);
         }
     }
-    cast.with_colours(chain.end::<K>(scene, front))
+    cast.with_colours(chain.end::<K>(casting, front))
 }

@@ -7,7 +7,7 @@ use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
 use crate::twin::refine::{Voxel, scalars_in_reach};
 use crate::twin::tables::is_vacant;
-use crate::twin::{Cast, Real, Scene, ray::Ray};
+use crate::twin::{Cast, Casting, Real, ray::Ray};
 use layout::{NO_NODE, NO_SLOT};
 
 struct Marched<F> {
@@ -21,7 +21,7 @@ struct Marched<F> {
 /// of the way is laid out anew after each pair, in pairs as long as the level there allows.
 #[inline(always)]
 fn march<F: Real, K: Kernel>(
-    scene: &Scene<F>,
+    casting: &Casting<F>,
     chain: &Chain<F>,
     mut front: Accumulated<F>,
     way: Straight<F>,
@@ -32,7 +32,7 @@ fn march<F: Real, K: Kernel>(
     let two = F::of(2.0);
     let lay_out = |from: F| {
         let span = (t_out - from).most(F::ZERO);
-        let longest = voxel.longest_step::<K>(scene, brick, ray, from);
+        let longest = voxel.longest_step::<K>(casting, brick, ray, from);
         let pairs = (span / (two * longest)).ceil().most(F::ONE);
         (F::of(0.5) * span / pairs, pairs.to_index())
     };
@@ -58,14 +58,14 @@ fn march<F: Real, K: Kernel>(
         i += 1;
         let s0 = known.unwrap_or_else(|| {
             marched.samples += 1;
-            brick.scalar_at::<K>(scene, ray, t0)
+            brick.scalar_at::<K>(casting, ray, t0)
         });
-        let s1 = brick.scalar_at::<K>(scene, ray, t0 + step);
-        let s2 = brick.scalar_at::<K>(scene, ray, t0 + two * step);
+        let s1 = brick.scalar_at::<K>(casting, ray, t0 + step);
+        let s2 = brick.scalar_at::<K>(casting, ray, t0 + two * step);
         marched.samples += 2;
         known = Some(s2);
         let range = scalars_in_reach(s0, s1, s2);
-        if is_vacant(&scene.tables.occupied, range.0, range.1) {
+        if is_vacant(&casting.tables.occupied, range.0, range.1) {
             continue;
         }
         let steps = PairOfSteps {
@@ -76,10 +76,10 @@ fn march<F: Real, K: Kernel>(
             scalars: [s0, s1, s2],
             range,
         };
-        let (added, parts) = add_pair::<F, K>(scene, chain, front, &steps);
+        let (added, parts) = add_pair::<F, K>(casting, chain, front, &steps);
         front = added;
         marched.samples += 2 * (parts.to_index() - 1);
-        if K::Composite::still_to_come(scene, front) < scene.view.termination {
+        if K::Composite::still_to_come(casting, front) < casting.scene.termination {
             marched.is_done = true;
             break;
         }
@@ -89,30 +89,30 @@ fn march<F: Real, K: Kernel>(
 }
 
 #[inline(always)]
-pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Cast<F> {
+pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -> Cast<F> {
     let mut front = Accumulated::NOTHING;
     let mut cast = Cast::NOTHING;
-    let (mut t, t_end) = ray.clip_to_volume(scene.view.dims);
+    let (mut t, t_end) = ray.clip_to_volume(casting.scene.dims);
     // Not `t >= t_end`: a span that is not a number is empty, too.
     if !matches!(t.partial_cmp(&t_end), Some(std::cmp::Ordering::Less)) {
         return cast;
     }
-    let chain = Chain::start::<K>(scene, ray);
-    let mut at = scene.leaf_at(ray.point(t), ray);
+    let chain = Chain::start::<K>(casting, ray);
+    let mut at = casting.leaf_at(ray.point(t), ray);
     while at != NO_NODE {
-        let node = &scene.nodes[at as usize];
-        let exit = scene.exit_of(node, ray);
+        let node = &casting.volume.nodes[at as usize];
+        let exit = casting.exit_of(node, ray);
         let t_out = exit.t.most(t).least(t_end);
         if node.slot != NO_SLOT && t_out > t {
-            scene.feedback[at as usize].note(node.deficit);
-            let brick = Brick::new::<K>(scene, node, ray);
-            let voxel = Voxel::new(scene, node, ray);
+            casting.observer.note(at, node.deficit);
+            let brick = Brick::new::<K>(casting, node, ray);
+            let voxel = Voxel::new(casting, node, ray);
             let mut is_done = false;
             // Cut where the law of an enhancer is not smooth.
             while t < t_out && !is_done {
                 let until = chain.next_break::<K>(t).least(t_out);
                 let way = Straight { brick: &brick, ray };
-                let marched = march::<F, K>(scene, &chain, front, way, voxel, (t, until));
+                let marched = march::<F, K>(casting, &chain, front, way, voxel, (t, until));
                 (front, is_done) = (marched.front, marched.is_done);
                 cast.samples += marched.samples;
                 t = until;
@@ -126,7 +126,7 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(scene: &Scene<F>, ray: &Ray<F>) -> Ca
             break;
         }
         t = t_out;
-        at = scene.leaf_beyond(node, exit.axis, ray.point(t), ray);
+        at = casting.leaf_beyond(node, exit.axis, ray.point(t), ray);
     }
-    cast.with_colours(chain.end::<K>(scene, front))
+    cast.with_colours(chain.end::<K>(casting, front))
 }

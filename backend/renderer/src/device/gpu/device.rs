@@ -7,17 +7,16 @@ use super::kernels::Kernels;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
+use super::view::ViewBuffers;
+use crate::device::job::ViewJob;
 use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
-use layout::{FeedbackEntry, Link, NodeRecord, Params};
+use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
 use shaders::tables::Tables;
-use shaders::twin::view::Dispatch;
 use std::sync::Arc;
 
-/// Set in the count of samples where a ray met a node that is too coarse; as in the kernel.
-const MISSING: u32 = 0x8000_0000;
 /// Workgroups along x of a dispatch: a tile each.
 const GROUPS_ACROSS: u32 = 32768;
 
@@ -30,7 +29,7 @@ pub struct GpuDevice {
     filter: Filter,
     filter_error: Option<f32>,
     kernels: Kernels,
-    params: wgpu::Buffer,
+    scene: wgpu::Buffer,
     links: wgpu::Buffer,
     nodes: Storage,
     cells: Storage,
@@ -40,15 +39,11 @@ pub struct GpuDevice {
     index: Storage,
     materials: Storage,
     occupied: Storage,
-    tiles: Storage,
-    pixels: Storage,
-    counts: Storage,
+    views: Vec<ViewBuffers>,
     feedback: Storage,
     frame_feedback: FrameFeedback,
     feedback_back: Readback,
-    counts_back: Readback,
     pixels_back: Readback,
-    raster: [u32; 2],
     /// Places of the index.
     places: usize,
 }
@@ -72,7 +67,7 @@ impl GpuDevice {
             if context.has_filter { Some(filter_error(&context, &atlas, &sampler)?) } else { None };
         let filter = choose_filter(filter, filter_error)?;
         let storage = |label| Storage::new(&context, label);
-        let params = uniform::<Params>(&context, "params");
+        let scene = uniform::<SceneBlock>(&context, "scene");
         let links = uniform::<[Link; MOST_ENHANCERS]>(&context, "chain of enhancers");
         drop(turn);
         Ok(Self {
@@ -81,7 +76,7 @@ impl GpuDevice {
             filter,
             filter_error,
             kernels: Kernels::default(),
-            params,
+            scene,
             links,
             nodes: storage("nodes"),
             cells: storage("visible cells"),
@@ -91,15 +86,11 @@ impl GpuDevice {
             importance_most: storage("largest importances"),
             index: storage("refraction table"),
             materials: storage("material table"),
-            tiles: storage("tiles"),
-            pixels: storage("pixels"),
-            counts: storage("sample counts"),
+            views: Vec::new(),
             feedback: storage("feedback"),
             frame_feedback: FrameFeedback::new(&context),
             feedback_back: Readback::new(),
-            counts_back: Readback::new(),
             pixels_back: Readback::new(),
-            raster: [0, 0],
             places: 0,
             context,
         })
@@ -163,26 +154,42 @@ impl GpuDevice {
         self.prepare(job);
         let key = KernelKey { filter: self.filter, needs: job.needs };
         let pipeline = self.kernels.get(&context, key).clone();
-        let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let feedback = match job.gather {
-            Gather::Own => {
-                encoder.clear_buffer(&self.feedback.buffer, 0, None);
-                &self.feedback
+        let mut encoder = new_encoder(&context);
+        match job.gather {
+            Gather::Own => encoder.clear_buffer(&self.feedback.buffer, 0, None),
+            Gather::Frame => self.frame_feedback.clear_stale(&mut encoder),
+        }
+        for (_, view) in job.view_jobs() {
+            self.views[view.picture].prepare(&context, &view);
+            self.dispatch(&mut encoder, &pipeline, key, job, &view);
+            if job.has_counts() {
+                self.views[view.picture].copy_counts(&context, &mut encoder);
             }
-            Gather::Frame => {
-                self.frame_feedback.clear_stale(&mut encoder);
-                self.frame_feedback.table()
-            }
-        };
-        let bind_group = self.bind(&pipeline, key, feedback);
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &bind_group, &[]);
-            let tiles = job.tiles.len() as u32;
-            pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
+            // A submission each: drivers give up on one that takes long.
+            context.submit(std::mem::replace(&mut encoder, new_encoder(&context)));
         }
         self.bring_back(job, encoder)
+    }
+
+    /// Notes the cast of one view.
+    fn dispatch(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::ComputePipeline,
+        key: KernelKey,
+        job: &CastJob,
+        view: &ViewJob,
+    ) {
+        let feedback = match job.gather {
+            Gather::Own => &self.feedback,
+            Gather::Frame => self.frame_feedback.table(),
+        };
+        let bind_group = self.bind(pipeline, key, &self.views[view.picture], feedback);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &bind_group, &[]);
+        let tiles = view.tiles.len() as u32;
+        pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
     }
 
     /// Runs a cast. What it is not asked for is not waited for.
@@ -197,17 +204,18 @@ impl GpuDevice {
             let bytes = self.feedback.used_bytes;
             self.feedback_back.copy(context, &mut encoder, &self.feedback.buffer, bytes);
         }
-        let pixels = self.raster[0] as usize * self.raster[1] as usize;
-        if job.tells_counts() {
-            self.counts_back.copy(context, &mut encoder, &self.counts.buffer, 4 * pixels as u64);
-        }
         context.submit(encoder);
-        if has_own || job.tells_counts() {
+        if has_own || job.has_counts() {
             context.wait()?;
         }
-        let feedback = if has_own { self.feedback_back.read(context, self.places)? } else { Vec::new() };
-        let counts = if job.tells_counts() { self.counts_back.read(context, pixels)? } else { Vec::new() };
-        Ok(sum_up(job, &counts, feedback))
+        let mut outcome = CastOutcome::nothing(job);
+        for (index, view) in job.view_jobs() {
+            self.views[view.picture].add_up(context, job, (index, &view), &mut outcome)?;
+        }
+        if has_own {
+            outcome.feedback = self.feedback_back.read(context, self.places)?;
+        }
+        Ok(outcome)
     }
 
     pub(in crate::device) fn begin_feedback(&mut self) {
@@ -235,42 +243,41 @@ impl GpuDevice {
         self.frame_feedback.take(&context)
     }
 
-    pub(in crate::device) fn picture(&mut self) -> Result<Vec<f32>, DeviceError> {
+    pub(in crate::device) fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
-        let numbers = 4 * self.raster[0] as usize * self.raster[1] as usize;
-        let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.pixels_back.copy(&context, &mut encoder, &self.pixels.buffer, 4 * numbers as u64);
+        let view = &self.views[index];
+        let numbers = 4 * view.pixel_count();
+        let mut encoder = new_encoder(&context);
+        self.pixels_back.copy(&context, &mut encoder, &view.pixels.buffer, 4 * numbers as u64);
         context.run(encoder)?;
         self.pixels_back.read(&context, numbers)
     }
 
-    /// Uploads what is particular to one cast.
+    /// Uploads what all views of a cast share, and makes room for their pictures.
     fn prepare(&mut self, job: &CastJob) {
-        let dispatch = Dispatch {
-            atlas_slots: self.atlas.slots,
-            stride: job.grid.stride,
-            tiles_across: job.grid.across,
-            tiles: job.tiles.len() as u32,
-        };
-        self.raster = job.view.raster;
-        let pixels = u64::from(self.raster[0]) * u64::from(self.raster[1]);
-        self.pixels.reserve(&self.context, 16 * pixels);
-        self.counts.reserve(&self.context, 4 * pixels);
-        self.tiles.write(&self.context, job.tiles);
-        self.context.queue.write_buffer(&self.params, 0, bytemuck::bytes_of(&job.view.params(&dispatch)));
+        let Self { context, views, .. } = self;
+        let pictures = views.len().max(job.first_picture + job.views.len());
+        views.resize_with(pictures, || ViewBuffers::new(context));
+        context.queue.write_buffer(&self.scene, 0, bytemuck::bytes_of(&job.scene.block(self.atlas.slots)));
         if !job.needs.chain.is_empty() {
-            self.context.queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&job.view.links()));
+            context.queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&job.scene.links()));
         }
     }
 
-    fn bind(&self, pipeline: &wgpu::ComputePipeline, key: KernelKey, feedback: &Storage) -> wgpu::BindGroup {
+    fn bind(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        key: KernelKey,
+        view: &ViewBuffers,
+        feedback: &Storage,
+    ) -> wgpu::BindGroup {
         let buffers = [
             (1, &self.nodes),
             (2, &self.optics),
-            (3, &self.tiles),
-            (4, &self.pixels),
-            (5, &self.counts),
+            (3, &view.tiles),
+            (4, &view.pixels),
+            (5, &view.counts),
             (6, feedback),
             (10, &self.occupied),
             (11, &self.cells),
@@ -279,7 +286,9 @@ impl GpuDevice {
             .into_iter()
             .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
             .collect();
-        entries.push(wgpu::BindGroupEntry { binding: 0, resource: self.params.as_entire_binding() });
+        for (binding, block) in [(0, &self.scene), (16, &view.block)] {
+            entries.push(wgpu::BindGroupEntry { binding, resource: block.as_entire_binding() });
+        }
         let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
         entries.push(wgpu::BindGroupEntry { binding: 7, resource: atlas });
         if key.filter == Filter::Hardware {
@@ -306,6 +315,10 @@ impl GpuDevice {
     }
 }
 
+fn new_encoder(context: &Context) -> wgpu::CommandEncoder {
+    context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+}
+
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {
     match (choice, error) {
         (FilterChoice::Exact, _) | (FilterChoice::Auto, None) => Ok(Filter::Exact),
@@ -317,25 +330,4 @@ fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, Dev
             "this adapter's texture unit does not interpolate 16-bit samples; take --filter exact".into(),
         )),
     }
-}
-
-/// Adds up the counts of the tiles cast; without counts there are rays alone.
-fn sum_up(job: &CastJob, counts: &[u32], feedback: Vec<FeedbackEntry>) -> CastOutcome {
-    let [width, height] = job.view.raster;
-    let mut outcome = CastOutcome { feedback, rays: job.rays(), ..Default::default() };
-    if counts.is_empty() {
-        return outcome;
-    }
-    for &tile in job.tiles {
-        let mut is_missing = false;
-        for (x, y) in job.grid.pixels(tile, width, height) {
-            let count = counts[y as usize * width as usize + x as usize];
-            outcome.samples += u64::from(count & !MISSING);
-            is_missing |= count & MISSING != 0;
-        }
-        if is_missing {
-            outcome.missing_tiles.push(tile);
-        }
-    }
-    outcome
 }

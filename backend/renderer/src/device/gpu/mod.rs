@@ -10,6 +10,7 @@ mod pipeline_cache;
 mod precision;
 mod readback;
 mod storage;
+mod view;
 
 pub use context::adapter_name;
 pub(super) use context::{brick_bytes, software_adapter};

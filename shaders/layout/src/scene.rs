@@ -1,20 +1,13 @@
-//! What a kernel must know of the view and the scene.
+//! What a kernel must know of the scene: the same for all projectors.
 
 use bytemuck::{Pod, Zeroable};
 
-/// Rays are cast in square tiles of this many pixels along an edge: one workgroup each.
-pub const TILE_EDGE: u32 = 8;
-
-/// The uniform block of one cast. Every member fills 16 bytes.
+/// The uniform block of a scene. Every member fills 16 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Params {
-    /// Columns of the pixel-to-screen homography; the fourth number of each is unused.
-    pub screen_from_pixel: [[f32; 4]; 3],
+pub struct SceneBlock {
     /// Columns of the display-to-volume affine map, translation last; voxels per metre.
     pub volume_from_display: [[f32; 4]; 4],
-    /// A, B of the ray law Ox = A + B Sx, then Oy and Oz; metres.
-    pub beam: [f32; 4],
     /// Size of the volume in finest voxels, then the edge of the finest voxel in metres.
     pub volume: [f32; 4],
     /// Toward the light in the display frame, then gradient_half².
@@ -30,9 +23,7 @@ pub struct Params {
     pub texel: [f32; 4],
     /// Slots of the atlas along x, y, z, then the depth of the finest level.
     pub atlas: [u32; 4],
-    /// Width and height of the raster in pixels, then pixels between cast rays, then tiles along x.
-    pub raster: [u32; 4],
-    /// Table entries of the optics, of the importance, tiles to cast, unused.
+    /// Table entries of the optics, of the importance, unused, unused.
     pub tables: [u32; 4],
     /// c0 and c1 of the wanted level above the finest, log2(c0 + c1 |z|); strength of the shading of detail; diagonal of
     /// the volume in metres.

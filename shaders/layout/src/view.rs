@@ -1,0 +1,22 @@
+//! What a kernel must know of one projector's view.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Rays are cast in square tiles of this many pixels along an edge: one workgroup each.
+pub const TILE_EDGE: u32 = 8;
+/// Set in a pixel's count of samples where its ray met a node that is too coarse.
+pub const MISSING: u32 = 0x8000_0000;
+
+/// The uniform block of one view. Every member fills 16 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ViewBlock {
+    /// Columns of the pixel-to-screen homography; the fourth number of each is unused.
+    pub screen_from_pixel: [[f32; 4]; 3],
+    /// A, B of the ray law Ox = A + B Sx, then Oy and Oz; metres.
+    pub beam: [f32; 4],
+    /// Width and height of the raster in pixels, then pixels between cast rays, then tiles along x.
+    pub raster: [u32; 4],
+    /// Tiles to cast, unused, unused, unused.
+    pub extent: [u32; 4],
+}

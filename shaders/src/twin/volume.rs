@@ -1,0 +1,33 @@
+//! The part of a volume that is resident: the cut's nodes, and the bricks that they show.
+
+use layout::{CELL_WORDS, NodeRecord};
+
+/// Codes of one brick: 32³.
+pub const BRICK_VOXELS: usize = 32 * 32 * 32;
+
+/// What rays sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Volume<'a> {
+    /// The spatial index, root first.
+    pub nodes: &'a [NodeRecord],
+    /// Which 4³ cells of each slot's brick show anything: 16 words of bits a slot, see [`layout::CELL_WORDS`].
+    pub cells: &'a [u32],
+    /// The brick cache: slot i holds the codes from i · 32³.
+    pub atlas: &'a [u16],
+}
+
+impl<'a> Volume<'a> {
+    /// The visible cells of a slot.
+    #[inline(always)]
+    pub fn cells(&self, slot: u32) -> &'a [u32; CELL_WORDS] {
+        let start = slot as usize * CELL_WORDS;
+        self.cells[start..start + CELL_WORDS].first_chunk().expect("a slot has 16 words of cells")
+    }
+
+    /// The codes of a slot.
+    #[inline(always)]
+    pub fn brick(&self, slot: u32) -> &'a [u16; BRICK_VOXELS] {
+        let start = slot as usize * BRICK_VOXELS;
+        self.atlas[start..start + BRICK_VOXELS].first_chunk().expect("a slot holds 32³ codes")
+    }
+}
