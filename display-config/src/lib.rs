@@ -21,5 +21,5 @@ pub use eye::{EyeModel, eye_weights};
 pub use homography::Homography;
 pub use preset::presets;
 pub use projector::Projector;
-pub use raster::{COVER_TOLERANCE_PX, Raster, RasterInverse};
+pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, Raster, RasterInverse, Warp};
 pub use ray::{BeamLaw, Ray};

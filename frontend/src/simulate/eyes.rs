@@ -2,10 +2,10 @@
 
 use crate::FrontendError;
 use crate::session::{eye_optics, pixel_from_screen};
-use display_config::Display;
+use display_config::{CanonicalRaster, Display};
 use glam::DVec3;
 use protocol::ProjectorImage;
-use renderer::output::{EyePlan, EyeView, OutputError, Picture, ScreenRaster};
+use renderer::output::{EyePlan, EyeView, OutputError, Picture};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// An eye before the display.
@@ -25,7 +25,7 @@ impl Eye {
     /// A place that is not before the screen.
     pub fn before(display: &Display, position_m: DVec3) -> Result<Self, FrontendError> {
         let optics = eye_optics(display, position_m)?;
-        let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), optics.weights);
+        let plan = EyePlan::new(CanonicalRaster::of(display), display.projectors.len(), optics.weights);
         Ok(Self { position_m, plan, warning: optics.warning })
     }
 }

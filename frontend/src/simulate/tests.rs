@@ -5,10 +5,10 @@ use crate::report::{self, Report};
 use crate::scene::{Scene, VolumeFacts};
 use crate::session;
 use bricks::volume::VolumeFrame;
-use display_config::{Homography, Projector, Raster};
+use display_config::{CanonicalRaster, Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
 use protocol::{DeviceInfo, FrameReport, Pace, ProjectorImage, Stages, Upkeep};
-use renderer::output::{EyePlan, ScreenRaster};
+use renderer::output::EyePlan;
 use std::path::Path;
 
 const WIDTH: u32 = 40;
@@ -125,7 +125,7 @@ impl FrameSource for Gradients {
 fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 + Copy) -> (Scene, Job) {
     let (scene, display) = (Scene::load("procedural:shells@64").unwrap(), display(projectors));
     let all = move |_| (0..projectors as usize).map(move |p| (p, weights(p)));
-    let plan = EyePlan::new(ScreenRaster::of(&display), projectors as usize, all);
+    let plan = EyePlan::new(CanonicalRaster::of(&display), projectors as usize, all);
     let warning = Some("the eye at x = 2 m is outside the viewing zone".to_owned());
     let frames = (0..frames).map(|i| scene.frame(i, &display, &facts()).unwrap()).collect();
     let eyes = vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }];
