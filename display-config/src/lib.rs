@@ -13,6 +13,7 @@ mod preset;
 mod projector;
 mod raster;
 mod ray;
+mod resolution;
 mod zone;
 
 pub use display::Display;
@@ -23,3 +24,4 @@ pub use preset::presets;
 pub use projector::Projector;
 pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, Raster, RasterInverse, Warp};
 pub use ray::{BeamLaw, Ray};
+pub use resolution::{Resolution, longest_voxel_edge_m};

@@ -70,18 +70,18 @@ const CELL_WORDS: u32 = 16u;
 const MISSING: u32 = 0x80000000u;
 
 @group(0) @binding(0) var<uniform> scene: SceneBlock;
-@group(0) @binding(16) var<uniform> projector: ViewBlock;
-@group(0) @binding(1) var<storage, read> nodes: array<NodeRecord>;
-@group(0) @binding(2) var<storage, read> optics_table: array<OpticsEntry>;
-@group(0) @binding(3) var<storage, read> tiles: array<u32>;
-@group(0) @binding(4) var<storage, read_write> pixels: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
-@group(0) @binding(6) var<storage, read_write> feedback: array<FeedbackEntry>;
-@group(0) @binding(7) var atlas: texture_3d<f32>;
+@group(0) @binding(1) var<uniform> projector: ViewBlock;
+@group(0) @binding(3) var<storage, read> nodes: array<NodeRecord>;
+@group(0) @binding(7) var<storage, read> optics_table: array<OpticsEntry>;
+@group(0) @binding(13) var<storage, read> tiles: array<u32>;
+@group(0) @binding(14) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(15) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(16) var<storage, read_write> feedback: array<FeedbackEntry>;
+@group(0) @binding(5) var atlas: texture_3d<f32>;
 // How many table cells below each node change a picture.
-@group(0) @binding(10) var<storage, read> occupied: array<u32>;
+@group(0) @binding(8) var<storage, read> occupied: array<u32>;
 // Which 4³ cells of each slot's brick show anything: 16 words a slot, cell (x, y, z) is bit (z 8 + y) 8 + x.
-@group(0) @binding(11) var<storage, read> cells: array<u32>;
+@group(0) @binding(4) var<storage, read> cells: array<u32>;
 
 // The ray of a projector pixel (LFD eq. 1), seen from the volume.
 
@@ -359,7 +359,7 @@ fn scalars_in_reach(s0: f32, s1: f32, s2: f32) -> vec2<f32> {
 
 // The stored sample at a point of a brick, interpolated by the texture unit.
 
-@group(0) @binding(8) var trilinear: sampler;
+@group(0) @binding(6) var trilinear: sampler;
 
 // Points are taken to the nearest 1/4096 texel: with slots at whole texels and an atlas of 2^n texels along each axis, the
 // texture coordinate is then exact, so that the same point of a brick gives the same bits from whatever slot it lies in.

@@ -137,7 +137,8 @@ pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn 
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
-        resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
+        voxel_m: frame.voxel_m(),
+        resolution: display.resolution(),
     };
     View {
         scene: SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality),

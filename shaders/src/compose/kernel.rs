@@ -94,8 +94,15 @@ impl KernelKey {
             Way::Straight => module!("way/straight"),
             Way::Refracted => module!("way/refracted"),
         };
-        let mut modules =
-            vec![module!("layout"), module!("ray"), module!("traverse"), module!("tables"), sample];
+        let constants = super::constants::wgsl();
+        let mut modules = vec![
+            constants.as_str(),
+            module!("layout"),
+            module!("ray"),
+            module!("traverse"),
+            module!("tables"),
+            sample,
+        ];
         modules.extend(needs.levels_wgsl());
         modules.extend(needs.gradient_wgsl());
         modules.extend(needs.composite_wgsl());

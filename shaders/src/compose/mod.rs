@@ -14,6 +14,7 @@
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 
 mod chain;
+mod constants;
 mod debug_view;
 mod kernel;
 mod needs;

@@ -1,6 +1,6 @@
 // A bent ray's way through the volume: straight pairs of steps, with a turn in the middle of each.
 
-@group(0) @binding(13) var<storage, read> index_table: array<f32>;
+@group(0) @binding(BINDING_INDEX) var<storage, read> index_table: array<f32>;
 
 // Pairs over which the index changes by more than this are halved, as often as MOST_HALVINGS tells.
 const LARGE_CHANGE: f32 = 0.004;

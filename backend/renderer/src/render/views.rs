@@ -21,7 +21,8 @@ pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &Octre
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
-        resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
+        voxel_m: frame.voxel_m(),
+        resolution: display.resolution(),
     };
     SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality).rounded()
 }
