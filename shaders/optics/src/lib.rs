@@ -13,7 +13,7 @@ mod trapezoid;
 pub use bounds::OutOfBounds;
 pub use curve::{Curve, CurveError, CurveValue};
 pub use debug_view::DebugView;
-pub use enhancer::{BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp};
+pub use enhancer::*;
 pub use light::{Detail, Light};
 pub use material::Material;
 pub use model::{ExtinctionUnit, Mimda, MimdaForm, Optics, OpticsError};

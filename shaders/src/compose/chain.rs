@@ -1,70 +1,21 @@
 //! The chain of enhancers of a kernel, with the glue between them.
 
-use optics::{Enhancer, MOST_ENHANCERS};
+use optics::{Enhancer, EnhancerKind, MOST_ENHANCERS};
 use std::fmt::Write;
 
-/// An enhancer's module. A new one takes a variant here and in [`Enhancer`], a WGSL file, and its twin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum EnhancerKind {
-    /// Clip plane with view-dependent context.
-    ClipPlane,
-    /// Context-preserving probe.
-    Probe,
-    /// View-dependent band picker.
-    BandPicker,
-    /// Layer opacity by view direction.
-    LayerOpacity,
+/// The WGSL module of a kind, found by its stem.
+macro_rules! modules {
+    ($($name:ident $stem:ident,)+) => {
+        fn module(kind: EnhancerKind) -> &'static str {
+            match kind {
+                $(EnhancerKind::$name => {
+                    include_str!(concat!("../../wgsl/enhance/", stringify!($stem), ".wgsl"))
+                })+
+            }
+        }
+    };
 }
-
-impl EnhancerKind {
-    /// All there are.
-    pub const ALL: [Self; 4] = [Self::ClipPlane, Self::Probe, Self::BandPicker, Self::LayerOpacity];
-
-    /// Of an enhancer.
-    pub fn of(enhancer: &Enhancer) -> Self {
-        match enhancer {
-            Enhancer::ClipPlane(_) => Self::ClipPlane,
-            Enhancer::Probe(_) => Self::Probe,
-            Enhancer::BandPicker(_) => Self::BandPicker,
-            Enhancer::LayerOpacity(_) => Self::LayerOpacity,
-        }
-    }
-
-    /// What the names of its functions begin with.
-    fn prefix(self) -> &'static str {
-        match self {
-            Self::ClipPlane => "clip_plane",
-            Self::Probe => "probe",
-            Self::BandPicker => "band_picker",
-            Self::LayerOpacity => "layer_opacity",
-        }
-    }
-
-    fn wgsl(self) -> &'static str {
-        match self {
-            Self::ClipPlane => include_str!("../../wgsl/enhance/clip_plane.wgsl"),
-            Self::Probe => include_str!("../../wgsl/enhance/probe.wgsl"),
-            Self::BandPicker => include_str!("../../wgsl/enhance/band_picker.wgsl"),
-            Self::LayerOpacity => include_str!("../../wgsl/enhance/layer_opacity.wgsl"),
-        }
-    }
-
-    /// Whether it looks at gradients.
-    fn needs_gradient(self) -> bool {
-        match self {
-            Self::Probe => true,
-            Self::ClipPlane | Self::BandPicker | Self::LayerOpacity => false,
-        }
-    }
-
-    /// Whether it looks at bands of scalars.
-    fn needs_band(self) -> bool {
-        match self {
-            Self::BandPicker | Self::LayerOpacity => true,
-            Self::ClipPlane | Self::Probe => false,
-        }
-    }
-}
+optics::each_enhancer!(modules);
 
 /// The enhancers of a kernel, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -76,7 +27,7 @@ impl Chain {
 
     /// Of a scene; enhancers that do nothing are left out.
     pub fn of(enhancers: &[Enhancer]) -> Self {
-        let mut kinds = enhancers.iter().filter(|e| !e.is_neutral()).map(EnhancerKind::of);
+        let mut kinds = enhancers.iter().filter(|e| !e.is_neutral()).map(Enhancer::kind);
         Self(std::array::from_fn(|_| kinds.next()))
     }
 
@@ -114,15 +65,15 @@ impl Chain {
         if self.kinds().any(EnhancerKind::needs_band) {
             text += include_str!("../../wgsl/enhance/band.wgsl");
         }
-        for kind in EnhancerKind::ALL.into_iter().filter(|&kind| self.kinds().any(|k| k == kind)) {
-            text += kind.wgsl();
+        for &kind in EnhancerKind::ALL.iter().filter(|&&kind| self.kinds().any(|k| k == kind)) {
+            text += module(kind);
         }
         text + &self.glue()
     }
 
     /// The chain itself: each hook calls the links in order.
     fn glue(&self) -> String {
-        let links: Vec<&str> = self.kinds().map(EnhancerKind::prefix).collect();
+        let links: Vec<&str> = self.kinds().map(EnhancerKind::stem).collect();
         let each = |line: &dyn Fn(usize, &str) -> String| {
             links
                 .iter()
@@ -130,7 +81,7 @@ impl Chain {
                 .fold(String::new(), |text, (i, name)| text + "    " + &line(i, name) + "\n")
         };
         let spread = |(i, kind): (usize, EnhancerKind)| {
-            let name = kind.prefix();
+            let name = kind.stem();
             kind.needs_gradient().then(|| format!("{name}_spread(links[{i}], chain.link{i}.breaks, t)"))
         };
         let spreads: Vec<String> =
@@ -169,11 +120,6 @@ fn enhance(plain: Sample, ray: Ray, t: f32, s0: f32, s1: f32, gradients: Gradien
     var sample = plain;
 {at}    return sample;
 }}
-
-fn end_chain(plain: Accumulated) -> Accumulated {{
-    var front = plain;
-{end}    return front;
-}}
 ",
             members = each(&|i, _| format!("link{i}: LinkState,")),
             needs_gradient = self.needs_gradient(),
@@ -187,7 +133,6 @@ fn end_chain(plain: Accumulated) -> Accumulated {{
             at = each(&|i, name| format!(
                 "sample = {name}_at(links[{i}], chain.link{i}.weights, sample, place);"
             )),
-            end = each(&|i, name| format!("front = {name}_end(links[{i}], chain.link{i}.weights, front);")),
         )
         .expect("writing to a String does not fail");
         text

@@ -124,7 +124,8 @@ impl KernelKey {
     /// Kernels that together have every module, in every pair of slots that look at each other, and every chain of one
     /// and some of more: what a validator should see.
     pub fn samples() -> Vec<Self> {
-        use super::{Chain, EnhancerKind};
+        use super::Chain;
+        use optics::EnhancerKind;
         let mut chains: Vec<Chain> = EnhancerKind::ALL.iter().map(|&kind| Chain::of_kinds(&[kind])).collect();
         chains.push(Chain::EMPTY);
         chains.push(Chain::of_kinds(&[

@@ -19,6 +19,6 @@ mod debug_view;
 mod kernel;
 mod needs;
 
-pub use chain::{Chain, EnhancerKind};
+pub use chain::Chain;
 pub use kernel::{Filter, KernelKey};
 pub use needs::{Compositing, Levels, Needs, Shading, Way};

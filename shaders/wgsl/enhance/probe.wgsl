@@ -11,7 +11,7 @@ fn probe_start(link: Link, view: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(smoothstep(link.c.x, link.c.y, max(0.0, dot(link.b.xyz, view))), 0.0, 0.0, 0.0);
 }
 
-// Where the ray enters and leaves the sphere, and where it is nearest to the plane through the centre.
+// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.
 fn probe_breaks(link: Link, weights: vec4<f32>, ray: Ray) -> vec3<f32> {
     let from_centre = ray.origin_in_display - link.a.xyz;
     let nearest = -dot(from_centre, ray.direction_in_display);
@@ -54,8 +54,4 @@ fn probe_edge(link: Link, aligned: f32, sample: Sample, place: Place) -> f32 {
     let flat_share = 1.0 - min(abs(dot(place.gradient, place.view)) / size, 1.0);
     let strength = smoothstep(link.d.x, link.d.y, mean_importance(sample) * size / link.c.z);
     return aligned * strength * (flat_share * flat_share) * (flat_share * flat_share);
-}
-
-fn probe_end(link: Link, weights: vec4<f32>, front: Accumulated) -> Accumulated {
-    return front;
 }

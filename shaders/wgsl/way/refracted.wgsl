@@ -240,7 +240,6 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
             at = leaf_beyond(node, exit.axis, point, bent.ray);
         }
     }
-    front = end_chain(front);
     return vec4<f32>(front.rgb, front.alpha);
 }
 

@@ -1,85 +1,12 @@
 //! The chain of enhancers along one ray: each hook calls the links in order.
 
-use super::{BandPicker, ClipPlane, Constants, LayerOpacity, Probe};
-use crate::compose::EnhancerKind;
-use crate::twin::composite::{Accumulated, Composite, Sample};
+use super::hooks::{self, LinkState, Place};
+use crate::twin::composite::{Composite, Sample};
 use crate::twin::gradient::Gradients;
 use crate::twin::kernel::Kernel;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Casting, Real, vector::Vec3};
 use optics::MOST_ENHANCERS;
-
-/// An enhancer's state along one ray.
-#[derive(Clone, Copy, Debug)]
-pub struct LinkState<F> {
-    /// What it has made of the ray's direction.
-    pub weights: [F; 4],
-    /// Where on the ray its law is not smooth; far where there is no such place.
-    pub breaks: [F; 3],
-}
-
-/// Where a segment lies that enhancers look at.
-#[derive(Clone, Copy, Debug)]
-pub struct Place<F> {
-    /// Middle of the segment, metres, display frame.
-    pub point: Vec3<F>,
-    /// Of the scalar there, per finest voxel, display frame.
-    pub gradient: Vec3<F>,
-    /// The scalars at the segment's ends.
-    pub scalars: (F, F),
-    /// The direction in which the ray left the eye.
-    pub view: Vec3<F>,
-    /// Whether the scene accumulates importance.
-    pub has_importance: bool,
-}
-
-/// An enhancer's hooks: at the ray's start, at its samples and at its end.
-pub(super) trait Hooks {
-    /// What it makes of the ray's direction, for the other hooks.
-    #[inline(always)]
-    fn start<F: Real>(_: &Constants<F>, _view: Vec3<F>) -> [F; 4] {
-        [F::ZERO; 4]
-    }
-
-    /// Where its law is not smooth on a straight way; far where there is no such place.
-    #[inline(always)]
-    fn breaks<F: Real>(_: &Constants<F>, _view: Vec3<F>, _: &Ray<F>) -> [F; 3] {
-        [far(); 3]
-    }
-
-    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 where it does not look
-    /// at gradients.
-    #[inline(always)]
-    fn spread<F: Real>(_: &Constants<F>, _: &LinkState<F>, _t: F) -> F {
-        F::ZERO
-    }
-
-    /// What it makes of a sample.
-    fn at<F: Real>(
-        link: &Constants<F>,
-        state: &LinkState<F>,
-        sample: Sample<F>,
-        place: &Place<F>,
-    ) -> Sample<F>;
-
-    /// What it makes of all that a ray has gathered.
-    #[inline(always)]
-    fn end<F: Real>(_: &Constants<F>, _: &LinkState<F>, front: Accumulated<F>) -> Accumulated<F> {
-        front
-    }
-}
-
-/// A call of a hook of the enhancer of a kind.
-macro_rules! hook {
-    ($kind:expr, $name:ident($($argument:expr),*)) => {
-        match $kind {
-            EnhancerKind::ClipPlane => ClipPlane::$name($($argument),*),
-            EnhancerKind::Probe => Probe::$name($($argument),*),
-            EnhancerKind::BandPicker => BandPicker::$name($($argument),*),
-            EnhancerKind::LayerOpacity => LayerOpacity::$name($($argument),*),
-        }
-    };
-}
 
 /// The chain of one ray.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +30,7 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     fn start_links(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            self.links[i].weights = hook!(kind, start(&casting.scene.links[i], self.view));
+            self.links[i].weights = hooks::start(kind, &casting.scene.links[i], self.view);
         }
         self.follow(casting, ray);
     }
@@ -112,7 +39,7 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     pub fn follow(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            self.links[i].breaks = hook!(kind, breaks(&casting.scene.links[i], self.view, ray));
+            self.links[i].breaks = hooks::breaks(kind, &casting.scene.links[i], self.view, ray);
         }
     }
 
@@ -134,7 +61,7 @@ impl<F: Real> Chain<F> {
         let mut sum = F::ZERO;
         if K::IS_FULL {
             for (i, kind) in casting.needs.chain.kinds().enumerate() {
-                sum = sum + hook!(kind, spread(&casting.scene.links[i], &self.links[i], t));
+                sum = sum + hooks::spread(kind, &casting.scene.links[i], &self.links[i], t);
             }
         }
         sum
@@ -163,31 +90,8 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     fn enhance_at(&self, casting: &Casting<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            sample = hook!(kind, at(&casting.scene.links[i], &self.links[i], sample, place));
+            sample = hooks::at(kind, &casting.scene.links[i], &self.links[i], sample, place);
         }
         sample
     }
-
-    /// What the links make of a ray at its end.
-    #[inline(always)]
-    pub fn end<K: Kernel>(&self, casting: &Casting<F>, mut front: Accumulated<F>) -> Accumulated<F> {
-        if K::IS_FULL {
-            for (i, kind) in casting.needs.chain.kinds().enumerate() {
-                front = hook!(kind, end(&casting.scene.links[i], &self.links[i], front));
-            }
-        }
-        front
-    }
-}
-
-/// k and τ of a sample, scaled.
-#[inline(always)]
-pub(super) fn scaled<F: Real>(sample: Sample<F>, factor: F) -> Sample<F> {
-    Sample { k: sample.k.map(|k| k * factor), ..sample }
-}
-
-/// x, y, z of a vector of constants.
-#[inline(always)]
-pub(super) fn xyz<F: Real>(vector: &[F; 4]) -> Vec3<F> {
-    Vec3([vector[0], vector[1], vector[2]])
 }
