@@ -12,7 +12,7 @@ mod trapezoid;
 
 pub use bounds::OutOfBounds;
 pub use curve::{Curve, CurveError, CurveValue};
-pub use debug_view::DebugView;
+pub use debug_view::{DebugView, heat_ramps};
 pub use enhancer::*;
 pub use light::{Detail, Light};
 pub use material::Material;

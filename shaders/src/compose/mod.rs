@@ -9,7 +9,7 @@
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
-//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`] |
+//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`](crate::needs::Chain) |
 //! | way | `way/straight`, `way/refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 
@@ -17,8 +17,6 @@ mod chain;
 mod constants;
 mod debug_view;
 mod kernel;
-mod needs;
 
-pub use chain::Chain;
+pub use crate::needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 pub use kernel::{Filter, KernelKey};
-pub use needs::{Compositing, Levels, Needs, Shading, Way};

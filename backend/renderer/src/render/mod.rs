@@ -105,14 +105,6 @@ impl Renderer {
         Ok((renderer, info))
     }
 
-    /// Runs this WGSL (entry point `cast_tile`, bindings as composed) in place of the composed kernels, whatever a frame
-    /// needs: for benchmarks that measure what composition costs. False on a device that runs no WGSL.
-    #[cfg(feature = "gpu")]
-    #[doc(hidden)]
-    pub fn substitute_kernel(&mut self, wgsl: &str) -> bool {
-        self.device.substitute_kernel(wgsl)
-    }
-
     /// Draws one frame, picture by picture: until nothing is missing, or with what there is, as its pace says.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 //! by this twin, too: it then looks at no ancestor, or at the parent alone.
 
 use super::{Level, weights::Weights};
-use crate::compose::Levels;
+use crate::needs::Levels;
 use crate::twin::kernel::Kernel;
 use crate::twin::traverse::voxel_edge;
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};

@@ -114,12 +114,6 @@ impl GpuDevice {
         }
     }
 
-    /// Runs this kernel in place of those that are composed; see [`crate::Renderer::substitute_kernel`].
-    pub(in crate::device) fn substitute_kernel(&mut self, wgsl: &str) {
-        let _turn = self.context.turn();
-        self.kernels.substitute(&self.context, wgsl);
-    }
-
     pub(in crate::device) fn slots(&self) -> u32 {
         self.atlas.count()
     }
