@@ -1,6 +1,6 @@
 //! A display: screen, observer, projectors.
 
-use crate::{BeamLaw, Projector, RayError};
+use crate::{BeamLaw, Projector, RayError, Resolution};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,12 @@ pub struct Display {
 impl Display {
     /// The size of the smallest thing the display shows at depth z: s(z) = s0 + 2 |z| tan(Φ/2), metres (LFD section 4).
     pub fn resolution_at(&self, z_m: f64) -> f64 {
-        self.pixel_size_m + 2.0 * z_m.abs() * (self.angular_accuracy / 2.0).tan()
+        self.resolution().at(z_m)
+    }
+
+    /// What it resolves, by depth.
+    pub fn resolution(&self) -> Resolution {
+        Resolution { pixel_size_m: self.pixel_size_m, angular_accuracy: self.angular_accuracy }
     }
 
     /// The law of the rays of a projector (an index into `projectors`) for an observer and an η, which may be others

@@ -12,7 +12,11 @@ mod preset;
 mod projector;
 mod raster;
 mod ray;
+<<<<<<< engine
 mod wiring;
+=======
+mod resolution;
+>>>>>>> FETCH_HEAD
 mod zone;
 
 pub use display::Display;
@@ -21,6 +25,10 @@ pub use eye::EyeModel;
 pub use homography::Homography;
 pub use preset::presets;
 pub use projector::Projector;
-pub use raster::{COVER_TOLERANCE_PX, Raster, RasterInverse};
+pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, Raster, RasterInverse, Warp};
 pub use ray::{BeamLaw, Ray};
+<<<<<<< engine
 pub use wiring::{Origin, Share, Wiring};
+=======
+pub use resolution::{Resolution, longest_voxel_edge_m};
+>>>>>>> FETCH_HEAD

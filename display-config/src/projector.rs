@@ -1,6 +1,6 @@
 //! One projector of a display.
 
-use crate::Raster;
+use crate::{CanonicalRaster, Raster, Warp};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -15,4 +15,11 @@ pub struct Projector {
     pub raster: Raster,
     /// Which back-end drives it, from 0.
     pub backend: u32,
+}
+
+impl Projector {
+    /// The way from the raster that a display's projectors share to its own; None where they coincide.
+    pub fn warp(&self, canonical: &CanonicalRaster) -> Option<Warp> {
+        Warp::between(canonical, &self.raster)
+    }
 }

@@ -4,5 +4,6 @@
 //! back-end runs what is composed here.
 
 pub mod compose;
+pub mod needs;
 pub mod tables;
 pub mod twin;

@@ -1,6 +1,6 @@
 //! Pre-integrated transfer functions: curves made into tables of f and F = ∫ f.
 
-use crate::compose::{Compositing, Needs, Way};
+use crate::needs::{Compositing, Needs, Way};
 use glam::DVec3;
 use layout::{ImportanceEntry, OpticsEntry};
 use optics::{Curve, Optics};

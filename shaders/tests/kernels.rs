@@ -1,6 +1,6 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
-use layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, SceneBlock, ViewBlock};
+use layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, SceneBlock, ViewBlock, binding};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shaders::compose::KernelKey;
 use std::mem::{offset_of, size_of};
@@ -27,6 +27,22 @@ fn every_permutation_is_valid() {
             panic!("{key:?}: {why}");
         }
     }
+}
+
+#[test]
+fn bindings_have_the_numbers_of_the_table_and_no_others() {
+    for key in KernelKey::samples() {
+        let wgsl = key.wgsl();
+        assert!(wgsl.split("@binding(").skip(1).all(|rest| rest.starts_with("BINDING_")), "{key:?}");
+    }
+    let module = parse(&KernelKey::samples()[0].wgsl());
+    let number = |name: &str| {
+        let (_, found) =
+            module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some(name)).unwrap();
+        found.binding.unwrap().binding
+    };
+    assert_eq!((number("scene"), number("projector")), (binding::SCENE, binding::VIEW));
+    assert_eq!((number("nodes"), number("feedback")), (binding::NODES, binding::FEEDBACK));
 }
 
 #[test]

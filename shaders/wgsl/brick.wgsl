@@ -2,8 +2,8 @@
 
 // Whether anything shows within a voxel of the cell around a point.
 fn is_visible_at(brick: Brick, point: vec3<f32>) -> bool {
-    let at = vec3<u32>(point * (1.0 / CELL_EDGE)) & vec3<u32>(7u);
-    let cell = (at.z * 8u + at.y) * 8u + at.x;
+    let at = vec3<u32>(point * (1.0 / CELL_EDGE)) & vec3<u32>(CELLS_ACROSS - 1u);
+    let cell = (at.z * CELLS_ACROSS + at.y) * CELLS_ACROSS + at.x;
     return ((cells[brick.words + (cell >> 5u)] >> (cell & 31u)) & 1u) != 0u;
 }
 

@@ -1,6 +1,6 @@
 // One ray per invocation, one tile of rays per workgroup.
 
-@compute @workgroup_size(8, 8, 1)
+@compute @workgroup_size(TILE_EDGE, TILE_EDGE, 1)
 fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_id) local: vec3<u32>) {
     let listed = group.x + group.y * groups.x;

@@ -1,8 +1,8 @@
 // Averages of the importance over a segment, as tables.wgsl does for the optics.
 
-@group(0) @binding(9) var<storage, read> importance_table: array<ImportanceEntry>;
+@group(0) @binding(BINDING_IMPORTANCE) var<storage, read> importance_table: array<ImportanceEntry>;
 // Row j holds at i the largest importance of the 2^j nodes from node i on.
-@group(0) @binding(15) var<storage, read> importance_most: array<f32>;
+@group(0) @binding(BINDING_IMPORTANCE_MOST) var<storage, read> importance_most: array<f32>;
 
 // Parts of a step, times the error allowed per step, where all that lies in front may be erased within reach of it.
 const RISE: f32 = 0.0064;

@@ -1,4 +1,5 @@
-// The structs that the host fills and reads; their Rust forms stand in the crate layout.
+// The structs that the host fills and reads; their Rust forms, and the constants that host and kernels share, stand in
+// the crate layout.
 
 // See src/twin/scene.rs.
 struct SceneBlock {
@@ -55,28 +56,16 @@ struct FeedbackEntry {
     rays: atomic<u32>,
 }
 
-const NO_NODE: u32 = 0xffffffffu;
-const NO_SLOT: u32 = 0xffffffffu;
-const TILE_EDGE: u32 = 8u;
-const BRICK_EDGE: u32 = 32u;
-const OVERLAP: f32 = 2.0;
-const OWN_EDGE: f32 = 28.0;
-// Texels along the edge of a cell, and words of cells a slot.
-const CELL_EDGE: f32 = 4.0;
-const CELL_WORDS: u32 = 16u;
-// Set in the count of samples where a ray met a node that is too coarse.
-const MISSING: u32 = 0x80000000u;
-
-@group(0) @binding(0) var<uniform> scene: SceneBlock;
-@group(0) @binding(16) var<uniform> projector: ViewBlock;
-@group(0) @binding(1) var<storage, read> nodes: array<NodeRecord>;
-@group(0) @binding(2) var<storage, read> optics_table: array<OpticsEntry>;
-@group(0) @binding(3) var<storage, read> tiles: array<u32>;
-@group(0) @binding(4) var<storage, read_write> pixels: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
-@group(0) @binding(6) var<storage, read_write> feedback: array<FeedbackEntry>;
-@group(0) @binding(7) var atlas: texture_3d<f32>;
+@group(0) @binding(BINDING_SCENE) var<uniform> scene: SceneBlock;
+@group(0) @binding(BINDING_VIEW) var<uniform> projector: ViewBlock;
+@group(0) @binding(BINDING_NODES) var<storage, read> nodes: array<NodeRecord>;
+@group(0) @binding(BINDING_OPTICS) var<storage, read> optics_table: array<OpticsEntry>;
+@group(0) @binding(BINDING_TILES) var<storage, read> tiles: array<u32>;
+@group(0) @binding(BINDING_PIXELS) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(BINDING_COUNTS) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(BINDING_FEEDBACK) var<storage, read_write> feedback: array<FeedbackEntry>;
+@group(0) @binding(BINDING_ATLAS) var atlas: texture_3d<f32>;
 // How many table cells below each node change a picture.
-@group(0) @binding(10) var<storage, read> occupied: array<u32>;
+@group(0) @binding(BINDING_OCCUPIED) var<storage, read> occupied: array<u32>;
 // Which 4³ cells of each slot's brick show anything: 16 words a slot, cell (x, y, z) is bit (z 8 + y) 8 + x.
-@group(0) @binding(11) var<storage, read> cells: array<u32>;
+@group(0) @binding(BINDING_CELLS) var<storage, read> cells: array<u32>;

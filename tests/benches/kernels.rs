@@ -13,16 +13,16 @@ use glam::DVec3;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::{compare, data, draw};
-use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Light, Probe, Quality, Ramp, Trapezoid};
+use optics::{
+    BandPicker, ClipPlane, Curve, CurveValue, Detail, Enhancer, LayerOpacity, Light, Material, Mimda,
+    MimdaForm, Probe, Quality, Ramp, Trapezoid,
+};
 use protocol::{DeviceChoice, FilterChoice, FrameState, ProjectorImage};
 use renderer::Renderer;
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// The plainest kernel before there was anything to leave out.
-#[cfg(feature = "gpu")]
-const FROZEN: &str = include_str!("../data/plain_kernel.wgsl");
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];
 /// Pixels of a projector.
@@ -127,6 +127,7 @@ fn devices() -> Vec<DeviceChoice> {
     draw::devices().into_iter().filter(|d| wanted.contains(&format!("{d:?}").to_lowercase())).collect()
 }
 
+<<<<<<< engine
 /// The composed kernel of a scene that needs nothing, against the one that was frozen.
 #[cfg(feature = "gpu")]
 fn unused(results: &mut Results, display: &Display) {
@@ -150,6 +151,42 @@ fn unused(results: &mut Results, display: &Display) {
 #[cfg(not(feature = "gpu"))]
 fn unused(_: &mut Results, _: &Display) {
     println!("SKIPPED: a build without the gpu feature runs no WGSL");
+=======
+/// The kernel that is composed for what a scene uses, against the same picture by one that has all the rest, too: each
+/// technique is on, at numbers that change nothing.
+fn unused(display: &Display) {
+    for device in devices() {
+        head(&format!("A kernel of what a scene uses against one that leaves nothing out, {device:?}"));
+        let with = draw::With::device(device);
+        for scene in all(display) {
+            // Weights of blending levels would be looked at by both.
+            let quality = Quality { blended: false, ..scene.frame.quality };
+            let frame = FrameState { light: Some(Light::default()), quality, ..scene.frame.clone() };
+            let mut lean = Contender::new(display, &scene, frame.clone(), with);
+            let mut full = Contender::new(display, &scene, nothing_left_out(frame), with);
+            compare(&format!("{}, lit", scene.name), &mut lean, &mut full);
+        }
+    }
+}
+
+/// A γ that is 0 in single precision, but not to those who ask whether it is.
+const NO_GAMMA: f64 = 1e-60;
+
+/// A lit frame with every technique that can be on and change nothing: importance, materials, detail and enhancers.
+fn nothing_left_out(mut frame: FrameState) -> FrameState {
+    let light = frame.light.unwrap_or_default();
+    frame.light = Some(Light { detail: Detail::Unsharp { strength: 0.0 }, ..light });
+    let Light { ambient, diffuse, specular, shininess, .. } = light;
+    frame.optics.materials = Some(constant(Material { ambient, diffuse, specular, shininess }));
+    let (gamma, form) = (NO_GAMMA, MimdaForm::Consistent);
+    frame.optics.mimda = Some(Mimda { importance: constant(1.0), gamma, form });
+    frame.optics.enhancers = idle_enhancers().pop().map_or(Vec::new(), |(_, chain)| chain);
+    frame
+}
+
+fn constant<T: CurveValue>(value: T) -> Curve<T> {
+    Curve::new(vec![(0.0, value), (1.0, value)]).expect("two points that rise make a curve")
+>>>>>>> FETCH_HEAD
 }
 
 /// Enhancers of full strength that leave the picture of anything near the screen as it is.

@@ -2,7 +2,7 @@
 
 use crate::compare::lod_rule;
 use bricks::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
-use display_config::Display;
+use display_config::{CanonicalRaster, Display};
 use layout::{CELL_WORDS, NodeRecord};
 use protocol::FrameState;
 use rayon::prelude::*;
@@ -132,14 +132,16 @@ pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn 
         .beam_law(projector as usize, frame.observer_in_display, frame.eta)
         .expect("a test scene goes with its display");
     let shape = source.shape();
+    let canonical = CanonicalRaster::of(display);
     let place = Placement {
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
-        resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
+        voxel_m: frame.voxel_m(),
+        resolution: display.resolution(),
     };
     View {
         scene: SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality),
-        rays: ProjectorRays::new(&display.projectors[projector as usize].raster, &law),
+        rays: ProjectorRays::new(&canonical, &display.projectors[projector as usize], &law),
     }
 }

@@ -1,7 +1,7 @@
 //! How fine a node must be: the display's resolution at its depth.
 
 use crate::{NodeKey, OWN_EDGE, OctreeShape};
-use display_config::Display;
+use display_config::{Display, Resolution, longest_voxel_edge_m};
 use glam::{DAffine3, DVec3};
 
 /// The level of detail a picture asks for. It depends on where a node floats, never on the viewer: so every
@@ -41,11 +41,11 @@ impl LodRule {
 
     /// The rule, ready to be asked of many nodes.
     pub fn measured(&self) -> MeasuredRule {
-        let slope = self.lod_scale * 2.0 * (0.5 * self.angular_accuracy).tan();
+        let slope = self.lod_scale * self.resolution().slope();
         MeasuredRule {
             row: self.display_from_volume.matrix3.row(2),
             offset_m: self.display_from_volume.translation.z,
-            finest_voxel_m: self.finest_voxel_m(),
+            finest_voxel_m: longest_voxel_edge_m(&self.display_from_volume),
             wanted_at_screen_m: self.lod_scale * self.pixel_size_m,
             slope: slope.min(self.steepest()),
         }
@@ -61,7 +61,7 @@ impl LodRule {
     pub fn steepest(&self) -> f64 {
         let linear = self.display_from_volume.matrix3;
         let along_z = linear.x_axis.z.abs() + linear.y_axis.z.abs() + linear.z_axis.z.abs();
-        self.finest_voxel_m() / (OWN_EDGE as f64 * along_z)
+        longest_voxel_edge_m(&self.display_from_volume) / (OWN_EDGE as f64 * along_z)
     }
 
     /// Whether the same depth is wanted everywhere in the volume: then there are no borders between levels to see.
@@ -75,10 +75,9 @@ impl LodRule {
         wanted(nearest) == wanted(farthest)
     }
 
-    /// The longest edge of the finest voxel, metres.
-    fn finest_voxel_m(&self) -> f64 {
-        let linear = self.display_from_volume.matrix3;
-        linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length())
+    /// What the display resolves.
+    pub fn resolution(&self) -> Resolution {
+        Resolution { pixel_size_m: self.pixel_size_m, angular_accuracy: self.angular_accuracy }
     }
 
     /// Whether a ray may take its samples from `node`: it is at the finest level or fine enough.

@@ -41,33 +41,11 @@ impl SceneEnhancer {
         };
         let axis = carrier.map(|tool| tool.axis_in_display);
         let mut numbers = self.numbers;
-        match &mut numbers {
-            Enhancer::ClipPlane(plane) => {
-                plane.point_in_display = place;
-                plane.normal_in_display = axis.map_or(plane.normal_in_display, |axis| -axis);
-            }
-            Enhancer::Probe(probe) => {
-                probe.centre_in_display = place;
-                probe.axis_in_display = axis.unwrap_or(probe.axis_in_display);
-            }
-            Enhancer::BandPicker(picker) => {
-                picker.axis_in_display = axis.unwrap_or(picker.axis_in_display);
-                picker.band = picked.unwrap_or(picker.band);
-            }
-            Enhancer::LayerOpacity(layer) => {
-                layer.axis_in_display = axis.unwrap_or(layer.axis_in_display);
-            }
+        numbers.place(place, axis);
+        if let (Enhancer::BandPicker(picker), Some(picked)) = (&mut numbers, picked) {
+            picker.band = picked;
         }
         numbers
-    }
-}
-
-/// The band of an enhancer that has one.
-pub(super) fn band_of(enhancer: &Enhancer) -> Option<Trapezoid> {
-    match enhancer {
-        Enhancer::BandPicker(picker) => Some(picker.band),
-        Enhancer::LayerOpacity(layer) => Some(layer.band),
-        Enhancer::ClipPlane(_) | Enhancer::Probe(_) => None,
     }
 }
 
@@ -76,10 +54,8 @@ pub(super) fn normalised_enhancer(
     mut enhancer: Enhancer,
     domain: (f64, f64),
 ) -> Result<Enhancer, TrapezoidError> {
-    match &mut enhancer {
-        Enhancer::BandPicker(picker) => picker.band = normalised_band(picker.band, domain)?,
-        Enhancer::LayerOpacity(layer) => layer.band = normalised_band(layer.band, domain)?,
-        Enhancer::ClipPlane(_) | Enhancer::Probe(_) => {}
+    if let Some(band) = enhancer.band_mut() {
+        *band = normalised_band(*band, domain)?;
     }
     Ok(enhancer)
 }

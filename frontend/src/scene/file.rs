@@ -123,21 +123,11 @@ pub(super) struct BandTable {
     pub corners: Spanned<[f64; 4]>,
 }
 
-/// See [`optics::Enhancer`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum EnhancerKind {
-    ClipPlane,
-    Probe,
-    BandPicker,
-    LayerOpacity,
-}
-
 /// The keys of all kinds of enhancers; which of them a kind has is checked later.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct EnhancerTable {
-    pub kind: Spanned<EnhancerKind>,
+    pub kind: Spanned<optics::EnhancerKind>,
     pub carried: Option<Spanned<bool>>,
     pub band: Option<Spanned<String>>,
     pub point_m: Option<Triple>,

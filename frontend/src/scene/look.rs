@@ -1,6 +1,6 @@
 //! What scalars look like, before the volume is known.
 
-use super::enhancer::{band_of, normalised_enhancer};
+use super::enhancer::normalised_enhancer;
 use super::{Edits, SceneError};
 use glam::DVec3;
 use optics::{Curve, CurveError, CurveValue, Enhancer, ExtinctionUnit, Material, Mimda, Optics};
@@ -122,7 +122,7 @@ impl DataLook {
         let importance = self.mimda.iter().flat_map(|mimda| mimda.importance.points());
         let refraction = self.refraction.iter().flat_map(|index| index.points());
         let values = self.extinction.points().iter().chain(importance).chain(refraction).map(|point| point.0);
-        let corners = chain.iter().filter_map(band_of).flat_map(|band| band.corners());
+        let corners = chain.iter().filter_map(|enhancer| enhancer.band()).flat_map(|band| band.corners());
         let widen = |(a, b): (f64, f64), v| (a.min(v), b.max(v));
         let (low, high) = interval(values.chain(corners).fold((f64::INFINITY, f64::NEG_INFINITY), widen));
         let domain = self.domain.unwrap_or((low - (high - low), high + (high - low)));

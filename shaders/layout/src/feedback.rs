@@ -13,19 +13,21 @@ pub struct FeedbackEntry {
 }
 
 /// Codes per level of deficit.
-const CODES_PER_LEVEL: f32 = 256.0;
+pub const CODES_PER_LEVEL: f32 = 256.0;
 /// Code of a deficit of zero: 0 is kept for "no ray".
-const CODE_OF_ZERO: f32 = 32768.0;
+pub const CODE_OF_ZERO: f32 = 32768.0;
+/// Deficits are held to ± this many levels.
+pub const MOST_DEFICIT: f32 = 100.0;
 
 /// Levels of deficit that a code stands for, to 1/256 level; None for "no ray".
 pub fn deficit_from_code(code: u32) -> Option<f32> {
     (code > 0).then(|| (code as f32 - CODE_OF_ZERO) / CODES_PER_LEVEL)
 }
 
-/// The code of a deficit in levels, which is first held to ±100 levels. Rounded up: what is too coarse by however little has
+/// The code of a deficit in levels, which is first held to ± [`MOST_DEFICIT`]. Rounded up: what is too coarse by however little has
 /// a code above that of zero.
 pub fn code_from_deficit(deficit: f32) -> u32 {
-    (CODE_OF_ZERO + (deficit.clamp(-100.0, 100.0) * CODES_PER_LEVEL).ceil()) as u32
+    (CODE_OF_ZERO + (deficit.clamp(-MOST_DEFICIT, MOST_DEFICIT) * CODES_PER_LEVEL).ceil()) as u32
 }
 
 #[cfg(test)]

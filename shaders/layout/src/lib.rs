@@ -1,14 +1,17 @@
-//! The structs that kernels read and write, byte for byte as WGSL lays them out.
+//! What host and kernels share: structs byte for byte as WGSL lays them out, bindings, the geometry of a brick.
 
-mod cells;
+pub mod binding;
+pub mod brick;
 mod feedback;
 mod node;
 mod scene;
 mod table_entry;
 mod view;
 
-pub use cells::{CELL_EDGE, CELL_WORDS, CELLS_ACROSS};
-pub use feedback::{FeedbackEntry, code_from_deficit, deficit_from_code};
+pub use brick::{CELL_EDGE, CELL_WORDS, CELLS_ACROSS};
+pub use feedback::{
+    CODE_OF_ZERO, CODES_PER_LEVEL, FeedbackEntry, MOST_DEFICIT, code_from_deficit, deficit_from_code,
+};
 pub use node::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 pub use scene::{Link, SceneBlock};
 pub use table_entry::{ImportanceEntry, OpticsEntry};

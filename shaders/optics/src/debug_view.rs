@@ -53,6 +53,23 @@ impl DebugView {
     }
 }
 
+/// The colours between which the map goes straight on in linear RGB, at equal distances. They are of our own choosing:
+/// the CIE lightness L* of each is 22 above that of the one before (0, 22, 44, 66, 88, 100), so that what is more is
+/// lighter, in print without colour, too; and the hue goes from blue over red to yellow, the way of things that glow.
+const KNOTS: [[f64; 3]; 6] = [
+    [0.0, 0.0, 0.0],
+    [0.0, 0.005, 0.437],
+    [0.46, 0.015, 0.414],
+    [1.0, 0.18, 0.17],
+    [1.0, 0.71, 0.005],
+    [1.0, 1.0, 1.0],
+];
+
+/// The five ramps of the heat map, each from one of its colours to the next; the first begins at black.
+pub fn heat_ramps() -> [[f64; 3]; 5] {
+    std::array::from_fn(|i| std::array::from_fn(|c| KNOTS[i + 1][c] - KNOTS[i][c]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -12,8 +12,8 @@ mod trapezoid;
 
 pub use bounds::OutOfBounds;
 pub use curve::{Curve, CurveError, CurveValue};
-pub use debug_view::DebugView;
-pub use enhancer::{BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp};
+pub use debug_view::{DebugView, heat_ramps};
+pub use enhancer::*;
 pub use light::{Detail, Light};
 pub use material::Material;
 pub use model::{ExtinctionUnit, Mimda, MimdaForm, Optics, OpticsError};

@@ -20,7 +20,7 @@ pub(super) fn wgsl(view: DebugView) -> String {
             r as f32, g as f32, b as f32
         )
     };
-    let ramps: String = crate::twin::debug::ramps().into_iter().enumerate().map(ramp).collect();
+    let ramps: String = optics::heat_ramps().into_iter().enumerate().map(ramp).collect();
     let heat = include_str!("../../wgsl/debug/heat.wgsl");
     format!("const DEBUG_SHOWS: u32 = {shows}u;\n{numbers}{ramps}{heat}{module}")
 }

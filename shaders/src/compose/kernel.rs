@@ -1,8 +1,8 @@
 //! One kernel: a filter, and what a scene needs.
 
-use super::{Compositing, Levels, Needs, Shading, Way};
-use optics::DebugView;
-use optics::MimdaForm;
+use super::{chain, constants, debug_view};
+use crate::needs::{Chain, Compositing, Levels, Needs, Shading, Way};
+use optics::{DebugView, EnhancerKind, MimdaForm};
 
 /// How voxels are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -94,14 +94,21 @@ impl KernelKey {
             Way::Straight => module!("way/straight"),
             Way::Refracted => module!("way/refracted"),
         };
-        let mut modules =
-            vec![module!("layout"), module!("ray"), module!("traverse"), module!("tables"), sample];
+        let constants = constants::wgsl();
+        let mut modules = vec![
+            constants.as_str(),
+            module!("layout"),
+            module!("ray"),
+            module!("traverse"),
+            module!("tables"),
+            sample,
+        ];
         modules.extend(needs.levels_wgsl());
         modules.extend(needs.gradient_wgsl());
         modules.extend(needs.composite_wgsl());
         modules.extend(needs.shade_wgsl());
-        let chain = needs.chain.wgsl(needs.reads_importance());
-        let debug = needs.debug.map_or_else(|| module!("debug/none").to_owned(), super::debug_view::wgsl);
+        let chain = chain::wgsl(&needs.chain, needs.reads_importance());
+        let debug = needs.debug.map_or_else(|| module!("debug/none").to_owned(), debug_view::wgsl);
         modules.extend([
             chain.as_str(),
             module!("refine"),
@@ -117,7 +124,6 @@ impl KernelKey {
     /// Kernels that together have every module, in every pair of slots that look at each other, and every chain of one
     /// and some of more: what a validator should see.
     pub fn samples() -> Vec<Self> {
-        use super::{Chain, EnhancerKind};
         let mut chains: Vec<Chain> = EnhancerKind::ALL.iter().map(|&kind| Chain::of_kinds(&[kind])).collect();
         chains.push(Chain::EMPTY);
         chains.push(Chain::of_kinds(&[

@@ -9,15 +9,14 @@
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
-//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`] |
+//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`](crate::needs::Chain) |
 //! | way | `way/straight`, `way/refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 
 mod chain;
+mod constants;
 mod debug_view;
 mod kernel;
-mod needs;
 
-pub use chain::{Chain, EnhancerKind};
+pub use crate::needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 pub use kernel::{Filter, KernelKey};
-pub use needs::{Compositing, Levels, Needs, Shading, Way};

@@ -11,16 +11,19 @@ use super::refine::{Pair, parts_of_step};
 use super::shade::{Lighting, Shade};
 use super::tables::{attenuation_mean, locate};
 use super::{Casting, Real, ray::Ray, vector::Vec3};
+use layout::{CELL_EDGE, CELLS_ACROSS};
 
 /// Texels along the edge of a cell.
-const CELL: f64 = 4.0;
+const CELL: f64 = CELL_EDGE as f64;
+/// Cells along the edge of a brick.
+const ACROSS: u32 = CELLS_ACROSS as u32;
 
 impl<F: Real> Brick<'_, F> {
     /// Whether anything shows within a voxel of the cell around a point.
     #[inline(always)]
     fn is_visible_at(&self, point: Vec3<F>) -> bool {
-        let [x, y, z] = point.0.map(|c| (c * F::of(1.0 / CELL)).to_index() & 7);
-        let cell = (z * 8 + y) * 8 + x;
+        let [x, y, z] = point.0.map(|c| (c * F::of(1.0 / CELL)).to_index() & (ACROSS - 1));
+        let cell = (z * ACROSS + y) * ACROSS + x;
         self.cells[(cell >> 5) as usize] >> (cell & 31) & 1 != 0
     }
 

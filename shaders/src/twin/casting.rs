@@ -3,7 +3,7 @@
 use super::observer::Observer;
 use super::scene::SceneNumbers;
 use super::volume::Volume;
-use crate::compose::Needs;
+use crate::needs::Needs;
 use crate::tables::Tables;
 
 /// A scene, ready to cast.

@@ -1,7 +1,7 @@
 //! One projector's rays, as [`ViewBlock`] holds them for a kernel.
 
 use super::vector::Vec3;
-use display_config::{BeamLaw, Raster};
+use display_config::{BeamLaw, CanonicalRaster, Projector};
 use layout::ViewBlock;
 
 /// See [`ViewBlock`].
@@ -16,9 +16,11 @@ pub struct ProjectorRays<F> {
 }
 
 impl ProjectorRays<f64> {
-    /// The rays of a raster's pixels under a law.
-    pub fn new(raster: &Raster, law: &BeamLaw) -> Self {
-        let h = raster.screen_from_pixel.0;
+    /// The rays of a projector's pixels under a law. They pass through the raster that all projectors share: where the
+    /// projector's own does not coincide with it, through the warp between the two.
+    pub fn new(canonical: &CanonicalRaster, projector: &Projector, law: &BeamLaw) -> Self {
+        let h = canonical.screen_from_pixel(projector.warp(canonical).as_ref()).0;
+        let raster = &projector.raster;
         let origin = law.origin(glam::DVec2::ZERO);
         Self {
             screen_from_pixel: [h.x_axis, h.y_axis, h.z_axis].map(|column| Vec3(column.to_array())),

@@ -1,13 +1,14 @@
 //! The stored sample at a point of a brick: the twin of `wgsl/sample/exact.wgsl`. The texture unit has no twin.
 
 use super::four::{between_corners, each, mix};
-use super::{Real, vector::Vec3, volume::BRICK_VOXELS};
+use super::{Real, vector::Vec3};
+use layout::brick::{self, VOXELS};
 
 /// Stored samples along an edge.
-const EDGE: u32 = 32;
+const EDGE: u32 = brick::EDGE as u32;
 /// Samples to the next along y and along z.
-const ROW: usize = 32;
-const LAYER: usize = 32 * 32;
+const ROW: usize = brick::EDGE;
+const LAYER: usize = brick::EDGE * brick::EDGE;
 
 /// A point's lowest neighbour, and how far it lies from there along each axis.
 #[inline(always)]
@@ -41,7 +42,7 @@ const PER_CODE: f64 = 1.0 / 65535.0;
 
 /// `point` in texels of the brick, sample centres at integer + 0.5, from 0.5 to 31.5; the result is in [0, 1].
 #[inline(always)]
-pub fn sample_brick<F: Real>(brick: &[u16; BRICK_VOXELS], point: Vec3<F>) -> F {
+pub fn sample_brick<F: Real>(brick: &[u16; VOXELS], point: Vec3<F>) -> F {
     let (base, f) = place(point, 0, EDGE - 2);
     // One bounds check for all eight.
     let window = &brick[base..base + LAYER + ROW + 2];
@@ -53,7 +54,7 @@ pub fn sample_brick<F: Real>(brick: &[u16; BRICK_VOXELS], point: Vec3<F>) -> F {
 /// Differences of the samples one texel ahead and one behind, along each axis; `point` from 1.5 to 30.5. The same as six
 /// samples: neighbours a whole texel apart share their weights, so codes are subtracted before they are weighed.
 #[inline(always)]
-pub fn differences<F: Real>(brick: &[u16; BRICK_VOXELS], point: Vec3<F>) -> Vec3<F> {
+pub fn differences<F: Real>(brick: &[u16; VOXELS], point: Vec3<F>) -> Vec3<F> {
     let (base, f) = place(point, 1, EDGE - 3);
     let first = base - LAYER - ROW - 1;
     let window = &brick[first..first + 3 * LAYER + 3 * ROW + 4];
@@ -103,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_linear_field_is_met_exactly_everywhere() {
-        let codes: Vec<u16> = (0..BRICK_VOXELS).map(|i| (i % 32 + 32 * (i / 32 % 32) * 2) as u16).collect();
+        let codes: Vec<u16> = (0..VOXELS).map(|i| (i % 32 + 32 * (i / 32 % 32) * 2) as u16).collect();
         let brick = codes.first_chunk().unwrap();
         for (x, y, z) in [(0.5, 0.5, 0.5), (31.5, 31.5, 31.5), (7.25, 19.875, 3.0)] {
             let truth = ((x - 0.5) + 64.0 * (y - 0.5)) / 65535.0;
@@ -115,7 +116,7 @@ mod tests {
     #[test]
     fn differences_are_those_of_six_samples() {
         let codes: Vec<u16> =
-            (0..BRICK_VOXELS as u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 16) as u16).collect();
+            (0..VOXELS as u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 16) as u16).collect();
         let brick = codes.first_chunk().unwrap();
         for (x, y, z) in [(1.5, 1.5, 1.5), (30.5, 30.5, 30.5), (7.25, 19.875, 3.0), (16.1, 2.9, 29.7)] {
             let found = differences::<f64>(brick, Vec3([x, y, z]));

@@ -3,8 +3,9 @@
 use super::enhance::{Constants, constants};
 use super::vector::Vec3;
 use crate::tables::TABLE_ENTRIES;
+use display_config::{Resolution, longest_voxel_edge_m};
 use glam::{DAffine3, DMat3, DVec3, UVec3};
-use layout::{Link, SceneBlock};
+use layout::{Link, SceneBlock, brick};
 use optics::{Detail, Light, MOST_ENHANCERS, Optics, Quality};
 
 /// See [`SceneBlock`]; one field for each number that the twin needs.
@@ -55,8 +56,10 @@ pub struct Placement {
     pub dims: UVec3,
     /// Depth of the octree's finest level.
     pub finest_depth: u8,
-    /// s0 and 2 tan(Φ/2) of the display's resolution s(z) = s0 + 2 |z| tan(Φ/2), metres and metres per metre.
-    pub resolution: (f64, f64),
+    /// Edge of the finest voxel, metres; of its volume, where edges differ.
+    pub voxel_m: f64,
+    /// What the display resolves.
+    pub resolution: Resolution,
 }
 
 /// Strength of the shading of detail, where there is any.
@@ -87,27 +90,25 @@ impl SceneNumbers<f64> {
         let vector = |v: DVec3| Vec3(v.to_array());
         let inverse = place.display_from_volume.inverse();
         let m = inverse.matrix3;
-        let voxel_m = place.display_from_volume.matrix3.determinant().abs().cbrt();
         let light = light.unwrap_or_default();
         let mimda = optics.mimda.as_ref();
         let m3 = place.display_from_volume.matrix3;
-        let finest_m = m3.x_axis.length().max(m3.y_axis.length()).max(m3.z_axis.length());
-        let per_finest = quality.lod_scale / finest_m;
+        let per_finest = quality.lod_scale / longest_voxel_edge_m(&place.display_from_volume);
         Self {
             volume_from_display: [m.x_axis, m.y_axis, m.z_axis, inverse.translation].map(vector),
             dims: vector(place.dims.as_dvec3()),
-            voxel_m,
+            voxel_m: place.voxel_m,
             toward_light: vector(light.toward_light_in_display),
             gradient_half_square: light.gradient_half * light.gradient_half,
             material: [light.ambient, light.diffuse, light.specular, light.shininess],
             step_voxels: quality.step_voxels,
             termination: quality.termination,
             tolerance: quality.tolerance,
-            extinction_per_metre: optics.extinction_per_metre(voxel_m),
+            extinction_per_metre: optics.extinction_per_metre(place.voxel_m),
             gamma: mimda.map_or(0.0, |m| m.gamma),
             largest_importance: optics.most_importance_on(0.0, 1.0),
             finest_depth: u32::from(place.finest_depth),
-            resolution: [place.resolution.0 * per_finest, place.resolution.1 * per_finest],
+            resolution: [place.resolution.pixel_size_m * per_finest, place.resolution.slope() * per_finest],
             detail: detail_strength(&light),
             diagonal_m: longest_diagonal(m3, place.dims.as_dvec3()),
             links: links(optics),
@@ -144,7 +145,7 @@ impl SceneNumbers<f32> {
     pub fn block(&self, atlas_slots: [u32; 3]) -> SceneBlock {
         let column = |v: Vec3<f32>| [v.0[0], v.0[1], v.0[2], 0.0];
         let with = |v: Vec3<f32>, w: f32| [v.0[0], v.0[1], v.0[2], w];
-        let texels = atlas_slots.map(|n| 1.0 / (n * 32) as f32);
+        let texels = atlas_slots.map(|n| 1.0 / (n * brick::EDGE as u32) as f32);
         let entries = TABLE_ENTRIES as u32;
         SceneBlock {
             volume_from_display: self.volume_from_display.map(column),

@@ -2,10 +2,10 @@
 
 use super::ray::far;
 use super::{Casting, Real, ray::Ray, vector::Vec3};
-use layout::{NO_NODE, NodeRecord};
+use layout::{NO_NODE, NodeRecord, brick};
 
 /// Own voxels of a node along an edge.
-pub const OWN_EDGE: f64 = 28.0;
+pub const OWN_EDGE: f64 = brick::OWN_EDGE as f64;
 
 /// Where and through which face a ray leaves a node.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,7 @@
 //! The part of a volume that is resident: the cut's nodes, and the bricks that they show.
 
-use layout::{CELL_WORDS, NodeRecord};
-
-/// Codes of one brick: 32³.
-pub const BRICK_VOXELS: usize = 32 * 32 * 32;
+use layout::NodeRecord;
+use layout::brick::{self, CELL_WORDS};
 
 /// What rays sample.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +24,8 @@ impl<'a> Volume<'a> {
 
     /// The codes of a slot.
     #[inline(always)]
-    pub fn brick(&self, slot: u32) -> &'a [u16; BRICK_VOXELS] {
-        let start = slot as usize * BRICK_VOXELS;
-        self.atlas[start..start + BRICK_VOXELS].first_chunk().expect("a slot holds 32³ codes")
+    pub fn brick(&self, slot: u32) -> &'a [u16; brick::VOXELS] {
+        let start = slot as usize * brick::VOXELS;
+        self.atlas[start..start + brick::VOXELS].first_chunk().expect("a slot holds 32³ codes")
     }
 }

@@ -16,7 +16,3 @@ fn band_picker_at(link: Link, weights: vec4<f32>, sample: Sample, place: Place) 
     let changed = scaled(sample, 1.0 - weights.x * (1.0 - picked));
     return with_importance(changed, picked, band_most(link.a, place.s0, place.s1), weights.x);
 }
-
-fn band_picker_end(link: Link, weights: vec4<f32>, front: Accumulated) -> Accumulated {
-    return front;
-}

@@ -8,7 +8,7 @@ struct Link {
     d: vec4<f32>,
 }
 
-@group(0) @binding(12) var<uniform> links: array<Link, 3>;
+@group(0) @binding(BINDING_LINKS) var<uniform> links: array<Link, MOST_LINKS>;
 
 // An enhancer's state along one ray.
 struct LinkState {

@@ -28,7 +28,3 @@ fn clip_plane_at(link: Link, weights: vec4<f32>, sample: Sample, place: Place) -
     changed.lit *= 1.0 - sliced;
     return changed;
 }
-
-fn clip_plane_end(link: Link, weights: vec4<f32>, front: Accumulated) -> Accumulated {
-    return front;
-}

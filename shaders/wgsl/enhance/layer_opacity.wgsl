@@ -14,7 +14,3 @@ fn layer_opacity_breaks(link: Link, weights: vec4<f32>, ray: Ray) -> vec3<f32> {
 fn layer_opacity_at(link: Link, weights: vec4<f32>, sample: Sample, place: Place) -> Sample {
     return scaled(sample, 1.0 + band_between(link.a, place.s0, place.s1) * weights.x);
 }
-
-fn layer_opacity_end(link: Link, weights: vec4<f32>, front: Accumulated) -> Accumulated {
-    return front;
-}

@@ -17,7 +17,3 @@ fn next_break(t: f32) -> f32 {
 fn enhance(sample: Sample, ray: Ray, t: f32, s0: f32, s1: f32, gradients: Gradients) -> Sample {
     return sample;
 }
-
-fn end_chain(front: Accumulated) -> Accumulated {
-    return front;
-}

@@ -55,7 +55,3 @@ fn probe_edge(link: Link, aligned: f32, sample: Sample, place: Place) -> f32 {
     let strength = smoothstep(link.d.x, link.d.y, mean_importance(sample) * size / link.c.z);
     return aligned * strength * (flat_share * flat_share) * (flat_share * flat_share);
 }
-
-fn probe_end(link: Link, weights: vec4<f32>, front: Accumulated) -> Accumulated {
-    return front;
-}

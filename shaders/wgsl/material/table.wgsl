@@ -1,6 +1,6 @@
 // A material for each scalar: ambient, diffuse, specular, shininess.
 
-@group(0) @binding(14) var<storage, read> material_table: array<vec4<f32>>;
+@group(0) @binding(BINDING_MATERIALS) var<storage, read> material_table: array<vec4<f32>>;
 
 fn material_at(s: f32) -> vec4<f32> {
     let entries = scene.tables.x;

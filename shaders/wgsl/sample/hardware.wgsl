@@ -1,6 +1,6 @@
 // The stored sample at a point of a brick, interpolated by the texture unit.
 
-@group(0) @binding(8) var trilinear: sampler;
+@group(0) @binding(BINDING_SAMPLER) var trilinear: sampler;
 
 // Points are taken to the nearest 1/4096 texel: with slots at whole texels and an atlas of 2^n texels along each axis, the
 // texture coordinate is then exact, so that the same point of a brick gives the same bits in any slot.

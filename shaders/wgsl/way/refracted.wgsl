@@ -1,6 +1,6 @@
 // A bent ray's way through the volume: straight pairs of steps, with a turn in the middle of each.
 
-@group(0) @binding(13) var<storage, read> index_table: array<f32>;
+@group(0) @binding(BINDING_INDEX) var<storage, read> index_table: array<f32>;
 
 // Pairs over which the index changes by more than this are halved, up to MOST_HALVINGS times.
 const LARGE_CHANGE: f32 = 0.004;
@@ -240,7 +240,6 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
             at = leaf_beyond(node, exit.axis, point, bent.ray);
         }
     }
-    front = end_chain(front);
     return vec4<f32>(front.rgb, front.alpha);
 }
 

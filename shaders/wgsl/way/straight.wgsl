@@ -100,6 +100,5 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         t = t_out;
         at = leaf_beyond(node, exit.axis, point_on(ray, t), ray);
     }
-    front = end_chain(front);
     return vec4<f32>(front.rgb, front.alpha);
 }

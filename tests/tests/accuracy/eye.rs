@@ -7,7 +7,7 @@
 //! blur, nothing at the screen and, for a smooth object, an error that grows with the square of |z|.
 
 use bricks::BrickSource;
-use display_config::{Display, EyeModel};
+use display_config::{CanonicalRaster, Display, EyeModel};
 use glam::{DAffine3, DVec2, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::lod_rule;
@@ -18,7 +18,11 @@ use lightloom_tests::scenes::{self, TestScene, frame, optics, with_raster};
 use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use rayon::prelude::*;
 use reference::{Integrator, Reference};
+<<<<<<< engine:tests/tests/accuracy/eye.rs
 use renderer::output::{EyePlan, EyeView, Picture, ScreenRaster};
+=======
+use renderer::output::{EyePlan, EyeView, ImageDifference, Picture};
+>>>>>>> FETCH_HEAD:tests/tests/eye.rs
 use std::sync::Arc;
 
 /// x of the eyes, metres, at the viewer's height and distance: holo72's zone is ±0.6 m there.
@@ -66,7 +70,7 @@ fn eye_at(display: &Display, x: f64) -> DVec3 {
 /// What the eye sees of the display that shows `images`.
 fn seen(display: &Display, images: &[ProjectorImage], eye: DVec3) -> Picture {
     let model = EyeModel::new(display, eye).unwrap();
-    let plan = EyePlan::new(ScreenRaster::of(display), images.len(), |screen| model.weights(screen));
+    let plan = EyePlan::new(CanonicalRaster::of(display), images.len(), |screen| model.weights(screen));
     let mut view = EyeView::new(&plan);
     for image in images {
         let inverse = display.projectors[image.projector as usize].raster.inverse().unwrap();
@@ -84,7 +88,7 @@ fn by_reference(
     let rule = lod_rule(display, &scene.frame);
     let reference =
         Reference::new(Arc::clone(&scene.source), &scene.frame, &rule, Integrator::default()).unwrap();
-    let raster = ScreenRaster::of(display);
+    let raster = CanonicalRaster::of(display);
     let rgba: Vec<[f32; 4]> = (0..raster.width * raster.height)
         .into_par_iter()
         .map(|index| {
@@ -200,7 +204,7 @@ fn on_a_beam_an_eye_sees_one_projector_and_no_blur() {
     let display = holo72_small();
     let Some(scene) = scenes::cranium(&display) else { return };
     let images = pictures(&display, &scene);
-    let raster = ScreenRaster::of(&display);
+    let raster = CanonicalRaster::of(&display);
     let law = display.beam_law(40, display.observer_in_display, 1.0).unwrap();
     for column in [70u32, 80, 91] {
         let screen = raster.point(column, 45);

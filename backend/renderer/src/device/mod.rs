@@ -14,7 +14,114 @@ mod under_way;
 
 pub use choose::{ChosenDevice, open_device};
 pub use cpu::CpuDevice;
+<<<<<<< engine
 pub use either::Device;
 pub use error::DeviceError;
 pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, TileGrid};
 pub use tag::{FeedbackTag, TaggedFeedback};
+=======
+pub use job::{CastJob, CastOutcome, Gather, Part, TileGrid};
+
+pub(crate) use under_way::MOST_UNDER_WAY;
+
+use layout::{FeedbackEntry, NodeRecord};
+use shaders::tables::Tables;
+
+/// Why a device cannot go on: one sentence.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct DeviceError(pub String);
+
+/// A device with its brick cache.
+#[derive(Debug)]
+pub enum Device {
+    /// The twin, on all cores.
+    Cpu(Box<CpuDevice>),
+    /// A wgpu device.
+    #[cfg(feature = "gpu")]
+    Gpu(Box<gpu::GpuDevice>),
+}
+
+/// The same call on whichever device there is.
+macro_rules! on_device {
+    ($device:expr, $found:ident => $call:expr) => {
+        match $device {
+            Device::Cpu($found) => $call,
+            #[cfg(feature = "gpu")]
+            Device::Gpu($found) => $call,
+        }
+    };
+}
+
+impl Device {
+    /// Slots of the brick cache.
+    pub fn slots(&self) -> u32 {
+        on_device!(self, device => device.slots())
+    }
+
+    /// Puts a brick's 32³ samples into a slot.
+    pub fn write_brick(&mut self, slot: u32, samples: &[u16]) {
+        on_device!(self, device => device.write_brick(slot, samples));
+    }
+
+    /// Replaces the spatial index, and which cells of each slot show anything.
+    pub fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
+        on_device!(self, device => device.write_index(nodes, cells));
+    }
+
+    /// Replaces the transfer functions' tables.
+    pub fn write_tables(&mut self, tables: Tables) {
+        on_device!(self, device => device.write_tables(tables));
+    }
+
+    /// From now on the casts that gather for the frame ([`Gather::Frame`]) add to an empty table. An index that is
+    /// written meanwhile empties it again: places mean other nodes then.
+    pub fn begin_feedback(&mut self) {
+        on_device!(self, device => device.begin_feedback());
+    }
+
+    /// The frame's table is complete: starts it on its way to the host, and waits for nothing. Of the tables that nobody
+    /// takes only the latest few are kept.
+    pub fn end_feedback(&mut self) {
+        on_device!(self, device => device.end_feedback());
+    }
+
+    /// The oldest table that is under way, one entry per place of the index that its frame was cast with; None where
+    /// there is none, or it has not arrived. It never waits.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn take_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        on_device!(self, device => device.take_feedback())
+    }
+
+    /// The same, but waits for it; None where none is under way.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn wait_feedback(&mut self) -> Result<Option<Vec<FeedbackEntry>>, DeviceError> {
+        on_device!(self, device => device.wait_feedback())
+    }
+
+    /// Casts the rays of some views; their colours stay on the device, a picture per view. Where neither feedback nor
+    /// counts are asked of it, a GPU casts on while this returns.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
+        on_device!(self, device => device.cast(job))
+    }
+
+    /// The colours of the view last cast into this picture (see [`CastJob::first_picture`]): 4 numbers per pixel, rows
+    /// from the top.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    ///
+    /// # Panics
+    /// Where nothing was cast into it yet.
+    pub fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
+        on_device!(self, device => device.picture(index))
+    }
+}
+>>>>>>> FETCH_HEAD

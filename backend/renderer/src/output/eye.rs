@@ -1,7 +1,7 @@
 //! What an eye sees: the screen as the sum of all projectors' pictures, seen from one point.
 
 use super::{OutputError, Picture, PictureRef};
-use display_config::Display;
+use display_config::CanonicalRaster;
 use glam::DVec2;
 use protocol::ProjectorImage;
 
@@ -14,6 +14,7 @@ const ALIGNED: f64 = 1e-9;
 /// A sample this far outside a raster (pixels) still belongs to it: its edge carries the calibration's rounding.
 const EDGE_TOLERANCE: f64 = 1e-3;
 
+<<<<<<< engine
 /// The pixels in which an eye's view of the whole screen is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenRaster {
@@ -45,23 +46,31 @@ impl ScreenRaster {
     }
 }
 
+=======
+>>>>>>> FETCH_HEAD
 /// Which projector an eye sees at which pixel of the screen, and how strongly; fixed as long as the eye is.
 #[derive(Clone, Debug)]
 pub struct EyePlan {
-    raster: ScreenRaster,
+    /// The pixels in which the eye's view of the whole screen is drawn.
+    raster: CanonicalRaster,
     /// For each projector, the pixels it lights: (index in the raster, weight).
     lit: Vec<Vec<(u32, f64)>>,
 }
 
 impl EyePlan {
+<<<<<<< engine
     /// `weights(screen point)` gives (projector, weight) pairs whose weights add to 1 if the eye sees light.
     pub fn new<W>(raster: ScreenRaster, projectors: usize, weights: impl Fn(DVec2) -> W) -> Self
+=======
+    /// `weights(screen point)` gives (projector, weight) pairs whose weights add to 1 where the eye sees light.
+    pub fn new<W>(raster: CanonicalRaster, projectors: usize, weights: impl Fn(DVec2) -> W) -> Self
+>>>>>>> FETCH_HEAD
     where
         W: IntoIterator<Item = (usize, f64)>,
     {
         let mut lit = vec![Vec::new(); projectors];
         for index in 0..raster.width * raster.height {
-            for (projector, weight) in weights(raster.point_of_index(index)) {
+            for (projector, weight) in weights(point_of_index(&raster, index)) {
                 if weight > 0.0 {
                     lit[projector].push((index, weight));
                 }
@@ -99,7 +108,7 @@ impl<'a> EyeView<'a> {
         let picture = PictureRef::of(image)?;
         let lit = self.plan.lit.get(image.projector as usize).map_or(&[][..], Vec::as_slice);
         for &(index, weight) in lit {
-            let place = pixel_from_screen(self.plan.raster.point_of_index(index));
+            let place = pixel_from_screen(point_of_index(&self.plan.raster, index));
             let Some(colour) = place.and_then(|p| bilinear(picture, p)) else { continue };
             let sums = &mut self.sums[index as usize];
             sums.iter_mut().zip(colour).for_each(|(sum, c)| *sum = sum.saturating_add(units(weight * c)));
@@ -113,6 +122,10 @@ impl<'a> EyeView<'a> {
         let rgba = self.sums.iter().flat_map(|sums| sums.iter().map(number)).collect();
         Picture { width: self.plan.raster.width, height: self.plan.raster.height, rgba }
     }
+}
+
+fn point_of_index(raster: &CanonicalRaster, index: u32) -> DVec2 {
+    raster.point(index % raster.width, index / raster.width)
 }
 
 /// A number in fixed-point units; NaN becomes 0 by the cast.
@@ -156,7 +169,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const RASTER: ScreenRaster = ScreenRaster { width: 8, height: 6, size_m: DVec2::new(1.6, 0.9) };
+    const RASTER: CanonicalRaster = CanonicalRaster { width: 8, height: 6, size_m: DVec2::new(1.6, 0.9) };
 
     fn image(projector: u32, colour: impl Fn(u32, u32) -> f32) -> ProjectorImage {
         let pixels = (0..6).flat_map(|y| (0..8).map(move |x| (x, y)));

@@ -13,7 +13,7 @@ pub use atomic::{can_write_into, write_atomically};
 pub use contact_sheet::ContactSheet;
 pub use error::OutputError;
 pub use exr::write_exr;
-pub use eye::{EyePlan, EyeView, ScreenRaster};
+pub use eye::{EyePlan, EyeView};
 pub use picture::{Picture, PictureRef};
 pub use png::{encode_png, write_png};
 pub use srgb::srgb_code;

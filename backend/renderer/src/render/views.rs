@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use bricks::OctreeShape;
-use display_config::Display;
+use display_config::{CanonicalRaster, Display};
 use protocol::FrameState;
 use shaders::twin::{Placement, ProjectorRays, SceneNumbers};
 
@@ -21,7 +21,8 @@ pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &Octre
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),
         finest_depth: shape.finest_depth(),
-        resolution: (display.pixel_size_m, 2.0 * (0.5 * display.angular_accuracy).tan()),
+        voxel_m: frame.voxel_m(),
+        resolution: display.resolution(),
     };
     SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality).rounded()
 }
@@ -35,12 +36,13 @@ pub(super) fn views(
     projectors: &[u32],
     frame: &FrameState,
 ) -> Result<Vec<ProjectorView>, RenderError> {
+    let canonical = CanonicalRaster::of(display);
     let view = |&projector: &u32| {
         let found = &display.projectors[projector as usize];
         let law = display
             .beam_law(projector as usize, frame.observer_in_display, frame.eta)
             .map_err(|error| RenderError::Ray { projector: found.name.clone(), why: error.to_string() })?;
-        Ok(ProjectorView { projector, rays: ProjectorRays::new(&found.raster, &law).rounded() })
+        Ok(ProjectorView { projector, rays: ProjectorRays::new(&canonical, found, &law).rounded() })
     };
     projectors.iter().map(view).collect()
 }

@@ -1,10 +1,17 @@
 //! The bands and enhancers in a scene file.
 
+<<<<<<< engine
 use crate::scene::error::Checked;
 use crate::scene::file::{BandTable, EnhancerKind, EnhancerTable, Limits, Number, Triple};
+=======
+use super::Checked;
+use crate::scene::file::{BandTable, EnhancerTable, Limits, Number, Triple};
+>>>>>>> FETCH_HEAD
 use crate::scene::text::SceneText;
 use crate::scene::{Anchor, Band, SceneEnhancer};
-use ::optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid};
+use ::optics::{
+    BandPicker, ClipPlane, Enhancer, EnhancerKind, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
+};
 use glam::DVec3;
 use std::ops::Range;
 use toml::Spanned;
@@ -25,6 +32,7 @@ const RADIUS_M: f64 = 0.1;
 const AWAY: f64 = 1.0;
 const TOWARD: f64 = 0.1;
 
+<<<<<<< engine
 impl EnhancerKind {
     fn name(self) -> &'static str {
         match self {
@@ -47,6 +55,9 @@ impl EnhancerKind {
 }
 
 /// Keys that a tool overrides for an enhancer that it carries.
+=======
+/// Keys that say what the tool says of an enhancer that it carries.
+>>>>>>> FETCH_HEAD
 const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];
 
 type Key = (&'static str, Range<usize>);

@@ -1,21 +1,78 @@
-//! What both forms of Maximum Importance Difference Accumulation share.
+//! Maximum Importance Difference Accumulation (LFD eq. 3): what its forms share.
 
-use super::Sample;
+use super::{Accumulated, Composite, Light, Sample};
 use crate::twin::importance::importance_between;
 use crate::twin::tables::{Located, optics_between};
 use crate::twin::{Casting, Real};
+use std::marker::PhantomData;
 
-/// What a segment between two scalars shows.
-#[inline(always)]
-pub(super) fn sample_between<F: Real>(
-    casting: &Casting<F>,
-    [a, b]: [&Located<F>; 2],
-    (s0, s1): (F, F),
-) -> Sample<F> {
-    Sample {
-        k: optics_between(&casting.tables.optics, a, b),
-        lit: F::ONE,
-        brightness: F::ONE,
-        importance: importance_between(&casting.tables.importance, &casting.tables.importance_most, s0, s1),
+/// Accumulation in one of its forms.
+pub struct Mimda<M>(PhantomData<M>);
+
+/// A form of the equation. Twins of `wgsl/composite/mimda_*.wgsl`.
+pub trait Form {
+    /// Whether the parts of a step are composited among themselves first.
+    const ONCE_PER_STEP: bool;
+
+    /// β: what a rise of the largest importance from `largest` to `importance` keeps of what lies before it.
+    fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F;
+
+    /// A segment's light, behind what is in front.
+    fn composite<F: Real>(
+        gamma: F,
+        front: Accumulated<F>,
+        light: Light<F>,
+        sample: &Sample<F>,
+    ) -> Accumulated<F>;
+
+    /// Parts of each step of a pair, by what a rise of importance within reach may have erased unseen.
+    fn parts_of_rise<F: Real>(casting: &Casting<F>, front: Accumulated<F>, reach: &Sample<F>) -> F;
+}
+
+impl<M: Form> Composite for Mimda<M> {
+    const READS_IMPORTANCE: bool = true;
+    const ONCE_PER_STEP: bool = M::ONCE_PER_STEP;
+
+    #[inline(always)]
+    fn sample_between<F: Real>(
+        casting: &Casting<F>,
+        [a, b]: [&Located<F>; 2],
+        (s0, s1): (F, F),
+    ) -> Sample<F> {
+        let tables = casting.tables;
+        Sample {
+            k: optics_between(&tables.optics, a, b),
+            lit: F::ONE,
+            brightness: F::ONE,
+            importance: importance_between(&tables.importance, &tables.importance_most, s0, s1),
+        }
+    }
+
+    /// Importance acts whatever the extinction: no segment is clear.
+    #[inline(always)]
+    fn is_clear<F: Real>(_: F) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn composite<F: Real>(
+        casting: &Casting<F>,
+        front: Accumulated<F>,
+        light: Light<F>,
+        sample: &Sample<F>,
+    ) -> Accumulated<F> {
+        M::composite(casting.scene.gamma, front, light, sample)
+    }
+
+    #[inline(always)]
+    fn parts_of_rise<F: Real>(casting: &Casting<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
+        M::parts_of_rise(casting, front, reach)
+    }
+
+    /// When the largest importance is yet to come.
+    #[inline(always)]
+    fn still_to_come<F: Real>(casting: &Casting<F>, front: Accumulated<F>) -> F {
+        let scene = casting.scene;
+        F::ONE - M::kept(scene.gamma, front.importance, scene.largest_importance) * front.alpha
     }
 }

@@ -1,12 +1,13 @@
 //! Maximum Importance Difference Accumulation in the form that telescopes: β = (1 − γ ι) / (1 − γ ι_max).
 
-use super::{Accumulated, Composite, Light, Sample, mimda};
-use crate::twin::tables::Located;
+use super::mimda::Form;
+use super::{Accumulated, Light, Sample};
 use crate::twin::{Casting, Real, importance::RISE, refine::MOST_PARTS};
 
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
-pub struct MimdaConsistent;
+pub struct Consistent;
 
+<<<<<<< engine
 /// β: what a rise of the largest importance keeps of what lies in front of it.
 #[inline(always)]
 fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
@@ -19,25 +20,24 @@ fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
 
 impl Composite for MimdaConsistent {
     const READS_IMPORTANCE: bool = true;
+=======
+impl Form for Consistent {
+    // The product of the parts' β telescopes as they are.
+>>>>>>> FETCH_HEAD
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]
-    fn sample_between<F: Real>(
-        casting: &Casting<F>,
-        located: [&Located<F>; 2],
-        scalars: (F, F),
-    ) -> Sample<F> {
-        mimda::sample_between(casting, located, scalars)
-    }
-
-    #[inline(always)]
-    fn is_clear<F: Real>(_: F) -> bool {
-        false
+    fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
+        let before = F::ONE - gamma * largest;
+        if importance <= largest || before <= F::ZERO {
+            return F::ONE;
+        }
+        (F::ONE - gamma * importance) / before
     }
 
     #[inline(always)]
     fn composite<F: Real>(
-        casting: &Casting<F>,
+        gamma: F,
         front: Accumulated<F>,
         light: Light<F>,
         sample: &Sample<F>,
@@ -45,28 +45,29 @@ impl Composite for MimdaConsistent {
         // The rise up to the segment's mean importance lies before its light, the rest of the rise after it.
         let middle = front.importance.most(sample.importance.mean);
         let end = middle.most(sample.importance.most);
-        let beta = kept(casting.scene.gamma, front.importance, middle);
-        let rest = kept(casting.scene.gamma, middle, end);
+        let beta = Self::kept(gamma, front.importance, middle);
+        let rest = Self::kept(gamma, middle, end);
         let all = front.then(beta, light, end);
         Accumulated { rgb: all.rgb * rest, alpha: all.alpha * rest, importance: end }
     }
 
+    // The error falls with the parts, not with their square.
     #[inline(always)]
     fn parts_of_rise<F: Real>(casting: &Casting<F>, front: Accumulated<F>, reach: &Sample<F>) -> F {
-        let beyond = kept(casting.scene.gamma, front.importance, reach.importance.most);
-        let unseen = (F::ONE - beyond) * front.alpha * (F::of(RISE) / casting.scene.tolerance);
+        let scene = casting.scene;
+        let beyond = Self::kept(scene.gamma, front.importance, reach.importance.most);
+        let unseen = (F::ONE - beyond) * front.alpha * (F::of(RISE) / scene.tolerance);
         unseen.ceil().most(F::ONE).least(F::of(MOST_PARTS))
-    }
-
-    #[inline(always)]
-    fn still_to_come<F: Real>(casting: &Casting<F>, front: Accumulated<F>) -> F {
-        F::ONE - kept(casting.scene.gamma, front.importance, casting.scene.largest_importance) * front.alpha
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::kept;
+    use super::{Consistent, Form};
+
+    fn kept(gamma: f64, largest: f64, importance: f64) -> f64 {
+        Consistent::kept(gamma, largest, importance)
+    }
 
     #[test]
     fn rises_telescope_whatever_the_steps() {

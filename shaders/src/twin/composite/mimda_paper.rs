@@ -1,12 +1,13 @@
 //! Maximum Importance Difference Accumulation as published (LFD eq. 3): β = 1 − γ max(ι − ι_max, 0).
 
-use super::{Accumulated, Composite, Light, Sample, mimda};
-use crate::twin::tables::Located;
+use super::mimda::Form;
+use super::{Accumulated, Light, Sample};
 use crate::twin::{Casting, Real};
 
 /// Twin of `wgsl/composite/mimda_paper.wgsl`.
-pub struct MimdaPaper;
+pub struct Paper;
 
+<<<<<<< engine
 /// β: what a rise of the largest importance keeps of what lies in front of it.
 #[inline(always)]
 fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
@@ -15,41 +16,32 @@ fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
 
 impl Composite for MimdaPaper {
     const READS_IMPORTANCE: bool = true;
+=======
+impl Form for Paper {
+    // The equation is one of steps, and its picture depends on them: it is applied once per step.
+>>>>>>> FETCH_HEAD
     const ONCE_PER_STEP: bool = true;
 
     #[inline(always)]
-    fn sample_between<F: Real>(
-        casting: &Casting<F>,
-        located: [&Located<F>; 2],
-        scalars: (F, F),
-    ) -> Sample<F> {
-        mimda::sample_between(casting, located, scalars)
-    }
-
-    #[inline(always)]
-    fn is_clear<F: Real>(_: F) -> bool {
-        false
+    fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
+        F::ONE - gamma * (importance - largest).most(F::ZERO)
     }
 
     #[inline(always)]
     fn composite<F: Real>(
-        casting: &Casting<F>,
+        gamma: F,
         front: Accumulated<F>,
         light: Light<F>,
         sample: &Sample<F>,
     ) -> Accumulated<F> {
         let importance = sample.importance.mean;
-        let beta = kept(casting.scene.gamma, front.importance, importance);
+        let beta = Self::kept(gamma, front.importance, importance);
         front.then(beta, light, front.importance.most(importance))
     }
 
+    // Parts do not change the rise here.
     #[inline(always)]
     fn parts_of_rise<F: Real>(_: &Casting<F>, _: Accumulated<F>, _: &Sample<F>) -> F {
         F::ONE
-    }
-
-    #[inline(always)]
-    fn still_to_come<F: Real>(casting: &Casting<F>, front: Accumulated<F>) -> F {
-        F::ONE - kept(casting.scene.gamma, front.importance, casting.scene.largest_importance) * front.alpha
     }
 }

@@ -5,8 +5,9 @@ mod mimda_consistent;
 mod mimda_paper;
 mod over;
 
-pub use mimda_consistent::MimdaConsistent;
-pub use mimda_paper::MimdaPaper;
+pub use mimda::{Form, Mimda};
+pub use mimda_consistent::Consistent;
+pub use mimda_paper::Paper;
 pub use over::Over;
 
 use super::importance::Importance;

@@ -1,29 +1,13 @@
 //! The colours of debug views: black, blue, magenta, orange, yellow, white.
 
 use crate::twin::{Real, vector::Vec3};
-
-/// The colours between which the map goes straight on in linear RGB, at equal distances. They are of our own choosing:
-/// the CIE lightness L* of each is 22 above that of the one before (0, 22, 44, 66, 88, 100), so that what is more is
-/// lighter, in print without colour, too; and the hue goes from blue over red to yellow, the way of things that glow.
-pub const KNOTS: [[f64; 3]; 6] = [
-    [0.0, 0.0, 0.0],
-    [0.0, 0.005, 0.437],
-    [0.46, 0.015, 0.414],
-    [1.0, 0.18, 0.17],
-    [1.0, 0.71, 0.005],
-    [1.0, 1.0, 1.0],
-];
-
-/// From one knot to the next.
-pub fn ramps() -> [[f64; 3]; 5] {
-    std::array::from_fn(|i| std::array::from_fn(|c| KNOTS[i + 1][c] - KNOTS[i][c]))
-}
+use optics::heat_ramps;
 
 /// The colour at x in [0, 1], linear RGB: five ramps, one after the other.
 pub fn heat<F: Real>(x: F) -> Vec3<F> {
     let u = F::of(5.0) * x;
     let mut colour = Vec3::ZERO;
-    for (ramp, start) in ramps().into_iter().zip(0..) {
+    for (ramp, start) in heat_ramps().into_iter().zip(0..) {
         let part = (u - F::of_u32(start)).most(F::ZERO).least(F::ONE);
         colour = colour + Vec3(ramp.map(F::of)) * part;
     }

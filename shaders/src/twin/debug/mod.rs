@@ -4,7 +4,7 @@ mod heat;
 mod node;
 mod samples;
 
-pub use heat::{heat, ramps};
+pub use heat::heat;
 
 use super::composite::Light;
 use super::kernel::Kernel;

@@ -1,16 +1,23 @@
 //! View-dependent band picker (LFD section 4).
 
 use super::band::{band_between, band_most};
-use super::chain::{Hooks, scaled, xyz};
-use super::{Constants, LinkState, Place};
+use super::hooks::{Hooks, LinkState, Place};
+use super::link::{Constants, UNUSED, corners, scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::importance::Importance;
 use crate::twin::{Real, vector::Vec3};
-
-/// Twin of `wgsl/enhance/band_picker.wgsl`.
-pub struct BandPicker;
+use optics::BandPicker;
 
 impl Hooks for BandPicker {
+    fn constants(&self) -> Constants<f64> {
+        [
+            corners(&self.band),
+            with(self.axis_in_display, self.strength),
+            [self.facing.low, self.facing.high, 0.0, 0.0],
+            UNUSED,
+        ]
+    }
+
     /// x: weight of the change.
     #[inline(always)]
     fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {

@@ -1,14 +1,14 @@
 //! The chain of enhancers along one ray: each hook calls the links in order.
 
-use super::{BandPicker, ClipPlane, Constants, LayerOpacity, Probe};
-use crate::compose::EnhancerKind;
-use crate::twin::composite::{Accumulated, Composite, Sample};
+use super::hooks::{self, LinkState, Place};
+use crate::twin::composite::{Composite, Sample};
 use crate::twin::gradient::Gradients;
 use crate::twin::kernel::Kernel;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Casting, Real, vector::Vec3};
 use optics::MOST_ENHANCERS;
 
+<<<<<<< engine
 /// An enhancer's state along one ray.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkState<F> {
@@ -81,6 +81,8 @@ macro_rules! hook {
     };
 }
 
+=======
+>>>>>>> FETCH_HEAD
 /// The chain of one ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<F> {
@@ -103,7 +105,7 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     fn start_links(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            self.links[i].weights = hook!(kind, start(&casting.scene.links[i], self.view));
+            self.links[i].weights = hooks::start(kind, &casting.scene.links[i], self.view);
         }
         self.follow(casting, ray);
     }
@@ -112,7 +114,7 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     pub fn follow(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            self.links[i].breaks = hook!(kind, breaks(&casting.scene.links[i], self.view, ray));
+            self.links[i].breaks = hooks::breaks(kind, &casting.scene.links[i], self.view, ray);
         }
     }
 
@@ -134,7 +136,7 @@ impl<F: Real> Chain<F> {
         let mut sum = F::ZERO;
         if K::IS_FULL {
             for (i, kind) in casting.needs.chain.kinds().enumerate() {
-                sum = sum + hook!(kind, spread(&casting.scene.links[i], &self.links[i], t));
+                sum = sum + hooks::spread(kind, &casting.scene.links[i], &self.links[i], t);
             }
         }
         sum
@@ -163,31 +165,8 @@ impl<F: Real> Chain<F> {
     #[inline(never)]
     fn enhance_at(&self, casting: &Casting<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            sample = hook!(kind, at(&casting.scene.links[i], &self.links[i], sample, place));
+            sample = hooks::at(kind, &casting.scene.links[i], &self.links[i], sample, place);
         }
         sample
     }
-
-    /// What the links make of a ray at its end.
-    #[inline(always)]
-    pub fn end<K: Kernel>(&self, casting: &Casting<F>, mut front: Accumulated<F>) -> Accumulated<F> {
-        if K::IS_FULL {
-            for (i, kind) in casting.needs.chain.kinds().enumerate() {
-                front = hook!(kind, end(&casting.scene.links[i], &self.links[i], front));
-            }
-        }
-        front
-    }
-}
-
-/// k and τ of a sample, scaled.
-#[inline(always)]
-pub(super) fn scaled<F: Real>(sample: Sample<F>, factor: F) -> Sample<F> {
-    Sample { k: sample.k.map(|k| k * factor), ..sample }
-}
-
-/// x, y, z of a vector of constants.
-#[inline(always)]
-pub(super) fn xyz<F: Real>(vector: &[F; 4]) -> Vec3<F> {
-    Vec3([vector[0], vector[1], vector[2]])
 }

@@ -1,15 +1,23 @@
 //! Clip plane with view-dependent context (LFD section 4).
 
-use super::chain::{Hooks, scaled, xyz};
-use super::{Constants, LinkState, Place};
+use super::hooks::{Hooks, LinkState, Place};
+use super::link::{Constants, UNUSED, scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Real, vector::Vec3};
-
-/// Twin of `wgsl/enhance/clip_plane.wgsl`.
-pub struct ClipPlane;
+use optics::ClipPlane;
 
 impl Hooks for ClipPlane {
+    fn constants(&self) -> Constants<f64> {
+        let offset = self.normal_in_display.dot(self.point_in_display);
+        [
+            with(self.normal_in_display, offset),
+            [self.context.low, self.context.high, self.thickness_m, self.boost],
+            [self.strength, 0.0, 0.0, 0.0],
+            UNUSED,
+        ]
+    }
+
     /// x: factor of what is cut away.
     #[inline(always)]
     fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {

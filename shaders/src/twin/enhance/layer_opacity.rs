@@ -1,15 +1,22 @@
 //! Layer opacity by view direction (LFD section 4).
 
 use super::band::band_between;
-use super::chain::{Hooks, scaled, xyz};
-use super::{Constants, LinkState, Place};
+use super::hooks::{Hooks, LinkState, Place};
+use super::link::{Constants, UNUSED, corners, scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::{Real, vector::Vec3};
-
-/// Twin of `wgsl/enhance/layer_opacity.wgsl`.
-pub struct LayerOpacity;
+use optics::LayerOpacity;
 
 impl Hooks for LayerOpacity {
+    fn constants(&self) -> Constants<f64> {
+        [
+            corners(&self.band),
+            with(self.axis_in_display, 0.0),
+            [self.facing.low, self.facing.high, self.away, self.toward],
+            UNUSED,
+        ]
+    }
+
     /// x: μ − 1.
     #[inline(always)]
     fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {

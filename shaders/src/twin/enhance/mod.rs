@@ -4,13 +4,11 @@ mod band;
 mod band_picker;
 mod chain;
 mod clip_plane;
+mod hooks;
 mod layer_opacity;
 mod link;
 mod probe;
 
-pub use band_picker::BandPicker;
-pub use chain::{Chain, LinkState, Place};
-pub use clip_plane::ClipPlane;
-pub use layer_opacity::LayerOpacity;
-pub use link::{Constants, constants};
-pub use probe::Probe;
+pub use chain::Chain;
+pub use hooks::{LinkState, Place, constants};
+pub use link::Constants;

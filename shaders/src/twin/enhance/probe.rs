@@ -1,16 +1,23 @@
 //! Context-preserving probe (LFD eq. 4 and 5).
 
-use super::chain::{Hooks, scaled, xyz};
-use super::{Constants, LinkState, Place};
+use super::hooks::{Hooks, LinkState, Place};
+use super::link::{Constants, scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::gradient::LEAST_SQUARE;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Real, vector::Vec3};
-
-/// Twin of `wgsl/enhance/probe.wgsl`.
-pub struct Probe;
+use optics::Probe;
 
 impl Hooks for Probe {
+    fn constants(&self) -> Constants<f64> {
+        [
+            with(self.centre_in_display, self.radius_m),
+            with(self.axis_in_display, self.strength),
+            [self.facing.low, self.facing.high, self.gradient_most, 0.0],
+            [self.edges.low, self.edges.high, 0.0, 0.0],
+        ]
+    }
+
     /// x: ω_a.
     #[inline(always)]
     fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {

@@ -2,15 +2,14 @@
 
 use crate::twin::sample::sample_brick;
 use crate::twin::traverse::{node_low, voxel_edge};
-use crate::twin::volume::BRICK_VOXELS;
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
-use layout::NodeRecord;
+use layout::{NodeRecord, brick};
 
 /// See `Level` in `wgsl/levels/level.wgsl`.
 #[derive(Clone, Copy)]
 pub struct Level<'a, F> {
     /// The brick's samples.
-    pub codes: &'a [u16; BRICK_VOXELS],
+    pub codes: &'a [u16; brick::VOXELS],
     base: Vec3<F>,
     /// Texels per metre of t.
     pub slope: Vec3<F>,
@@ -22,7 +21,7 @@ pub struct Level<'a, F> {
 
 impl<'a, F: Real> Level<'a, F> {
     /// Texels of overlap on each side of a brick.
-    pub(super) const OVERLAP: f64 = 2.0;
+    pub(super) const OVERLAP: f64 = brick::OVERLAP as f64;
 
     /// Of a node with a brick.
     #[inline(always)]

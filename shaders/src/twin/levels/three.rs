@@ -2,7 +2,7 @@
 //! one level and with two: it then reads no ancestor, or only the parent.
 
 use super::{Level, weights::Weights};
-use crate::compose::Levels;
+use crate::needs::Levels;
 use crate::twin::kernel::Kernel;
 use crate::twin::traverse::voxel_edge;
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};

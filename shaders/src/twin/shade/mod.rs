@@ -11,7 +11,7 @@ pub use plain::Plain;
 
 use super::gradient::Gradients;
 use super::{Casting, Real, ray::Ray};
-use crate::compose::{Needs, Shading};
+use crate::needs::{Needs, Shading};
 
 /// A module for the shading slot.
 pub trait Shade {

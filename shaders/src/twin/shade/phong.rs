@@ -2,7 +2,7 @@
 
 use super::law::lit_by;
 use super::{Lighting, Shade};
-use crate::compose::Needs;
+use crate::needs::Needs;
 use crate::twin::gradient::{Gradients, LEAST_SQUARE};
 use crate::twin::{Casting, Real, ray::Ray};
 

@@ -1,7 +1,7 @@
 //! No shading: a segment shows its own colour.
 
 use super::{Lighting, Shade};
-use crate::compose::Needs;
+use crate::needs::Needs;
 use crate::twin::gradient::Gradients;
 use crate::twin::{Casting, Real, ray::Ray};
 

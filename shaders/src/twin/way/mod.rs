@@ -5,7 +5,7 @@ mod straight;
 
 use super::composite::Accumulated;
 use super::{Cast, Casting, Real, kernel::Kernel, ray::Ray};
-use crate::compose::Way;
+use crate::needs::Way;
 
 /// A ray from the eye to its colour.
 #[inline(always)]

@@ -280,5 +280,5 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, eye_ray: &Ray<F
             at = casting.leaf_beyond(node, exit.axis, point, &bent.ray);
         }
     }
-    cast.with_colours(chain.end::<K>(casting, front))
+    cast.with_colours(front)
 }

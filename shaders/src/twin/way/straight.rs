@@ -128,5 +128,5 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -
         t = t_out;
         at = casting.leaf_beyond(node, exit.axis, ray.point(t), ray);
     }
-    cast.with_colours(chain.end::<K>(casting, front))
+    cast.with_colours(front)
 }

@@ -9,8 +9,13 @@ use super::readback::Readback;
 use super::storage::{Storage, uniform};
 use super::view::ViewBuffers;
 use crate::device::job::ViewJob;
+<<<<<<< engine
 use crate::device::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
+=======
+use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
+use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock, binding};
+>>>>>>> FETCH_HEAD
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
@@ -127,12 +132,15 @@ impl GpuDevice {
         }
     }
 
+<<<<<<< engine
     /// Runs this kernel instead of those that are composed; see [`crate::Renderer::substitute_kernel`].
     pub(in crate::device) fn substitute_kernel(&mut self, wgsl: &str) {
         let _turn = self.context.turn();
         self.kernels.substitute(&self.context, wgsl);
     }
 
+=======
+>>>>>>> FETCH_HEAD
     pub(in crate::device) fn slots(&self) -> u32 {
         self.atlas.count()
     }
@@ -319,36 +327,39 @@ impl GpuDevice {
         feedback: &Storage,
     ) -> wgpu::BindGroup {
         let buffers = [
-            (1, &self.nodes),
-            (2, &self.optics),
-            (3, &view.tiles),
-            (4, &view.pixels),
-            (5, &view.counts),
-            (6, feedback),
-            (10, &self.occupied),
-            (11, &self.cells),
+            (binding::NODES, &self.nodes),
+            (binding::OPTICS, &self.optics),
+            (binding::TILES, &view.tiles),
+            (binding::PIXELS, &view.pixels),
+            (binding::COUNTS, &view.counts),
+            (binding::FEEDBACK, feedback),
+            (binding::OCCUPIED, &self.occupied),
+            (binding::CELLS, &self.cells),
         ];
         let mut entries: Vec<wgpu::BindGroupEntry> = buffers
             .into_iter()
             .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
             .collect();
-        for (binding, block) in [(0, &self.scene), (16, &view.block)] {
+        for (binding, block) in [(binding::SCENE, &self.scene), (binding::VIEW, &view.block)] {
             entries.push(wgpu::BindGroupEntry { binding, resource: block.as_entire_binding() });
         }
         let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
-        entries.push(wgpu::BindGroupEntry { binding: 7, resource: atlas });
+        entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
         if key.filter == Filter::Hardware {
             let sampler = wgpu::BindingResource::Sampler(&self.sampler);
-            entries.push(wgpu::BindGroupEntry { binding: 8, resource: sampler });
+            entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });
         }
         if !key.needs.chain.is_empty() {
-            entries.push(wgpu::BindGroupEntry { binding: 12, resource: self.links.as_entire_binding() });
+            entries.push(wgpu::BindGroupEntry {
+                binding: binding::LINKS,
+                resource: self.links.as_entire_binding(),
+            });
         }
         let tables = [
-            (9, &self.importance, key.needs.reads_importance()),
-            (15, &self.importance_most, key.needs.reads_importance()),
-            (13, &self.index, key.needs.way == Way::Refracted),
-            (14, &self.materials, key.needs.has_materials),
+            (binding::IMPORTANCE, &self.importance, key.needs.reads_importance()),
+            (binding::IMPORTANCE_MOST, &self.importance_most, key.needs.reads_importance()),
+            (binding::INDEX, &self.index, key.needs.way == Way::Refracted),
+            (binding::MATERIALS, &self.materials, key.needs.has_materials),
         ];
         for (binding, storage, _) in tables.into_iter().filter(|&(.., is_read)| is_read) {
             entries.push(wgpu::BindGroupEntry { binding, resource: storage.binding() });

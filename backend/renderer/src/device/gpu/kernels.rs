@@ -9,24 +9,23 @@ use std::collections::HashMap;
 #[derive(Debug, Default)]
 pub(super) struct Kernels {
     compiled: HashMap<KernelKey, wgpu::ComputePipeline>,
-    substitute: Option<wgpu::ComputePipeline>,
 }
 
 impl Kernels {
     /// The kernel for a need.
     pub(super) fn get(&mut self, context: &Context, key: KernelKey) -> &wgpu::ComputePipeline {
-        if let Some(substitute) = &self.substitute {
-            return substitute;
-        }
         self.compiled
             .entry(key)
             .or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
     }
+<<<<<<< engine
 
     /// From now on this kernel runs, whatever a frame needs: for measuring what the composed ones cost.
     pub(super) fn substitute(&mut self, context: &Context, wgsl: &str) {
         self.substitute = Some(compile(context, "substitute", wgsl, "cast_tile"));
     }
+=======
+>>>>>>> FETCH_HEAD
 }
 
 /// Compiles one entry point; its bind group layout follows from what it reads.

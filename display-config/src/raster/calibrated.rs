@@ -1,4 +1,4 @@
-//! A projector's raster: its pixels on the screen.
+//! A projector's own raster: its pixels on the screen, as calibrated.
 
 use crate::Homography;
 use glam::DVec2;

@@ -1,8 +1,10 @@
-//! What a scene needs of a kernel.
+//! What a scene needs of a kernel: the words in which kernels are composed and twins are picked.
 
-use super::Chain;
-use optics::DebugView;
-use optics::{Detail, Light, MimdaForm, Optics, Quality};
+mod chain;
+
+pub use chain::Chain;
+
+use optics::{DebugView, Detail, Light, MimdaForm, Optics, Quality};
 
 /// Whether samples are filtered over levels of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

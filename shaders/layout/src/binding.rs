@@ -1,0 +1,60 @@
+//! The numbers under which kernels find what they read and write; all are in group 0.
+
+/// Each number as a constant, and all of them as a table.
+macro_rules! bindings {
+    ($($(#[$doc:meta])* $name:ident = $number:literal;)+) => {
+        $($(#[$doc])* pub const $name: u32 = $number;)+
+        /// Every binding, with the name of its constant.
+        pub const ALL: &[(&str, u32)] = &[$((stringify!($name), $name)),+];
+    };
+}
+
+bindings! {
+    /// The uniform [`SceneBlock`](crate::SceneBlock).
+    SCENE = 0;
+    /// The uniform [`ViewBlock`](crate::ViewBlock).
+    VIEW = 1;
+    /// The uniform array of [`Link`](crate::Link)s.
+    LINKS = 2;
+    /// The [`NodeRecord`](crate::NodeRecord)s, root first.
+    NODES = 3;
+    /// The visible cells, slot by slot: see [`CELL_WORDS`](crate::CELL_WORDS).
+    CELLS = 4;
+    /// The texture of bricks.
+    ATLAS = 5;
+    /// Its trilinear sampler.
+    SAMPLER = 6;
+    /// The table of [`OpticsEntry`](crate::OpticsEntry)s.
+    OPTICS = 7;
+    /// How many table cells below each node change a picture.
+    OCCUPIED = 8;
+    /// The table of [`ImportanceEntry`](crate::ImportanceEntry)s.
+    IMPORTANCE = 9;
+    /// The largest importances of spans of nodes.
+    IMPORTANCE_MOST = 10;
+    /// The table of refraction indices.
+    INDEX = 11;
+    /// The table of materials.
+    MATERIALS = 12;
+    /// The numbers of the tiles to cast.
+    TILES = 13;
+    /// The colours, pixel by pixel.
+    PIXELS = 14;
+    /// The samples taken, pixel by pixel.
+    COUNTS = 15;
+    /// The [`FeedbackEntry`](crate::FeedbackEntry)s, node by node.
+    FEEDBACK = 16;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ALL;
+
+    #[test]
+    fn no_number_is_used_twice() {
+        for (index, (name, number)) in ALL.iter().enumerate() {
+            let twin = ALL[..index].iter().find(|(_, other)| other == number);
+            assert_eq!(twin, None, "{name}");
+        }
+    }
+}

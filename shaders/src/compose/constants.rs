@@ -1,0 +1,43 @@
+//! The constants that host and kernels share, as WGSL.
+
+use layout::{
+    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, TILE_EDGE, binding, brick,
+};
+use optics::MOST_ENHANCERS;
+
+/// A declaration each: bindings, the geometry of a brick, the codes of feedback.
+pub(super) fn wgsl() -> String {
+    let mut text = String::from("// Written by the composer, from the crate layout.\n\n");
+    let mut declare = |name: &str, kind: &str, value: String| {
+        text += &format!("const {name}: {kind} = {value};\n");
+    };
+    for (name, number) in binding::ALL {
+        declare(&format!("BINDING_{name}"), "u32", format!("{number}u"));
+    }
+    let counts = [
+        ("BRICK_EDGE", brick::EDGE),
+        ("CELLS_ACROSS", brick::CELLS_ACROSS),
+        ("CELL_WORDS", brick::CELL_WORDS),
+        ("MOST_LINKS", MOST_ENHANCERS),
+    ];
+    for (name, count) in counts {
+        declare(name, "u32", format!("{count}u"));
+    }
+    for (name, code) in
+        [("NO_NODE", NO_NODE), ("NO_SLOT", NO_SLOT), ("MISSING", MISSING), ("TILE_EDGE", TILE_EDGE)]
+    {
+        declare(name, "u32", format!("{code}u"));
+    }
+    let lengths = [
+        ("OVERLAP", brick::OVERLAP as f32),
+        ("OWN_EDGE", brick::OWN_EDGE as f32),
+        ("CELL_EDGE", brick::CELL_EDGE as f32),
+        ("CODE_OF_ZERO", CODE_OF_ZERO),
+        ("CODES_PER_LEVEL", CODES_PER_LEVEL),
+        ("MOST_DEFICIT", MOST_DEFICIT),
+    ];
+    for (name, length) in lengths {
+        declare(name, "f32", format!("{length:?}"));
+    }
+    text
+}
