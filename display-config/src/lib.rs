@@ -12,11 +12,8 @@ mod preset;
 mod projector;
 mod raster;
 mod ray;
-<<<<<<< engine
-mod wiring;
-=======
 mod resolution;
->>>>>>> FETCH_HEAD
+mod wiring;
 mod zone;
 
 pub use display::Display;
@@ -27,8 +24,5 @@ pub use preset::presets;
 pub use projector::Projector;
 pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, Raster, RasterInverse, Warp};
 pub use ray::{BeamLaw, Ray};
-<<<<<<< engine
-pub use wiring::{Origin, Share, Wiring};
-=======
 pub use resolution::{Resolution, longest_voxel_edge_m};
->>>>>>> FETCH_HEAD
+pub use wiring::{Origin, Share, Wiring};

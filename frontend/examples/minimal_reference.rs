@@ -1,8 +1,8 @@
 //! One pixel as the 64-bit reference sees it: `cargo run --release -p frontend --example minimal_reference`.
 
 use bricks::LodRule;
+use frontend::adapter;
 use frontend::scene::{Scene, VolumeFacts};
-use frontend::session;
 use reference::{Integrator, Reference};
 use std::error::Error;
 
@@ -11,8 +11,8 @@ const PROJECTOR: usize = 4;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::load("procedural:shells@64")?;
-    let display = session::load_display("desk8")?;
-    let volume = session::open_volume(&scene.volume_ref())?;
+    let display = adapter::load_display("desk8")?;
+    let volume = adapter::open_volume(&scene.volume_ref())?;
     let frame = scene.frame(0, &display, &VolumeFacts::of(volume.as_ref()))?;
 
     // The rule of detail says which levels the display asks for; the reference samples the very same ones.

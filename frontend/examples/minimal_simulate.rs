@@ -1,11 +1,11 @@
 //! From a scene to the pictures of a display's projectors: `cargo run --release -p frontend --example minimal_simulate -- DIR`.
 
 use frontend::FrontendError;
+use frontend::adapter::{self, BackendOptions, Backends};
 use frontend::progress::Progress;
 use frontend::scene::{Scene, VolumeFacts};
-use frontend::session::{self, Backends};
 use frontend::simulate::Job;
-use protocol::{DeviceChoice, FilterChoice, Setup};
+use protocol::{DeviceChoice, FilterChoice};
 use std::path::PathBuf;
 
 fn main() -> Result<(), FrontendError> {
@@ -13,24 +13,21 @@ fn main() -> Result<(), FrontendError> {
 
     // A scene is a volume, its place and its look: a TOML file, a store, or, as here, a built-in volume.
     let scene = Scene::load("procedural:shells@64")?;
-    let display = session::load_display("desk8")?;
+    let display = adapter::load_display("desk8")?;
     // Only an open volume knows its size and values, which placement and transfer functions depend on.
-    let volume = session::open_volume(&scene.volume_ref())?;
+    let volume = adapter::open_volume(&scene.volume_ref())?;
     let frame = scene.frame(0, &display, &VolumeFacts::of(volume.as_ref()))?;
 
     // One back-end in this process draws all projectors.
     let backends = Backends::connect(Some(1))?;
-    let setup = Setup {
-        display: display.clone(),
-        projectors: (0..display.projectors.len() as u32).collect(),
-        backend: 0,
-        volume: scene.volume_ref(),
+    let wiring = backends.wiring(&display)?;
+    let options = BackendOptions {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Auto,
         cache_bytes: 256 << 20,
-        trace: None,
+        traces: None,
     };
-    let (mut source, _) = backends.start(vec![setup])?;
+    let (mut source, _) = backends.start(&options, &scene.volume_ref(), &display, &wiring)?;
 
     // A job writes each picture as soon as it is final.
     let job = Job { display, frames: vec![frame], eyes: Vec::new(), out, exr: false };

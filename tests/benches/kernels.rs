@@ -127,36 +127,14 @@ fn devices() -> Vec<DeviceChoice> {
     draw::devices().into_iter().filter(|d| wanted.contains(&format!("{d:?}").to_lowercase())).collect()
 }
 
-<<<<<<< engine
-/// The composed kernel of a scene that needs nothing, against the one that was frozen.
-#[cfg(feature = "gpu")]
-fn unused(results: &mut Results, display: &Display) {
-    if !devices().contains(&DeviceChoice::Gpu) {
-        return;
-    }
-    head(results, "The composed kernel against one written without what it can do");
-    let with = draw::With { filter: FilterChoice::Hardware, ..draw::With::device(DeviceChoice::Gpu) };
-    for scene in all(display) {
-        // A scene whose levels blend needs something that the frozen kernel does not know.
-        let quality = Quality { blended: false, ..scene.frame.quality };
-        let frame = FrameState { light: None, quality, ..scene.frame.clone() };
-        let mut frozen = Contender::new(display, &scene, frame.clone(), with);
-        assert!(frozen.renderer.substitute_kernel(FROZEN), "a GPU runs WGSL");
-        frozen.draw();
-        let mut composed = Contender::new(display, &scene, frame, with);
-        compare(results, &format!("{}, plain", scene.name), &mut frozen, &mut composed);
-    }
-}
-
-#[cfg(not(feature = "gpu"))]
-fn unused(_: &mut Results, _: &Display) {
-    println!("SKIPPED: a build without the gpu feature runs no WGSL");
-=======
 /// The kernel that is composed for what a scene uses, against the same picture by one that has all the rest, too: each
 /// technique is on, at numbers that change nothing.
-fn unused(display: &Display) {
+fn unused(results: &mut Results, display: &Display) {
     for device in devices() {
-        head(&format!("A kernel of what a scene uses against one that leaves nothing out, {device:?}"));
+        head(
+            results,
+            &format!("A kernel of what a scene uses against one that leaves nothing out, {device:?}"),
+        );
         let with = draw::With::device(device);
         for scene in all(display) {
             // Weights of blending levels would be looked at by both.
@@ -164,7 +142,7 @@ fn unused(display: &Display) {
             let frame = FrameState { light: Some(Light::default()), quality, ..scene.frame.clone() };
             let mut lean = Contender::new(display, &scene, frame.clone(), with);
             let mut full = Contender::new(display, &scene, nothing_left_out(frame), with);
-            compare(&format!("{}, lit", scene.name), &mut lean, &mut full);
+            compare(results, &format!("{}, lit", scene.name), &mut lean, &mut full);
         }
     }
 }
@@ -186,7 +164,6 @@ fn nothing_left_out(mut frame: FrameState) -> FrameState {
 
 fn constant<T: CurveValue>(value: T) -> Curve<T> {
     Curve::new(vec![(0.0, value), (1.0, value)]).expect("two points that rise make a curve")
->>>>>>> FETCH_HEAD
 }
 
 /// Enhancers of full strength that leave the picture of anything near the screen as it is.

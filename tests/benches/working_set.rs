@@ -7,6 +7,7 @@
 use bricks::LodRule;
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
+use lightloom_tests::results::{Program, Results};
 use optics::{Curve, Optics};
 use renderer::working_set::{Feedback, IndexRules, Moment, Showing, Supply, WorkingSet, corner_weights};
 use std::time::Instant;

@@ -192,13 +192,14 @@ fn visibility(holo: &Display, subjects: &[Subject], device: DeviceChoice) -> Res
 }
 
 /// Section 6: the load of each back-end.
-fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) {
+fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("working_set"), "visibility", "back-ends");
     let wiring = holo.wiring(BACKENDS).expect("holo72 has 72 projectors");
-    let shares: Vec<_> = wiring.shares.into_iter().map(|share| share.projectors).collect();
-    println!("## Working sets of {BACKENDS} back-ends of holo72, two projectors each: {}\n", subject.name);
-    println!("Leaves that rays sampled, of a back-end's two views together, by raster:\n");
-    println!(
-        "| transfer function | back-end | 200 × 150 | 400 × 300 | 800 × 600 |\n| --- | ---: | ---: | ---: | ---: |"
+    let shares: Vec<Vec<u32>> = wiring.shares.into_iter().map(|share| share.projectors).collect();
+    results.line(format!("{BACKENDS} back-ends of holo72, two projectors each: {}\n", subject.name));
+    results.line("Leaves that rays sampled, of a back-end's two views together, by raster:\n");
+    results.line(
+        "| transfer function | back-end | 200 × 150 | 400 × 300 | 800 × 600 |\n| --- | ---: | ---: | ---: | ---: |",
     );
     for (opacity, factor) in &OPACITIES[..2] {
         for backend in CONVERGED {

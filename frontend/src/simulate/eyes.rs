@@ -1,12 +1,7 @@
 //! Eyes in front of the display, and what they see while pictures come.
 
 use crate::FrontendError;
-<<<<<<< engine
-use display_config::{Display, EyeModel};
-=======
-use crate::session::{eye_optics, pixel_from_screen};
-use display_config::{CanonicalRaster, Display};
->>>>>>> FETCH_HEAD
+use display_config::{CanonicalRaster, Display, EyeModel};
 use glam::DVec3;
 use protocol::ProjectorImage;
 use renderer::output::{EyePlan, EyeView, OutputError, Picture};
@@ -28,17 +23,11 @@ impl Eye {
     /// # Errors
     /// A place that is not in front of the screen.
     pub fn before(display: &Display, position_m: DVec3) -> Result<Self, FrontendError> {
-<<<<<<< engine
         let model = EyeModel::new(display, position_m).map_err(|e| FrontendError::Display(e.to_string()))?;
         let warning = model.outside_zone();
         let weights = move |screen| model.weights(screen);
-        let plan = EyePlan::new(ScreenRaster::of(display), display.projectors.len(), weights);
+        let plan = EyePlan::new(CanonicalRaster::of(display), display.projectors.len(), weights);
         Ok(Self { position_m, plan, warning })
-=======
-        let optics = eye_optics(display, position_m)?;
-        let plan = EyePlan::new(CanonicalRaster::of(display), display.projectors.len(), optics.weights);
-        Ok(Self { position_m, plan, warning: optics.warning })
->>>>>>> FETCH_HEAD
     }
 }
 

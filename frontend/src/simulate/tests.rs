@@ -6,13 +6,8 @@ use crate::scene::{Scene, VolumeFacts};
 use bricks::volume::VolumeFrame;
 use display_config::{CanonicalRaster, Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
-<<<<<<< engine
 use protocol::{DeviceInfo, Draw, DrawError, FrameReport, Pace, ProjectorImage, RenderEvent, Stages, Upkeep};
-use renderer::output::{EyePlan, ScreenRaster};
-=======
-use protocol::{DeviceInfo, FrameReport, Pace, ProjectorImage, Stages, Upkeep};
 use renderer::output::EyePlan;
->>>>>>> FETCH_HEAD
 use std::path::Path;
 
 const WIDTH: u32 = 40;

@@ -18,11 +18,7 @@ use lightloom_tests::scenes::{self, TestScene, frame, optics, with_raster};
 use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use rayon::prelude::*;
 use reference::{Integrator, Reference};
-<<<<<<< engine:tests/tests/accuracy/eye.rs
-use renderer::output::{EyePlan, EyeView, Picture, ScreenRaster};
-=======
-use renderer::output::{EyePlan, EyeView, ImageDifference, Picture};
->>>>>>> FETCH_HEAD:tests/tests/eye.rs
+use renderer::output::{EyePlan, EyeView, Picture};
 use std::sync::Arc;
 
 /// x of the eyes, metres, at the viewer's height and distance: holo72's zone is ±0.6 m there.

@@ -2,11 +2,11 @@
 
 use crate::assert_none;
 use crate::crates::CRATES;
-use crate::sources::{FOLDERS, Source, read, root, source, sources};
+use crate::sources::{FOLDERS, Source, read, root, source, sources, walk};
 use std::collections::BTreeSet;
 
 /// The only top-level files; hidden entries and what .gitignore names are free.
-const FILES: [&str; 8] = [
+const FILES: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",
     "README.md",
@@ -15,6 +15,9 @@ const FILES: [&str; 8] = [
     "deny.toml",
     "rustfmt.toml",
     "clippy.toml",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "rust-toolchain.toml",
 ];
 
 const MOST_LINES: usize = 400;
@@ -52,7 +55,8 @@ fn wrong_manifests(manifests: &[Source]) -> Vec<String> {
 fn dead_links(page: &str, is_there: impl Fn(&str) -> bool) -> Vec<String> {
     let targets = page.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     let own = targets.filter(|target| !target.contains("://") && !target.starts_with('#'));
-    own.filter(|target| !is_there(target)).map(|target| format!("nothing is at {target}")).collect()
+    let file = |target: &str| target.split('#').next().is_some_and(&is_there);
+    own.filter(|target| !file(target)).map(|target| format!("nothing is at {target}")).collect()
 }
 
 /// Lines of a script that do something.
@@ -105,6 +109,25 @@ fn the_page_shows_what_is_there() {
     for folder in FOLDERS {
         assert!(page.contains(&format!("| [`{folder}`]({folder}) |")), "the map lacks {folder}");
     }
+}
+
+/// Blocks of code show what is somewhere else.
+fn without_code(page: &str) -> String {
+    page.split("```").step_by(2).collect()
+}
+
+#[test]
+fn links_of_every_page_lead_somewhere() {
+    let mut paths = vec!["CHANGELOG.md".to_owned(), "CONTRIBUTING.md".to_owned()];
+    FOLDERS.iter().for_each(|folder| walk(folder, &mut paths));
+    paths.retain(|path| path.ends_with(".md"));
+    assert!(paths.len() > 20, "{paths:?}");
+    for path in paths {
+        let folder = root().join(&path).parent().expect("a page lies in a folder").to_owned();
+        let dead = dead_links(&without_code(&read(&path)), |target| folder.join(target).exists());
+        assert!(dead.is_empty(), "{path}: {dead:?}");
+    }
+    assert_eq!(dead_links(&without_code("[a](no.md#part) ```[b](no.md)``` [c](no.md)"), |_| false).len(), 2);
 }
 
 #[test]

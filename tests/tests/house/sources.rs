@@ -23,7 +23,7 @@ pub fn read(path: &str) -> String {
 }
 
 /// The paths below a folder of the repository, from its root, with slashes.
-fn walk(folder: &str, paths: &mut Vec<String>) {
+pub fn walk(folder: &str, paths: &mut Vec<String>) {
     for entry in std::fs::read_dir(root().join(folder)).expect("a listed folder can be read") {
         let entry = entry.expect("a listed entry can be read");
         let path = format!("{folder}/{}", entry.file_name().to_string_lossy());

@@ -3,38 +3,6 @@
 use super::codes::{BRICK_EDGE, Codes};
 use crate::CellRanges;
 
-<<<<<<< engine
-=======
-pub use layout::brick::{EDGE as BRICK_EDGE, OVERLAP, OWN_EDGE, VOXELS as BRICK_VOXELS};
-
-/// The quantised samples of a brick, x fastest, then y, then z; always [`BRICK_VOXELS`] of them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Codes {
-    /// 8 bits per sample.
-    U8(Vec<u8>),
-    /// 16 bits per sample.
-    U16(Vec<u16>),
-}
-
-impl Codes {
-    /// The code at a stored index.
-    pub fn at(&self, index: usize) -> u16 {
-        match self {
-            Codes::U8(codes) => u16::from(codes[index]),
-            Codes::U16(codes) => codes[index],
-        }
-    }
-
-    /// The largest code there can be: 255 or 65535.
-    pub fn largest(&self) -> u16 {
-        match self {
-            Codes::U8(_) => u16::from(u8::MAX),
-            Codes::U16(_) => u16::MAX,
-        }
-    }
-}
-
->>>>>>> FETCH_HEAD
 /// What the voxels of a coarse node stand for, beside their means: the standard deviation of the source's voxels in
 /// each.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,6 @@
 //! The quantised samples of a brick, and how many there are.
 
-/// Stored samples along an edge.
-pub const BRICK_EDGE: usize = 32;
-/// Samples of overlap on each side.
-pub const OVERLAP: usize = 2;
-/// Own voxels along an edge: 28.
-pub const OWN_EDGE: usize = BRICK_EDGE - 2 * OVERLAP;
-/// Stored samples of a brick.
-pub const BRICK_VOXELS: usize = BRICK_EDGE * BRICK_EDGE * BRICK_EDGE;
+pub use layout::brick::{EDGE as BRICK_EDGE, OVERLAP, OWN_EDGE, VOXELS as BRICK_VOXELS};
 
 /// The quantised samples of a brick, x fastest, then y, then z; always [`BRICK_VOXELS`] of them.
 #[derive(Clone, Debug, PartialEq, Eq)]

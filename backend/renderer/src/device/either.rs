@@ -26,14 +26,6 @@ macro_rules! on_device {
 }
 
 impl Device {
-    /// Runs this kernel in place of those that are composed; false on a device that has none to replace.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn substitute_kernel(&mut self, wgsl: &str) -> bool {
-        let Self::Gpu(device) = self else { return false };
-        device.substitute_kernel(wgsl);
-        true
-    }
-
     /// Slots of the brick cache.
     pub fn slots(&self) -> u32 {
         on_device!(self, device => device.slots())

@@ -14,40 +14,6 @@ const ALIGNED: f64 = 1e-9;
 /// A sample this far outside a raster (pixels) still belongs to it: its edge carries the calibration's rounding.
 const EDGE_TOLERANCE: f64 = 1e-3;
 
-<<<<<<< engine
-/// The pixels in which an eye's view of the whole screen is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScreenRaster {
-    /// Pixels along x.
-    pub width: u32,
-    /// Pixels along y.
-    pub height: u32,
-    /// Size of the screen, metres.
-    pub size_m: DVec2,
-}
-
-impl ScreenRaster {
-    /// As many pixels as the display's first projector has; 1 × 1 if there is none.
-    pub fn of(display: &Display) -> Self {
-        let (width, height) =
-            display.projectors.first().map_or((1, 1), |p| (p.raster.width, p.raster.height));
-        Self { width, height, size_m: DVec2::new(display.width_m, display.height_m) }
-    }
-
-    /// Screen point (metres, x right, y up) of the centre of pixel (x, y), y down.
-    pub fn point(&self, x: u32, y: u32) -> DVec2 {
-        let across = (f64::from(x) + 0.5) / f64::from(self.width) - 0.5;
-        let up = 0.5 - (f64::from(y) + 0.5) / f64::from(self.height);
-        DVec2::new(across, up) * self.size_m
-    }
-
-    fn point_of_index(&self, index: u32) -> DVec2 {
-        self.point(index % self.width, index / self.width)
-    }
-}
-
-=======
->>>>>>> FETCH_HEAD
 /// Which projector an eye sees at which pixel of the screen, and how strongly; fixed as long as the eye is.
 #[derive(Clone, Debug)]
 pub struct EyePlan {
@@ -58,13 +24,8 @@ pub struct EyePlan {
 }
 
 impl EyePlan {
-<<<<<<< engine
     /// `weights(screen point)` gives (projector, weight) pairs whose weights add to 1 if the eye sees light.
-    pub fn new<W>(raster: ScreenRaster, projectors: usize, weights: impl Fn(DVec2) -> W) -> Self
-=======
-    /// `weights(screen point)` gives (projector, weight) pairs whose weights add to 1 where the eye sees light.
     pub fn new<W>(raster: CanonicalRaster, projectors: usize, weights: impl Fn(DVec2) -> W) -> Self
->>>>>>> FETCH_HEAD
     where
         W: IntoIterator<Item = (usize, f64)>,
     {

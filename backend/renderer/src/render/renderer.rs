@@ -70,14 +70,6 @@ impl Renderer {
         self.recording = Recording::new(path, volume, &self.stock.shape, &self.options.display);
     }
 
-    /// Runs this WGSL (entry point `cast_tile`, bindings as composed) in place of the composed kernels, whatever a frame
-    /// needs: for benchmarks that measure what composition costs. False on a device that runs no WGSL.
-    #[cfg(feature = "gpu")]
-    #[doc(hidden)]
-    pub fn substitute_kernel(&mut self, wgsl: &str) -> bool {
-        self.device.substitute_kernel(wgsl)
-    }
-
     /// Draws one whole frame: until nothing is missing, or with what there is, as its pace says.
     ///
     /// # Errors

@@ -1,12 +1,7 @@
 //! The bands and enhancers in a scene file.
 
-<<<<<<< engine
 use crate::scene::error::Checked;
-use crate::scene::file::{BandTable, EnhancerKind, EnhancerTable, Limits, Number, Triple};
-=======
-use super::Checked;
 use crate::scene::file::{BandTable, EnhancerTable, Limits, Number, Triple};
->>>>>>> FETCH_HEAD
 use crate::scene::text::SceneText;
 use crate::scene::{Anchor, Band, SceneEnhancer};
 use ::optics::{
@@ -32,32 +27,7 @@ const RADIUS_M: f64 = 0.1;
 const AWAY: f64 = 1.0;
 const TOWARD: f64 = 0.1;
 
-<<<<<<< engine
-impl EnhancerKind {
-    fn name(self) -> &'static str {
-        match self {
-            Self::ClipPlane => "clip-plane",
-            Self::Probe => "probe",
-            Self::BandPicker => "band-picker",
-            Self::LayerOpacity => "layer-opacity",
-        }
-    }
-
-    /// Its keys besides `kind` and `carried`.
-    fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::ClipPlane => &["point_m", "normal", "context", "thickness_m", "boost", "strength"],
-            Self::Probe => &["centre_m", "radius_m", "axis", "facing", "gradient_most", "edges", "strength"],
-            Self::BandPicker => &["band", "axis", "facing", "strength"],
-            Self::LayerOpacity => &["band", "axis", "facing", "away", "toward"],
-        }
-    }
-}
-
 /// Keys that a tool overrides for an enhancer that it carries.
-=======
-/// Keys that say what the tool says of an enhancer that it carries.
->>>>>>> FETCH_HEAD
 const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];
 
 type Key = (&'static str, Range<usize>);

@@ -7,23 +7,8 @@ use crate::twin::{Casting, Real, importance::RISE, refine::MOST_PARTS};
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
 pub struct Consistent;
 
-<<<<<<< engine
-/// β: what a rise of the largest importance keeps of what lies in front of it.
-#[inline(always)]
-fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
-    let before = F::ONE - gamma * largest;
-    if importance <= largest || before <= F::ZERO {
-        return F::ONE;
-    }
-    (F::ONE - gamma * importance) / before
-}
-
-impl Composite for MimdaConsistent {
-    const READS_IMPORTANCE: bool = true;
-=======
 impl Form for Consistent {
     // The product of the parts' β telescopes as they are.
->>>>>>> FETCH_HEAD
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]

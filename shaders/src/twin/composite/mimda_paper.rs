@@ -7,19 +7,8 @@ use crate::twin::{Casting, Real};
 /// Twin of `wgsl/composite/mimda_paper.wgsl`.
 pub struct Paper;
 
-<<<<<<< engine
-/// β: what a rise of the largest importance keeps of what lies in front of it.
-#[inline(always)]
-fn kept<F: Real>(gamma: F, largest: F, importance: F) -> F {
-    F::ONE - gamma * (importance - largest).most(F::ZERO)
-}
-
-impl Composite for MimdaPaper {
-    const READS_IMPORTANCE: bool = true;
-=======
 impl Form for Paper {
     // The equation is one of steps, and its picture depends on them: it is applied once per step.
->>>>>>> FETCH_HEAD
     const ONCE_PER_STEP: bool = true;
 
     #[inline(always)]

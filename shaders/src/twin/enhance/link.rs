@@ -16,13 +16,8 @@ pub(super) fn with(v: DVec3, w: f64) -> [f64; 4] {
     [v.x, v.y, v.z, w]
 }
 
-<<<<<<< engine
-/// Corners that f32 can distinguish from each other's flanks: a flank that begins a million domains away is level.
-fn corners(band: &Trapezoid) -> [f64; 4] {
-=======
 /// Corners that f32 can tell from each other's flanks: a flank that begins a million domains away is level.
 pub(super) fn corners(band: &Trapezoid) -> [f64; 4] {
->>>>>>> FETCH_HEAD
     band.corners().map(|corner| corner.clamp(-1e6, 1e6))
 }
 

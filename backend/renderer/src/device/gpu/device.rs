@@ -9,13 +9,8 @@ use super::readback::Readback;
 use super::storage::{Storage, uniform};
 use super::view::ViewBuffers;
 use crate::device::job::ViewJob;
-<<<<<<< engine
 use crate::device::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
-use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
-=======
-use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock, binding};
->>>>>>> FETCH_HEAD
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
@@ -132,15 +127,6 @@ impl GpuDevice {
         }
     }
 
-<<<<<<< engine
-    /// Runs this kernel instead of those that are composed; see [`crate::Renderer::substitute_kernel`].
-    pub(in crate::device) fn substitute_kernel(&mut self, wgsl: &str) {
-        let _turn = self.context.turn();
-        self.kernels.substitute(&self.context, wgsl);
-    }
-
-=======
->>>>>>> FETCH_HEAD
     pub(in crate::device) fn slots(&self) -> u32 {
         self.atlas.count()
     }

@@ -18,14 +18,6 @@ impl Kernels {
             .entry(key)
             .or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
     }
-<<<<<<< engine
-
-    /// From now on this kernel runs, whatever a frame needs: for measuring what the composed ones cost.
-    pub(super) fn substitute(&mut self, context: &Context, wgsl: &str) {
-        self.substitute = Some(compile(context, "substitute", wgsl, "cast_tile"));
-    }
-=======
->>>>>>> FETCH_HEAD
 }
 
 /// Compiles one entry point; its bind group layout follows from what it reads.
