@@ -6,8 +6,8 @@ use bricks::store::Store;
 use protocol::{Setup, VolumeRef};
 use renderer::Renderer;
 use std::sync::Arc;
+use transport::Opened;
 use transport::local_rank;
-use transport::worker::Opened;
 
 /// Opens the volume and the device that `setup` names. Ranks of one host take its adapters in turn, by their places on that
 /// host where the launcher says them.

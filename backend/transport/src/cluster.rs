@@ -7,9 +7,10 @@
 use super::launch::{HOW_TO_LAUNCH, fail};
 use super::link::{Link, LinkError, WorkerLink};
 use super::mpi::Messenger;
+use super::opened::Opened;
 use super::pause::Pause;
 use super::roster::{Peer, Roster, WHAT_TO_DO};
-use super::worker::{Opened, WorkerError, serve};
+use super::worker::{WorkerError, serve};
 use super::{process, watchdog};
 use protocol::wire::{decode, encode};
 use protocol::{FromBackend, FromFrontend, Setup};

@@ -17,6 +17,7 @@ pub mod launch;
 mod link;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod opened;
 #[cfg(feature = "mpi")]
 mod pause;
 mod process;
@@ -35,5 +36,6 @@ pub mod worker;
 
 pub use launch::{Launch, fail, launch, local_rank, under_mpi};
 pub use link::{Link, LinkError, WorkerLink};
+pub use opened::Opened;
 pub use session::{Limits, Session, SessionError};
-pub use worker::{Opened, WorkerError, serve};
+pub use worker::{WorkerError, serve};

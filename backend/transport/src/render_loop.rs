@@ -1,6 +1,6 @@
 //! The thread of a back-end that draws.
 
-use super::worker::Opened;
+use super::opened::Opened;
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, bounded, unbounded};
 use protocol::{FrameState, FromBackend, Render, Setup};
 use std::any::Any;

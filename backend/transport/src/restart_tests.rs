@@ -1,8 +1,8 @@
 //! A frame that another takes the place of, while it is drawn.
 
+use crate::Opened;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads;
-use crate::worker::Opened;
 use crate::{Link, LinkError};
 use protocol::{
     Advance, DrawError, FrameState, FromBackend, FromFrontend, ProjectorImage, Render, Setup, StopAsked,

@@ -1,9 +1,9 @@
 //! A session with back-ends in threads, and with back-ends that follow a script.
 
 use super::*;
+use crate::Opened;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads::{self, ThreadLink};
-use crate::worker::Opened;
 use protocol::{Advance, Hello, ProjectorImage, Render, StopAsked};
 use std::collections::VecDeque;
 

@@ -1,8 +1,9 @@
 //! Back-ends as threads of this process.
 
 use super::link::{Link, LinkError, WorkerLink};
+use super::opened::Opened;
 use super::render_loop::panic_sentence;
-use super::worker::{Opened, serve};
+use super::worker::serve;
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, never, unbounded};
 use protocol::{FromBackend, FromFrontend, Setup};
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -1,13 +1,11 @@
 //! The life of a back-end: one thread passes messages on, another draws. So messages reach a back-end that is busy.
 
 use super::link::{LinkError, WorkerLink};
+use super::opened::Opened;
 use super::process;
 use super::render_loop::{Command, RenderThread, Reply};
-use protocol::{DeviceInfo, FromBackend, FromFrontend, Hello, PROTOCOL_VERSION, Render, Setup};
+use protocol::{FromBackend, FromFrontend, Hello, PROTOCOL_VERSION, Setup};
 use std::time::{Duration, Instant};
-
-/// An opened renderer and what it draws with.
-pub type Opened = (Box<dyn Render>, DeviceInfo);
 
 /// Why a back-end stopped before it was asked to.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

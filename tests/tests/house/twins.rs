@@ -5,7 +5,7 @@ use crate::sources::sources;
 use std::collections::BTreeSet;
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 17] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 16] = [
     ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
     ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),
@@ -20,7 +20,6 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 17] = [
     ("levels/two", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its grandparent"),
     ("material/one", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
     ("material/table", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
-    ("report", Some("shaders/src/twin/scene.rs"), "the twin's feedback belongs to its scene"),
     (
         "sample/exact",
         Some("shaders/src/twin/sample.rs"),

@@ -11,12 +11,10 @@ use std::collections::BTreeSet;
 const KINDS: [&str; 7] = ["fn", "const", "static", "struct", "enum", "trait", "type"];
 
 /// Names that no product uses yet, or ever, with the reason; the list can only shrink.
-const KNOWN: [(&str, &str); 5] = [
-    ("is_live", "goes with the second engine of the working set"),
+const KNOWN: [(&str, &str); 3] = [
     ("resolution_at", "the one place of s(z), for those that still compute it themselves"),
     ("screen_from_point", "the inverse of the ray, which overlays need; its law is tested beside the ray's"),
     ("segmented", "the paper's own, step-dependent compositing: the reference offers it to be compared with"),
-    ("show_all", "goes with the second engine of the working set"),
 ];
 
 /// The files of the crates themselves, programs included, but for those that only tests have.
