@@ -1,5 +1,7 @@
 //! How a ray goes through the volume.
 
+mod pair;
+mod path;
 mod refracted;
 mod straight;
 
