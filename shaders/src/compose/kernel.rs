@@ -91,8 +91,8 @@ impl KernelKey {
             Filter::Exact => module!("sample/exact"),
         };
         let way = match needs.way {
-            Way::Straight => module!("way/straight"),
-            Way::Refracted => module!("way/refracted"),
+            Way::Straight => &[module!("way/straight")][..],
+            Way::Refracted => &[module!("way/path"), module!("way/pair"), module!("way/refracted")],
         };
         let constants = constants::wgsl();
         let mut modules = vec![
@@ -115,9 +115,9 @@ impl KernelKey {
             module!("brick"),
             module!("observer"),
             debug.as_str(),
-            way,
-            module!("cast"),
         ]);
+        modules.extend(way);
+        modules.push(module!("cast"));
         modules.join("\n")
     }
 

@@ -10,7 +10,7 @@
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
 //! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
 //! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`](crate::needs::Chain) |
-//! | way | `way/straight`, `way/refracted` |
+//! | way | `way/straight`, or `way/path`, `pair` and `refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 
 mod chain;

@@ -1,5 +1,7 @@
 //! How a ray passes through the volume.
 
+mod pair;
+mod path;
 mod refracted;
 mod straight;
 
