@@ -1,6 +1,6 @@
 //! A display: screen, observer, projectors.
 
-use crate::{BeamLaw, Projector, RayError, Resolution};
+use crate::{BeamLaw, CanonicalRaster, Projector, RayError, Resolution};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -48,6 +48,14 @@ impl Display {
     /// If there is no such projector, as a slice does.
     pub fn beam_law(&self, projector: usize, observer: DVec3, eta: f64) -> Result<BeamLaw, RayError> {
         BeamLaw::new(self.projectors[projector].centre_in_display, observer, eta)
+    }
+
+    /// The raster that all projectors share: as many pixels as the first of them has, over the whole screen; 1 × 1 if there
+    /// is none.
+    pub fn canonical_raster(&self) -> CanonicalRaster {
+        let size = |projector: &Projector| (projector.raster.width, projector.raster.height);
+        let (width, height) = self.projectors.first().map_or((1, 1), size);
+        CanonicalRaster { width, height, size_m: DVec2::new(self.width_m, self.height_m) }
     }
 
     /// The screen point of the centre of pixel (x, y) of a projector, metres.

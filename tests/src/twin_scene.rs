@@ -2,7 +2,7 @@
 
 use crate::compare::lod_rule;
 use bricks::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
-use display_config::{CanonicalRaster, Display};
+use display_config::Display;
 use layout::{CELL_WORDS, NodeRecord};
 use protocol::FrameState;
 use rayon::prelude::*;
@@ -132,7 +132,7 @@ pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn 
         .beam_law(projector as usize, frame.observer_in_display, frame.eta)
         .expect("a test scene goes with its display");
     let shape = source.shape();
-    let canonical = CanonicalRaster::of(display);
+    let canonical = display.canonical_raster();
     let place = Placement {
         display_from_volume: frame.display_from_volume,
         dims: shape.dims(),

@@ -1,6 +1,6 @@
 //! The canonical raster: rows and columns on the screen that all projectors of a display share.
 
-use crate::{Display, Homography};
+use crate::Homography;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Pixels that fill the screen, rows from the top; pixel centres at integer + 0.5.
@@ -15,13 +15,6 @@ pub struct CanonicalRaster {
 }
 
 impl CanonicalRaster {
-    /// As many pixels as the display's first projector has; 1 × 1 where there is none.
-    pub fn of(display: &Display) -> Self {
-        let (width, height) =
-            display.projectors.first().map_or((1, 1), |p| (p.raster.width, p.raster.height));
-        Self { width, height, size_m: DVec2::new(display.width_m, display.height_m) }
-    }
-
     /// Its size in pixels.
     pub fn size(&self) -> DVec2 {
         DVec2::new(f64::from(self.width), f64::from(self.height))

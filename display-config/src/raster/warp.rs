@@ -57,7 +57,7 @@ mod tests {
     fn presets_are_not_warped_and_keep_their_maps_to_the_bit() {
         for (name, _) in crate::presets() {
             let display = Display::load(name).unwrap();
-            let canonical = CanonicalRaster::of(&display);
+            let canonical = display.canonical_raster();
             for projector in &display.projectors {
                 assert_eq!(projector.warp(&canonical), None);
                 assert_eq!(canonical.screen_from_pixel(None), projector.raster.screen_from_pixel);

@@ -1,7 +1,7 @@
 //! Eyes in front of the display, and what they see while pictures come.
 
 use crate::FrontendError;
-use display_config::{CanonicalRaster, Display, EyeModel};
+use display_config::{Display, EyeModel};
 use glam::DVec3;
 use protocol::ProjectorImage;
 use renderer::output::{EyePlan, EyeView, OutputError, Picture};
@@ -26,7 +26,7 @@ impl Eye {
         let model = EyeModel::new(display, position_m).map_err(|e| FrontendError::Display(e.to_string()))?;
         let warning = model.outside_zone();
         let weights = move |screen| model.weights(screen);
-        let plan = EyePlan::new(CanonicalRaster::of(display), display.projectors.len(), weights);
+        let plan = EyePlan::new(display.canonical_raster(), display.projectors.len(), weights);
         Ok(Self { position_m, plan, warning })
     }
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::report::{self, BackendSummary, LEGEND};
 use crate::scene::{Scene, VolumeFacts};
 use bricks::volume::VolumeFrame;
-use display_config::{CanonicalRaster, Homography, Projector, Raster};
+use display_config::{Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
 use protocol::{DeviceInfo, Draw, DrawError, FrameReport, Pace, ProjectorImage, RenderEvent, Stages, Upkeep};
 use renderer::output::EyePlan;
@@ -121,7 +121,7 @@ impl Draw for Gradients {
 fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 + Copy) -> (Scene, Job) {
     let (scene, display) = (Scene::load("procedural:shells@64").unwrap(), display(projectors));
     let all = move |_| (0..projectors as usize).map(move |p| (p, weights(p)));
-    let plan = EyePlan::new(CanonicalRaster::of(&display), projectors as usize, all);
+    let plan = EyePlan::new(display.canonical_raster(), projectors as usize, all);
     let warning = Some("the eye at x = 2 m is outside the viewing zone".to_owned());
     let frames = (0..frames).map(|i| scene.frame(i, &display, &facts()).unwrap()).collect();
     let eyes = vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }];

@@ -7,7 +7,7 @@
 //! blur, nothing at the screen and, for a smooth object, an error that grows with the square of |z|.
 
 use bricks::BrickSource;
-use display_config::{CanonicalRaster, Display, EyeModel};
+use display_config::{Display, EyeModel};
 use glam::{DAffine3, DVec2, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::lod_rule;
@@ -66,7 +66,7 @@ fn eye_at(display: &Display, x: f64) -> DVec3 {
 /// What the eye sees of the display that shows `images`.
 fn seen(display: &Display, images: &[ProjectorImage], eye: DVec3) -> Picture {
     let model = EyeModel::new(display, eye).unwrap();
-    let plan = EyePlan::new(CanonicalRaster::of(display), images.len(), |screen| model.weights(screen));
+    let plan = EyePlan::new(display.canonical_raster(), images.len(), |screen| model.weights(screen));
     let mut view = EyeView::new(&plan);
     for image in images {
         let inverse = display.projectors[image.projector as usize].raster.inverse().unwrap();
@@ -84,7 +84,7 @@ fn by_reference(
     let rule = lod_rule(display, &scene.frame);
     let reference =
         Reference::new(Arc::clone(&scene.source), &scene.frame, &rule, Integrator::default()).unwrap();
-    let raster = CanonicalRaster::of(display);
+    let raster = display.canonical_raster();
     let rgba: Vec<[f32; 4]> = (0..raster.width * raster.height)
         .into_par_iter()
         .map(|index| {
@@ -200,7 +200,7 @@ fn on_a_beam_an_eye_sees_one_projector_and_no_blur() {
     let display = holo72_small();
     let Some(scene) = scenes::cranium(&display) else { return };
     let images = pictures(&display, &scene);
-    let raster = CanonicalRaster::of(&display);
+    let raster = display.canonical_raster();
     let law = display.beam_law(40, display.observer_in_display, 1.0).unwrap();
     for column in [70u32, 80, 91] {
         let screen = raster.point(column, 45);

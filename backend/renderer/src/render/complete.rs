@@ -3,11 +3,12 @@
 //! Each view has the cache to itself: what only others saw makes room for it. A coarse look by few rays comes first, and
 //! fetches most of what is needed; then every pixel is cast, and again the tiles that missed something.
 
+use super::RenderError;
 use super::account::milliseconds;
+use super::engine::Engine;
 use super::feedback::{feedback_of, keys_of};
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
-use super::{RenderError, Renderer};
 use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
@@ -62,43 +63,43 @@ impl Complete {
     pub(super) fn next(
         &mut self,
         work: &mut Work,
-        renderer: &mut Renderer,
+        engine: &mut Engine,
         stop: StopAsked,
     ) -> Result<Option<FrameReport>, RenderError> {
         if !std::mem::replace(&mut self.has_begun, true) {
-            renderer.leave_live()?;
-            renderer.stock.damage.start_frame();
+            engine.leave_live()?;
+            engine.stock.damage.start_frame();
         }
         if self.view == work.setting.views.len() {
-            return Ok(Some(self.report(work, renderer)));
+            return Ok(Some(self.report(work, engine)));
         }
-        let met = if self.is_in_round { Vec::new() } else { self.learn(work, renderer) };
+        let met = if self.is_in_round { Vec::new() } else { self.learn(work, engine) };
         self.is_in_round = true;
-        let Some(has_changed) = self.round(work, renderer, &met, stop)? else { return Ok(None) };
+        let Some(has_changed) = self.round(work, engine, &met, stop)? else { return Ok(None) };
         self.is_in_round = false;
         match self.stage {
             Stage::Begun => self.cast(work, Stage::Looking, None),
             Stage::Looking if has_changed => self.cast(work, Stage::Looking, None),
             Stage::Looking => self.cast(work, Stage::Casting, None),
-            Stage::Casting if has_changed && self.hides_something(renderer) => {
+            Stage::Casting if has_changed && self.hides_something(engine) => {
                 self.cast(work, Stage::Casting, None);
             }
             Stage::Casting if has_changed => {
                 let missing = work.missing.pop().unwrap_or_default();
                 self.cast(work, Stage::Casting, Some(missing));
             }
-            Stage::Casting => self.end_view(work, renderer),
+            Stage::Casting => self.end_view(work, engine),
         }
         Ok(None)
     }
 
     /// What the rays of the cast found; of a view that has just begun, nothing.
-    fn learn(&mut self, work: &Work, renderer: &mut Renderer) -> Vec<Feedback> {
+    fn learn(&mut self, work: &Work, engine: &mut Engine) -> Vec<Feedback> {
         if self.stage == Stage::Begun {
-            renderer.set.begin_view(work.frame.time_s);
+            engine.set.begin_view(work.frame.time_s);
             return Vec::new();
         }
-        let met = feedback_of(&keys_of(renderer.set.cut()), &work.found);
+        let met = feedback_of(&keys_of(engine.set.cut()), &work.found);
         if self.stage == Stage::Casting {
             self.sampled.extend(met.iter().map(|met| met.key));
         }
@@ -110,7 +111,7 @@ impl Complete {
     fn round(
         &mut self,
         work: &mut Work,
-        renderer: &mut Renderer,
+        engine: &mut Engine,
         met: &[Feedback],
         stop: StopAsked,
     ) -> Result<Option<bool>, RenderError> {
@@ -118,7 +119,7 @@ impl Complete {
             return Ok(Some(false));
         }
         self.rounds += 1;
-        let Renderer { set, stock, shelf, device, .. } = renderer;
+        let Engine { set, stock, shelf, device, .. } = engine;
         let rules = work.setting.rules(&work.frame);
         let (shape, source) = (stock.shape, std::sync::Arc::clone(&stock.source));
         let summary = |key| source.summary(key);
@@ -163,13 +164,13 @@ impl Complete {
     }
 
     /// Whether a node that rays of this view sampled has made room for others: then any tile may look otherwise.
-    fn hides_something(&self, renderer: &Renderer) -> bool {
-        let cut = renderer.set.cut();
+    fn hides_something(&self, engine: &Engine) -> bool {
+        let cut = engine.set.cut();
         self.sampled.iter().any(|&key| cut.node(cut.find_shown(key)).key != key)
     }
 
-    fn end_view(&mut self, work: &mut Work, renderer: &mut Renderer) {
-        let cut = renderer.set.cut();
+    fn end_view(&mut self, work: &mut Work, engine: &mut Engine) {
+        let cut = engine.set.cut();
         let is_leaf = |key: &NodeKey| {
             let node = cut.node(cut.find_shown(*key));
             (node.key == *key && node.shown_child().is_none()).then_some(node)
@@ -179,9 +180,9 @@ impl Complete {
         self.union.extend(leaves.iter().map(|node| node.key));
         for node in leaves.into_iter().filter(|node| node.is_visible && node.deficit > 0.0) {
             let family: Vec<NodeKey> = (0..8).map(|octant| node.key.child(octant)).collect();
-            if !renderer.stock.damage.note_missed(&family) {
+            if !engine.stock.damage.note_missed(&family) {
                 self.short.insert(node.key);
-                self.without_room.extend(renderer.stock.shown(&family, &work.frame.optics));
+                self.without_room.extend(engine.stock.shown(&family, &work.frame.optics));
             }
         }
         let [width, height] = work.setting.rays[self.view].raster;
@@ -191,15 +192,15 @@ impl Complete {
         (self.view, self.stage, self.rounds) = (self.view + 1, Stage::Begun, 0);
     }
 
-    fn report(&self, work: &Work, renderer: &mut Renderer) -> FrameReport {
+    fn report(&self, work: &Work, engine: &mut Engine) -> FrameReport {
         let full = (!self.short.is_empty()).then(|| {
             format!(
                 "the brick cache is full: {} nodes are shown coarser than the display resolves; make the cache larger",
                 self.short.len()
             )
         });
-        let resident = renderer.set.slots().used();
-        let report = renderer.frame_report(work, full, None);
+        let resident = engine.set.slots().used();
+        let report = engine.frame_report(work, full, None);
         FrameReport {
             bricks_wanted: resident + self.without_room.len() as u64,
             working_set_union: self.union.len() as u64,

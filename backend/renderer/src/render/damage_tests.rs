@@ -168,9 +168,9 @@ fn largest_error(picture: &[f32], frame: &FrameState, reference: &Reference) -> 
 /// Bricks that the cut of a renderer holds: each has a slot, and no slot is held by nothing.
 #[track_caller]
 fn assert_no_slot_is_lost(renderer: &Renderer) {
-    let cut = renderer.set.cut();
+    let cut = renderer.engine.set.cut();
     let held = cut.walk().filter(|&place| cut.node(place).brick.is_some()).count();
-    assert_eq!(renderer.set.slots().used(), held as u64);
+    assert_eq!(renderer.engine.set.slots().used(), held as u64);
 }
 
 #[test]
@@ -258,5 +258,5 @@ fn without_the_root_there_is_no_picture() {
         assert!(error.contains("of shells.lloom is spoiled"), "{error}");
     }
     assert_eq!(source.asked(), [NodeKey::ROOT]);
-    assert_eq!(renderer.set.slots().used(), 0);
+    assert_eq!(renderer.engine.set.slots().used(), 0);
 }

@@ -1,30 +1,19 @@
 //! A live frame: one round that shows what there is, and asks for what later frames will show.
 
+use super::RenderError;
 use super::account::milliseconds;
+use super::engine::Engine;
 use super::feedback::{feedback_of, keys_of};
+use super::live_memory::{Live, as_seen};
 use super::rules::FrameRules;
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
-use super::{RenderError, Renderer};
 use crate::device::FeedbackTag;
 use crate::working_set::{Feedback, Moment, Shortfall, Showing, most_in_flight};
-use bricks::{LodRule, NodeKey};
+use bricks::NodeKey;
 use layout::FeedbackEntry;
 use protocol::{FrameReport, FrameState, Pace, Upkeep};
 use std::time::Instant;
-
-/// What live frames remember of each other.
-#[derive(Debug, Default)]
-pub(super) struct Live {
-    /// What rays saw in the frame before.
-    last: Option<FrameState>,
-    /// By how much the renderer's clock, which never runs back, is ahead of the frames', seconds.
-    ahead_s: f64,
-    /// What the rays of the latest frame that is known of found.
-    met: Vec<Feedback>,
-    /// Whether that was the frame before.
-    is_fresh: bool,
-}
 
 /// A live frame under work.
 #[derive(Debug, Default)]
@@ -39,25 +28,25 @@ impl LiveFrame {
     pub(super) fn next(
         &mut self,
         work: &mut Work,
-        renderer: &mut Renderer,
+        engine: &mut Engine,
     ) -> Result<Option<FrameReport>, RenderError> {
         if let Some(upkeep) = self.upkeep {
-            return Ok(Some(self.end(work, renderer, upkeep)));
+            return Ok(Some(self.end(work, engine, upkeep)));
         }
-        renderer.take_feedback()?;
-        self.is_still = renderer.live.enter(&work.frame);
-        self.upkeep = Some(self.keep_up(work, renderer)?);
-        renderer.recording.begin()?;
-        renderer.device.clear_feedback();
+        engine.take_feedback()?;
+        self.is_still = engine.live.enter(&work.frame);
+        self.upkeep = Some(self.keep_up(work, engine)?);
+        engine.recording.begin()?;
+        engine.device.clear_feedback();
         work.begin_cast(Pending::all(&work.setting, 0..work.setting.views.len(), 1));
         Ok(None)
     }
 
     /// Brings the working set up to the frame's time: what rays met, what to fetch, what has come, what is shown.
-    fn keep_up(&self, work: &mut Work, renderer: &mut Renderer) -> Result<Upkeep, RenderError> {
+    fn keep_up(&self, work: &mut Work, engine: &mut Engine) -> Result<Upkeep, RenderError> {
         let (upload_bytes, fade_s) = limits(&work.frame);
-        let before = renderer.live.before(renderer);
-        let Renderer { set, stock, shelf, device, live, .. } = renderer;
+        let before = engine.live.before(&engine.options.display);
+        let Engine { set, stock, shelf, device, live, .. } = engine;
         stock.damage.start_frame();
         let rules = work.setting.rules(&work.frame);
         let (shape, source) = (stock.shape, std::sync::Arc::clone(&stock.source));
@@ -81,22 +70,22 @@ impl LiveFrame {
         let stages = &mut work.account.stages;
         shelf.write_live(set, &moment, &FrameRules { blends, ..rules }, device, stages);
         let update_ms = stages.refine_ms - refined_before;
-        Ok(Upkeep { cancelled, update_ms, ..renderer.upkeep() })
+        Ok(Upkeep { cancelled, update_ms, ..engine.upkeep() })
     }
 
-    fn end(&self, work: &mut Work, renderer: &mut Renderer, upkeep: Upkeep) -> FrameReport {
-        let time_s = renderer.live.now_s(&work.frame);
+    fn end(&self, work: &mut Work, engine: &mut Engine, upkeep: Upkeep) -> FrameReport {
+        let time_s = engine.live.now_s(&work.frame);
         let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
-        renderer.device.end_feedback(FeedbackTag { keys: keys_of(renderer.set.cut()), frame });
+        engine.device.end_feedback(FeedbackTag { keys: keys_of(engine.set.cut()), frame });
         work.account.done = work.account.total;
         work.finals.extend(work.setting.views.iter().map(|view| view.projector));
-        let report = self.report(work, renderer, upkeep);
-        renderer.live.last = Some(as_seen(&work.frame));
+        let report = self.report(work, engine, upkeep);
+        engine.live.last = Some(as_seen(&work.frame));
         report
     }
 
-    fn report(&self, work: &Work, renderer: &mut Renderer, upkeep: Upkeep) -> FrameReport {
-        let Renderer { stock, live, set, .. } = &mut *renderer;
+    fn report(&self, work: &Work, engine: &mut Engine, upkeep: Upkeep) -> FrameReport {
+        let Engine { stock, live, set, .. } = &mut *engine;
         let is_short = |met: &&Feedback| met.deficit > 0.0;
         for met in live.met.iter().filter(is_short) {
             let family: Vec<NodeKey> = (0..8).map(|octant| met.key.child(octant)).collect();
@@ -107,36 +96,15 @@ impl LiveFrame {
         }
         let short = live.met.iter().filter(is_short).count();
         let sampled = live.met.len() as u64;
-        let is_known = self.is_still && live.is_fresh && !renderer.shelf.has_changed;
-        let shortfall = renderer.live_shortfall(short, is_known, &upkeep);
-        let bricks_wanted = renderer.set.slots().used() + upkeep.in_flight;
-        let report = renderer.frame_report(work, shortfall, Some(upkeep));
+        let is_known = self.is_still && live.is_fresh && !engine.shelf.has_changed;
+        let shortfall = engine.live_shortfall(short, is_known, &upkeep);
+        let bricks_wanted = engine.set.slots().used() + upkeep.in_flight;
+        let report = engine.frame_report(work, shortfall, Some(upkeep));
         FrameReport { bricks_wanted, working_set_union: sampled, working_set_sum: sampled, ..report }
     }
 }
 
-impl Live {
-    /// A new frame, whose clock may have run back. Whether it shows what the one before showed.
-    fn enter(&mut self, frame: &FrameState) -> bool {
-        let last_s = self.last.as_ref().map_or(0.0, |last| last.time_s);
-        self.ahead_s += (last_s - frame.time_s).max(0.0);
-        self.last.as_ref().is_some_and(|last| *last == FrameState { time_s: last.time_s, ..as_seen(frame) })
-    }
-
-    fn now_s(&self, frame: &FrameState) -> f64 {
-        frame.time_s + self.ahead_s
-    }
-
-    /// What the frame before asked for, and when.
-    fn before(&self, renderer: &Renderer) -> Option<(LodRule, f64)> {
-        let last = self.last.as_ref()?;
-        let display = &renderer.options.display;
-        let rule = LodRule::new(display, last.display_from_volume, last.quality.lod_scale);
-        Some((rule, self.now_s(last)))
-    }
-}
-
-impl Renderer {
+impl Engine {
     /// Takes in what rays found whose tables have arrived; waits for none.
     fn take_feedback(&mut self) -> Result<(), RenderError> {
         while let Some((tag, table)) = self.device.take_feedback()? {
@@ -194,9 +162,4 @@ fn limits(frame: &FrameState) -> (u64, f64) {
         }
         Pace::Complete => (u64::MAX, 0.0),
     }
-}
-
-/// A frame as far as rays see it: the tool has had its say, and its own place shows nowhere; numbers do not matter.
-fn as_seen(frame: &FrameState) -> FrameState {
-    FrameState { index: 0, light: frame.light_in_effect(), tool: None, ..frame.clone() }
 }

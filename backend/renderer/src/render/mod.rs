@@ -11,11 +11,13 @@ mod complete;
 mod damage;
 #[cfg(test)]
 mod damage_tests;
+mod engine;
 mod error;
 mod feedback;
 #[cfg(test)]
 mod interrupt_tests;
 mod live;
+mod live_memory;
 #[cfg(test)]
 mod mirror_tests;
 mod recording;
@@ -29,6 +31,7 @@ mod shelf;
 #[cfg(test)]
 mod short_tests;
 mod stock;
+mod table_cache;
 #[cfg(test)]
 mod test_scene;
 mod views;

@@ -71,7 +71,7 @@ fn record(path: &Path) -> (Renderer, Vec<FrameReport>) {
     let mut reports = Vec::new();
     for index in 0..FRAMES {
         reports.push(draw(&mut renderer, &live(index)).unwrap().1);
-        while !renderer.stock.loader.is_idle() {
+        while !renderer.engine.stock.loader.is_idle() {
             std::thread::sleep(Duration::from_millis(1));
         }
     }

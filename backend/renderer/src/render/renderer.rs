@@ -3,15 +3,12 @@
 use super::RenderError;
 use super::account::Account;
 use super::complete::Complete;
+use super::engine::Engine;
 use super::error::check;
-use super::live::{Live, LiveFrame};
+use super::live::LiveFrame;
 use super::recording::Recording;
-use super::setting::{Setting, TableCache};
-use super::shelf::Shelf;
-use super::stock::Stock;
+use super::setting::Setting;
 use super::work::{Course, Work};
-use crate::device::{ChosenDevice, Device, open_device};
-use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
@@ -23,14 +20,7 @@ use std::sync::Arc;
 
 /// The renderer of one back-end.
 pub struct Renderer {
-    pub(super) options: RendererOptions,
-    pub(super) device: Device,
-    pub(super) set: WorkingSet,
-    pub(super) stock: Stock,
-    pub(super) shelf: Shelf,
-    pub(super) tables: TableCache,
-    pub(super) live: Live,
-    pub(super) recording: Recording,
+    pub(super) engine: Engine,
     work: Option<Work>,
 }
 
@@ -43,31 +33,15 @@ impl Renderer {
         options: &RendererOptions,
         source: Arc<dyn BrickSource>,
     ) -> Result<(Self, DeviceInfo), RenderError> {
-        let shape = source.shape();
-        let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
-        let bricks: u64 = (0..=shape.finest_depth()).map(level).sum();
-        let ChosenDevice { device, info } =
-            open_device(options.device, &options.adapter, options.filter, options.cache_bytes, bricks)?;
-        let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
-        let renderer = Self {
-            options: options.clone(),
-            // The shelf keeps one slot blank.
-            set: WorkingSet::new(source.summary(NodeKey::ROOT), device.slots() - 1),
-            shelf: Shelf::new(device.slots()),
-            device,
-            stock: Stock::new(source, loader),
-            tables: TableCache::default(),
-            live: Live::default(),
-            recording: Recording::default(),
-            work: None,
-        };
-        Ok((renderer, info))
+        let (engine, info) = Engine::new(options, source)?;
+        Ok((Self { engine, work: None }, info))
     }
 
     /// From the next live frame on, writes a trace of what rays ask for, under this name once it is complete. Whoever
     /// reads it finds the volume by `volume`.
     pub fn record(&mut self, path: PathBuf, volume: &VolumeRef) {
-        self.recording = Recording::new(path, volume, &self.stock.shape, &self.options.display);
+        let Engine { stock, options, .. } = &self.engine;
+        self.engine.recording = Recording::new(path, volume, &stock.shape, &options.display);
     }
 
     /// Draws one whole frame: until nothing is missing, or with what there is, as its pace says.
@@ -99,8 +73,9 @@ impl Renderer {
         self.work = None;
         check(frame)?;
         let frame = self.in_reach(frame);
-        let setting = Setting::new(self, &frame)?;
-        self.tables.write_if_new(&mut self.device);
+        let setting = Setting::new(&mut self.engine, &frame)?;
+        let Engine { tables, device, .. } = &mut self.engine;
+        tables.write_if_new(device);
         let account = Account::new(setting.rays());
         let course = match frame.pace {
             Pace::Complete => Course::Complete(Complete::default()),
@@ -117,11 +92,11 @@ impl Renderer {
     /// The root's brick or the device fails. The frame is dropped.
     pub fn advance(&mut self, stop: StopAsked) -> Result<Advance, RenderError> {
         let Some(mut work) = self.work.take() else { return Ok(Advance::default()) };
-        work.go_on(self, stop)?;
+        work.go_on(&mut self.engine, stop)?;
         let report = work.report();
         let (done, total) = work.rays();
         self.work = Some(work);
-        Ok(Advance { done, total, lacking_bricks: self.set.reserved() as u64, report })
+        Ok(Advance { done, total, lacking_bricks: self.engine.set.reserved() as u64, report })
     }
 
     /// The picture of a projector of this frame as it stands now, final or not: what has not been cast is as it was before.
@@ -135,7 +110,7 @@ impl Renderer {
             return Ok(None);
         };
         let [width, height] = work.setting.rays[view].raster;
-        let rgba = self.device.picture(work.picture_of(view))?;
+        let rgba = self.engine.device.picture(work.picture_of(view))?;
         Ok(Some(ProjectorImage { projector, width, height, rgba }))
     }
 
@@ -168,14 +143,14 @@ impl Renderer {
     /// The device fails, or the trace cannot be written.
     pub fn finish(&mut self) -> Result<(), RenderError> {
         self.work = None;
-        self.take_last_feedback()?;
-        self.recording.finish()
+        self.engine.take_last_feedback()?;
+        self.engine.recording.finish()
     }
 
     /// The frame without enhancers that the volume is out of reach of: tools cost nothing while nobody holds them to the
     /// volume.
     fn in_reach(&self, frame: &FrameState) -> FrameState {
-        let corners = self.stock.shape.corners(NodeKey::ROOT);
+        let corners = self.engine.stock.shape.corners(NodeKey::ROOT);
         let corners = corners.map(|corner| frame.display_from_volume.transform_point3(corner));
         let mut frame = frame.clone();
         frame.optics.enhancers.retain(|enhancer: &Enhancer| enhancer.may_act_within(&corners));
@@ -213,9 +188,4 @@ impl Draw for Renderer {
     fn finish(&mut self) -> Result<(), DrawError> {
         Ok(Self::finish(self)?)
     }
-}
-
-/// Enough to keep a disk busy while others unpack.
-fn loader_threads() -> usize {
-    std::thread::available_parallelism().map_or(2, |n| n.get().clamp(2, 8))
 }

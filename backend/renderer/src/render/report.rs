@@ -1,14 +1,14 @@
 //! The account of a frame in words and numbers.
 
-use super::Renderer;
 use super::account::milliseconds;
+use super::engine::Engine;
 use super::work::Work;
 use protocol::{FrameReport, Upkeep};
 
 /// Damaged bricks that a report names one by one.
 const MOST_DAMAGES: usize = 16;
 
-impl Renderer {
+impl Engine {
     /// What both kinds of frames report; `short` says why a frame is not complete, damage apart.
     pub(super) fn frame_report(
         &self,

@@ -1,11 +1,10 @@
 //! What the rays of a frame are cast with.
 
+use super::RenderError;
+use super::engine::Engine;
 use super::rules::FrameRules;
 use super::views::{scene_numbers, views};
-use super::{RenderError, Renderer};
-use crate::device::Device;
 use bricks::LodRule;
-use optics::Optics;
 use protocol::FrameState;
 use shaders::compose::Needs;
 use shaders::tables::Tables;
@@ -38,9 +37,9 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    pub(super) fn new(renderer: &mut Renderer, frame: &FrameState) -> Result<Self, RenderError> {
-        let (display, shape) = (&renderer.options.display, renderer.stock.shape);
-        let found = views(display, &renderer.options.projectors, frame)?;
+    pub(super) fn new(engine: &mut Engine, frame: &FrameState) -> Result<Self, RenderError> {
+        let (display, shape) = (&engine.options.display, engine.stock.shape);
+        let found = views(display, &engine.options.projectors, frame)?;
         let scene = scene_numbers(display, frame, &shape);
         let lod = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
         let needs =
@@ -50,7 +49,7 @@ impl Setting {
             views: found.iter().map(|view| View { projector: view.projector }).collect(),
             rays: found.into_iter().map(|view| view.rays).collect(),
             needs,
-            tables: renderer.tables.of(&frame.optics, &needs),
+            tables: engine.tables.of(&frame.optics, &needs),
             has_borders: !lod.is_uniform(&shape),
             lod,
         })
@@ -70,43 +69,6 @@ impl Setting {
             can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
             is_quadrilinear: frame.quality.quadrilinear,
             blends: frame.quality.blended && self.has_borders,
-        }
-    }
-}
-
-/// The tables of the latest optics: they are made when these change.
-#[derive(Debug, Default)]
-pub(super) struct TableCache {
-    made: Option<(Optics, Needs, Arc<Tables>)>,
-    /// Whether the device has other ones.
-    is_new: bool,
-}
-
-impl TableCache {
-    fn of(&mut self, optics: &Optics, needs: &Needs) -> Arc<Tables> {
-        if let Some((made, for_needs, tables)) = &self.made
-            && made == optics
-            && for_needs == needs
-        {
-            return Arc::clone(tables);
-        }
-        let tables = Tables::new(optics, needs);
-        let same = self.latest().filter(|latest| ***latest == tables).cloned();
-        self.is_new |= same.is_none();
-        let tables = same.unwrap_or_else(|| Arc::new(tables));
-        self.made = Some((optics.clone(), *needs, Arc::clone(&tables)));
-        tables
-    }
-
-    fn latest(&self) -> Option<&Arc<Tables>> {
-        self.made.as_ref().map(|(_, _, tables)| tables)
-    }
-
-    /// Writes the tables that were asked for last, where the device has others.
-    pub(super) fn write_if_new(&mut self, device: &mut Device) {
-        if let Some(tables) = self.latest().filter(|_| self.is_new) {
-            device.write_tables(Tables::clone(tables));
-            self.is_new = false;
         }
     }
 }

@@ -31,9 +31,9 @@ fn levels_that_differ_for_want_of_room_blend_at_rest() {
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     assert_eq!(calm, 30, "it comes to rest");
-    let cut = renderer.set.cut();
+    let cut = renderer.engine.set.cut();
     let leaves = || cut.shown_leaves().map(|place| cut.node(place));
     let shows = |depth: u8| leaves().any(|node| node.is_visible && node.key.depth == depth);
     assert!(shows(1) && shows(2), "the cache has room for some of the finest level");
-    assert!(renderer.shelf.blends);
+    assert!(renderer.engine.shelf.blends);
 }

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use bricks::OctreeShape;
-use display_config::{CanonicalRaster, Display};
+use display_config::Display;
 use protocol::FrameState;
 use shaders::twin::{Placement, ProjectorRays, SceneNumbers};
 
@@ -36,7 +36,7 @@ pub(super) fn views(
     projectors: &[u32],
     frame: &FrameState,
 ) -> Result<Vec<ProjectorView>, RenderError> {
-    let canonical = CanonicalRaster::of(display);
+    let canonical = display.canonical_raster();
     let view = |&projector: &u32| {
         let found = &display.projectors[projector as usize];
         let law = display

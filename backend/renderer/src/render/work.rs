@@ -1,10 +1,11 @@
 //! A frame under work: which rays are still to be cast, and what comes when they have been.
 
+use super::RenderError;
 use super::account::{Account, milliseconds};
 use super::complete::Complete;
+use super::engine::Engine;
 use super::live::LiveFrame;
 use super::setting::Setting;
-use super::{RenderError, Renderer};
 use crate::device::{CastJob, Gather, Part, TileGrid};
 use layout::FeedbackEntry;
 use protocol::{FrameReport, FrameState, Pace, StopAsked};
@@ -98,12 +99,12 @@ impl Work {
     }
 
     /// Goes on until `stop` asks to leave off, a picture has become final, or the frame is done.
-    pub(super) fn go_on(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
+    pub(super) fn go_on(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
         while self.finals.is_empty() && !self.is_done() && !stop() {
             if self.pending.is_empty() {
-                self.next(renderer, stop)?;
+                self.next(engine, stop)?;
             } else {
-                self.cast(renderer, stop)?;
+                self.cast(engine, stop)?;
             }
         }
         Ok(())
@@ -116,11 +117,11 @@ impl Work {
         self.missing.clear();
     }
 
-    fn next(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
+    fn next(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
         let mut course = self.course.take().expect("a frame has a course until it is done");
         let report = match &mut course {
-            Course::Complete(complete) => complete.next(self, renderer, stop)?,
-            Course::Live(live) => live.next(self, renderer)?,
+            Course::Complete(complete) => complete.next(self, engine, stop)?,
+            Course::Live(live) => live.next(self, engine)?,
         };
         self.course = Some(course);
         self.report = report;
@@ -128,14 +129,14 @@ impl Work {
     }
 
     /// Casts what is pending, as far as `stop` allows.
-    fn cast(&mut self, renderer: &mut Renderer, stop: StopAsked) -> Result<(), RenderError> {
+    fn cast(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
         let started = Instant::now();
         let Pending { views, stride, tiles } = &self.pending;
-        let outcome = renderer.device.cast(&CastJob {
+        let outcome = engine.device.cast(&CastJob {
             scene: &self.setting.scene,
             views: &self.setting.rays[views.clone()],
             first_picture: self.picture_of(views.start),
-            needs: Needs { blends: renderer.shelf.blends, ..self.setting.needs },
+            needs: Needs { blends: engine.shelf.blends, ..self.setting.needs },
             part: Part::Tiles { stride: *stride, tiles },
             gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },
             counts: true,

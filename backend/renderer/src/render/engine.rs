@@ -1,0 +1,56 @@
+//! What frames are drawn with: the device, the working set, and what stands between them.
+
+use super::RenderError;
+use super::live_memory::Live;
+use super::recording::Recording;
+use super::shelf::Shelf;
+use super::stock::Stock;
+use super::table_cache::TableCache;
+use crate::device::{ChosenDevice, Device, open_device};
+use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
+use bricks::{BrickSource, NodeKey};
+use protocol::{DeviceInfo, RendererOptions};
+use std::sync::Arc;
+
+/// All that outlives a frame.
+pub(super) struct Engine {
+    pub(super) options: RendererOptions,
+    pub(super) device: Device,
+    pub(super) set: WorkingSet,
+    pub(super) stock: Stock,
+    pub(super) shelf: Shelf,
+    pub(super) tables: TableCache,
+    pub(super) live: Live,
+    pub(super) recording: Recording,
+}
+
+impl Engine {
+    pub(super) fn new(
+        options: &RendererOptions,
+        source: Arc<dyn BrickSource>,
+    ) -> Result<(Self, DeviceInfo), RenderError> {
+        let shape = source.shape();
+        let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
+        let bricks: u64 = (0..=shape.finest_depth()).map(level).sum();
+        let ChosenDevice { device, info } =
+            open_device(options.device, &options.adapter, options.filter, options.cache_bytes, bricks)?;
+        let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
+        let engine = Self {
+            options: options.clone(),
+            // The shelf keeps one slot blank.
+            set: WorkingSet::new(source.summary(NodeKey::ROOT), device.slots() - 1),
+            shelf: Shelf::new(device.slots()),
+            device,
+            stock: Stock::new(source, loader),
+            tables: TableCache::default(),
+            live: Live::default(),
+            recording: Recording::default(),
+        };
+        Ok((engine, info))
+    }
+}
+
+/// Enough to keep a disk busy while others unpack.
+fn loader_threads() -> usize {
+    std::thread::available_parallelism().map_or(2, |n| n.get().clamp(2, 8))
+}
