@@ -1,6 +1,6 @@
 // A pair of steps of a bent ray, with a turn in its middle.
 
-// Pairs over which the index changes by more than this are halved, as often as MOST_HALVINGS tells.
+// Pairs over which the index changes by more than this are halved, at most MOST_HALVINGS times.
 const LARGE_CHANGE: f32 = 0.004;
 const MOST_HALVINGS: u32 = 4u;
 
