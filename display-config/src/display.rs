@@ -28,11 +28,6 @@ pub struct Display {
 }
 
 impl Display {
-    /// The size of the smallest thing the display shows at depth z: s(z) = s0 + 2 |z| tan(Φ/2), metres (LFD section 4).
-    pub fn resolution_at(&self, z_m: f64) -> f64 {
-        self.resolution().at(z_m)
-    }
-
     /// What it resolves, by depth.
     pub fn resolution(&self) -> Resolution {
         Resolution { pixel_size_m: self.pixel_size_m, angular_accuracy: self.angular_accuracy }
@@ -78,10 +73,10 @@ mod tests {
     #[test]
     fn resolution_is_the_pixel_on_the_screen_and_grows_on_both_sides() {
         let display = holo72();
-        assert_eq!(display.resolution_at(0.0), 0.0015);
-        assert_eq!(display.resolution_at(0.3), display.resolution_at(-0.3));
+        assert_eq!(display.resolution().at(0.0), 0.0015);
+        assert_eq!(display.resolution().at(0.3), display.resolution().at(-0.3));
         let blur_at_half_a_metre = 0.0015 + 0.4f64.to_radians().tan();
-        assert!((display.resolution_at(0.5) - blur_at_half_a_metre).abs() < 1e-15);
+        assert!((display.resolution().at(0.5) - blur_at_half_a_metre).abs() < 1e-15);
     }
 
     #[test]

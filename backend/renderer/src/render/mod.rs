@@ -8,6 +8,7 @@
 mod account;
 mod ancestors;
 mod complete;
+mod course;
 mod damage;
 #[cfg(test)]
 mod damage_tests;

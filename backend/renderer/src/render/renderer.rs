@@ -2,17 +2,16 @@
 
 use super::RenderError;
 use super::account::Account;
-use super::complete::Complete;
+use super::course::Course;
 use super::engine::Engine;
 use super::error::check;
-use super::live::LiveFrame;
 use super::recording::Recording;
 use super::setting::Setting;
-use super::work::{Course, Work};
+use super::work::Work;
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
-    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
+    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, ProjectorImage, Render, RenderEvent,
     RendererOptions, StopAsked, VolumeRef,
 };
 use std::path::PathBuf;
@@ -21,7 +20,7 @@ use std::sync::Arc;
 /// The renderer of one back-end.
 pub struct Renderer {
     pub(super) engine: Engine,
-    work: Option<Work>,
+    course: Option<Course>,
 }
 
 impl Renderer {
@@ -34,7 +33,7 @@ impl Renderer {
         source: Arc<dyn BrickSource>,
     ) -> Result<(Self, DeviceInfo), RenderError> {
         let (engine, info) = Engine::new(options, source)?;
-        Ok((Self { engine, work: None }, info))
+        Ok((Self { engine, course: None }, info))
     }
 
     /// From the next live frame on, writes a trace of what rays ask for, under this name once it is complete. Whoever
@@ -70,18 +69,14 @@ impl Renderer {
     /// The frame does not fit the display, or its numbers are out of bounds; nothing has changed then but that the frame
     /// before is dropped.
     pub fn restart(&mut self, frame: &FrameState) -> Result<(), RenderError> {
-        self.work = None;
+        self.course = None;
         check(frame)?;
         let frame = self.in_reach(frame);
         let setting = Setting::new(&mut self.engine, &frame)?;
         let Engine { tables, device, .. } = &mut self.engine;
         tables.write_if_new(device);
         let account = Account::new(setting.rays());
-        let course = match frame.pace {
-            Pace::Complete => Course::Complete(Complete::default()),
-            Pace::Live { .. } => Course::Live(LiveFrame::default()),
-        };
-        self.work = Some(Work::new(frame, setting, account, course));
+        self.course = Some(Course::new(Work::new(frame, setting, account)));
         Ok(())
     }
 
@@ -91,11 +86,11 @@ impl Renderer {
     /// # Errors
     /// The root's brick or the device fails. The frame is dropped.
     pub fn advance(&mut self, stop: StopAsked) -> Result<Advance, RenderError> {
-        let Some(mut work) = self.work.take() else { return Ok(Advance::default()) };
-        work.go_on(&mut self.engine, stop)?;
-        let report = work.report();
-        let (done, total) = work.rays();
-        self.work = Some(work);
+        let Some(mut course) = self.course.take() else { return Ok(Advance::default()) };
+        course.go_on(&mut self.engine, stop)?;
+        let report = course.report();
+        let (done, total) = course.work.rays();
+        self.course = Some(course);
         Ok(Advance { done, total, lacking_bricks: self.engine.set.reserved() as u64, report })
     }
 
@@ -105,7 +100,7 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn picture(&mut self, projector: u32) -> Result<Option<ProjectorImage>, RenderError> {
-        let Some(work) = &self.work else { return Ok(None) };
+        let Some(Course { work, .. }) = &self.course else { return Ok(None) };
         let Some(view) = work.setting.views.iter().position(|view| view.projector == projector) else {
             return Ok(None);
         };
@@ -117,7 +112,7 @@ impl Renderer {
     /// Rays of the present frame that have been cast, repeated ones counted again.
     #[cfg(test)]
     pub(super) fn rays_cast(&self) -> u64 {
-        self.work.as_ref().map_or(0, |work| work.account.rays)
+        self.course.as_ref().map_or(0, |course| course.work.account.rays)
     }
 
     /// Hands over the pictures that have become final since it was last called.
@@ -125,11 +120,12 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), RenderError> {
-        let finals = self.work.as_mut().map(|work| std::mem::take(&mut work.finals)).unwrap_or_default();
+        let finals =
+            self.course.as_mut().map(|course| std::mem::take(&mut course.work.finals)).unwrap_or_default();
         for projector in finals {
             let started = std::time::Instant::now();
             let image = self.picture(projector)?;
-            if let Some(work) = &mut self.work {
+            if let Some(Course { work, .. }) = &mut self.course {
                 work.account.stages.readback_ms += super::account::milliseconds(started);
             }
             image.into_iter().for_each(&mut *sink);
@@ -142,7 +138,7 @@ impl Renderer {
     /// # Errors
     /// The device fails, or the trace cannot be written.
     pub fn finish(&mut self) -> Result<(), RenderError> {
-        self.work = None;
+        self.course = None;
         self.engine.take_last_feedback()?;
         self.engine.recording.finish()
     }

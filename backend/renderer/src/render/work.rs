@@ -1,26 +1,15 @@
-//! A frame under work: which rays are still to be cast, and what comes when they have been.
+//! A frame under work: what it is drawn with, which rays are still to be cast, and what they have found.
 
 use super::RenderError;
 use super::account::{Account, milliseconds};
-use super::complete::Complete;
 use super::engine::Engine;
-use super::live::LiveFrame;
 use super::setting::Setting;
 use crate::device::{CastJob, Gather, Part, TileGrid};
 use layout::FeedbackEntry;
-use protocol::{FrameReport, FrameState, Pace, StopAsked};
+use protocol::{FrameState, Pace, StopAsked};
 use shaders::compose::Needs;
 use std::ops::Range;
 use std::time::Instant;
-
-/// What comes after a cast.
-#[derive(Debug)]
-pub(super) enum Course {
-    /// Rounds until nothing is missing.
-    Complete(Complete),
-    /// One round.
-    Live(LiveFrame),
-}
 
 /// Rays that are still to be cast.
 #[derive(Debug, Default)]
@@ -41,7 +30,7 @@ impl Pending {
         Self { views, stride, tiles }
     }
 
-    fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.tiles.iter().all(Vec::is_empty)
     }
 }
@@ -59,12 +48,10 @@ pub(super) struct Work {
     pub(super) missing: Vec<Vec<u32>>,
     /// Projectors whose pictures are final and have not been presented.
     pub(super) finals: Vec<u32>,
-    course: Option<Course>,
-    report: Option<FrameReport>,
 }
 
 impl Work {
-    pub(super) fn new(frame: FrameState, setting: Setting, account: Account, course: Course) -> Self {
+    pub(super) fn new(frame: FrameState, setting: Setting, account: Account) -> Self {
         Self {
             frame,
             setting,
@@ -73,13 +60,7 @@ impl Work {
             found: Vec::new(),
             missing: Vec::new(),
             finals: Vec::new(),
-            course: Some(course),
-            report: None,
         }
-    }
-
-    pub(super) fn is_done(&self) -> bool {
-        self.report.is_some()
     }
 
     /// Rays that are final, and all rays of the frame.
@@ -93,23 +74,6 @@ impl Work {
         if self.frame.pace == Pace::Complete { 0 } else { view }
     }
 
-    /// The account of the frame, once it is done.
-    pub(super) fn report(&self) -> Option<Box<FrameReport>> {
-        self.report.clone().map(Box::new)
-    }
-
-    /// Goes on until `stop` asks to leave off, a picture has become final, or the frame is done.
-    pub(super) fn go_on(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
-        while self.finals.is_empty() && !self.is_done() && !stop() {
-            if self.pending.is_empty() {
-                self.next(engine, stop)?;
-            } else {
-                self.cast(engine, stop)?;
-            }
-        }
-        Ok(())
-    }
-
     /// Begins another cast.
     pub(super) fn begin_cast(&mut self, pending: Pending) {
         self.pending = pending;
@@ -117,19 +81,8 @@ impl Work {
         self.missing.clear();
     }
 
-    fn next(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
-        let mut course = self.course.take().expect("a frame has a course until it is done");
-        let report = match &mut course {
-            Course::Complete(complete) => complete.next(self, engine, stop)?,
-            Course::Live(live) => live.next(self, engine)?,
-        };
-        self.course = Some(course);
-        self.report = report;
-        Ok(())
-    }
-
     /// Casts what is pending, as far as `stop` allows.
-    fn cast(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
+    pub(super) fn cast(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
         let started = Instant::now();
         let Pending { views, stride, tiles } = &self.pending;
         let outcome = engine.device.cast(&CastJob {
