@@ -13,7 +13,7 @@ use transport::local_rank;
 /// host where the launcher says them.
 ///
 /// # Errors
-/// One sentence: the volume cannot be opened, or the device cannot be had.
+/// One sentence: the volume cannot be opened, or there is no such device.
 pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
     setup.options.adapter.turn = local_rank().unwrap_or(setup.options.adapter.turn);
     let source = open_volume(&setup.volume)?;

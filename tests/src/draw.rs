@@ -103,12 +103,12 @@ pub fn turn() -> MutexGuard<'static, ()> {
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Whether there is a GPU to test. Its lack is told aloud, and is a failure where LIGHTLOOM_REQUIRE_GPU=1.
+/// Whether there is a GPU to test. Its lack is announced, and is a failure where LIGHTLOOM_REQUIRE_GPU=1.
 pub fn has_gpu() -> bool {
     devices().contains(&DeviceChoice::Gpu)
 }
 
-/// The devices to test: the CPU, and the GPU where there is one. Its lack is told aloud, and is a failure where
+/// The devices to test: the CPU, and the GPU where there is one. Its lack is announced, and is a failure where
 /// LIGHTLOOM_REQUIRE_GPU=1.
 pub fn devices() -> Vec<DeviceChoice> {
     #[cfg(feature = "gpu")]

@@ -47,7 +47,7 @@ pub fn band_picker(corners: [f64; 4]) -> BandPicker {
     }
 }
 
-/// A layer of s that is shown to who looks from one side.
+/// A layer of s shown to viewers on one side.
 pub fn layer_opacity(corners: [f64; 4]) -> LayerOpacity {
     LayerOpacity {
         band: band(corners),

@@ -21,7 +21,7 @@ pub struct Band {
     pub colour: Linear<DVec3>,
     /// Importance as the chain leaves it; 0 where the medium has none.
     pub importance: Linear<f64>,
-    /// Importance as the chain of enhancers is told it: the scene's own, 1 where none is accumulated.
+    /// Importance as the chain of enhancers takes it: the scene's own, 1 where none is accumulated.
     pub told: Linear<f64>,
     /// What each link of the chain has of the scalar: its own band's value, 0 for links without a band.
     pub shares: [Linear<f64>; MOST_ENHANCERS],
@@ -50,7 +50,7 @@ impl Band {
         self.start + self.width * ((importance - self.importance.0) / self.importance.1)
     }
 
-    /// What the shading law is told at `place`: `light`'s factors where the scene has none per scalar.
+    /// What the shading law takes at `place`: `light`'s factors where the scene has none per scalar.
     pub fn material(&self, place: f64, light: Material) -> Material {
         let Some(Linear(start, change)) = self.material else { return light };
         let [ambient, diffuse, specular, shininess] = (start + change * place).to_array();

@@ -84,11 +84,11 @@ const CASES: &[Case] = &[
         run.left_nobody()?;
         said.map(str::to_owned).ok_or_else(|| run.text.clone())
     }),
-    ("a front-end that is told to end", || {
+    ("a front-end that is asked to end", || {
         let run = mpirun("front-end told to end", &[FRONTEND, WORKERS], false);
         run.failed_with(&["ended the run (SIGTERM) while drawing frame 1"])
     }),
-    ("a launcher that is told to end", || {
+    ("a launcher that is asked to end", || {
         let run = mpirun("launcher told to end", &[FRONTEND, WORKERS], false);
         run.left_nobody()?;
         if run.code == Some(0) { Err(run.text) } else { Ok(format!("exit code {:?}", run.code)) }

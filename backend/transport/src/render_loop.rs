@@ -36,7 +36,7 @@ pub(super) enum Reply {
 /// Replies it may be ahead of the messages' thread: few, because each may be a picture.
 const MOST_AHEAD: usize = 2;
 
-/// Progress is told this often while a frame is drawn.
+/// Progress is reported this often while a frame is drawn.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
 
 /// The messages' thread's handle on it. Dropped, it has the thread leave off and waits until the renderer is gone.
@@ -85,7 +85,7 @@ impl Drop for RenderThread {
         self.is_over.store(true, Ordering::Relaxed);
         // Without these it waits for nothing and nobody any more.
         drop((self.commands.take(), self.replies.take()));
-        // Its panics are caught inside, and told.
+        // Its panics are caught inside and reported.
         let _ = self.thread.take().map(JoinHandle::join);
     }
 }

@@ -98,7 +98,7 @@ pub struct ImportSummary {
     pub max_error: f64,
     /// Errors of all levels, the finest first.
     pub level_errors: Vec<LevelSummary>,
-    /// Voxels that were not finite, and were replaced.
+    /// Non-finite voxels, which were replaced.
     pub non_finite: u64,
     /// Time it took, milliseconds.
     pub total_ms: f64,

@@ -47,7 +47,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// How a back-end is told of the volume.
+    /// The volume as a back-end finds it.
     pub fn volume_ref(&self) -> VolumeRef {
         match &self.volume {
             VolumeSource::Store(path) => VolumeRef::Store(path.clone()),

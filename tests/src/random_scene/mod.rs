@@ -61,7 +61,7 @@ impl Wanted {
 pub struct RandomScene {
     /// Its volume.
     pub volume: RandomVolume,
-    /// Where the volume is, and who looks.
+    /// Where the volume and its viewer are.
     pub stand: Stand,
     /// Its optical model.
     pub optics: Optics,

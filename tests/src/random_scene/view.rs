@@ -1,11 +1,11 @@
-//! Where a volume is and who looks at it, and how closely, at random.
+//! Where a volume and its viewer are, and how closely it is followed, at random.
 
 use super::look::directions;
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
 use optics::Quality;
 use proptest::prelude::*;
 
-/// Where the volume is, and who looks.
+/// Where the volume and its viewer are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stand {
     /// Its longest edge, metres.
@@ -32,7 +32,7 @@ impl Stand {
     }
 }
 
-/// Most volumes at the screen, some around the viewer, some upright before one who looks along an axis.
+/// Most volumes at the screen, some around the viewer, some upright before a viewer who looks along an axis.
 pub(super) fn stands() -> impl Strategy<Value = Stand> {
     let eta = prop_oneof![1 => Just(0.0), 1 => Just(0.5), 2 => Just(1.0), 1 => 0.0..=1.0];
     let observer = prop_oneof![

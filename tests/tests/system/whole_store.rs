@@ -1,4 +1,4 @@
-//! A store is whole or it is told: builds that are killed, bytes that change, many readers at once.
+//! A store is whole, or says that it is not: builds that are killed, bytes that change, many readers at once.
 
 use bricks::store::{Store, verify};
 use bricks::{BrickSource, NodeKey};

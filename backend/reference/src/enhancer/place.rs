@@ -20,7 +20,7 @@ pub enum Zone {
 /// The zones of all links; those that a chain lacks are idle.
 pub type Zones = [Zone; MOST_ENHANCERS];
 
-/// A sample as the chain is told it.
+/// A sample as the chain takes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     /// Metres, display frame.

@@ -137,7 +137,7 @@ impl Cut {
         self.nodes[place as usize].brick = Some(brick);
     }
 
-    /// Makes a leaf an inner node with eight leaves, and tells the place of the first.
+    /// Makes a leaf an inner node with eight leaves, and yields the place of the first.
     pub fn split(&mut self, place: u32, summary: impl Fn(NodeKey) -> Option<NodeSummary>) -> u32 {
         let parent = *self.node(place);
         assert!(parent.first_child.is_none(), "only a leaf is split");

@@ -1,4 +1,4 @@
-//! What a working set holds: the cut, the slots of its bricks, what cannot be had, and since when rays count.
+//! What a working set holds: the cut, the slots of its bricks, what cannot be read, and since when rays count.
 
 use super::{Cut, Family, Feedback, Meeting, Memory, Moment, Retry, SlotPool};
 use bricks::NodeKey;
@@ -7,7 +7,7 @@ use std::collections::HashMap;
 /// Rays that met a node within this many seconds still count, for views that move. What nobody sees any more should not
 /// take room for longer, and a node that few rays meet should not come and go with each of them.
 const MEMORY_S: f64 = 0.1;
-/// Rays of this many frames count, however long they take: a device tells what rays met some frames later.
+/// Rays of this many frames count, however long they take: what rays met is known some frames later.
 const MEMORY_FRAMES: usize = 5;
 /// By how much the clock goes on from one view of a complete frame to the next, seconds: just enough to tell them apart.
 const VIEW_S: f64 = 1e-6;

@@ -87,7 +87,7 @@ pub struct Advanced {
 
 /// Moves all shares toward what the rule of detail asks for. Families begin and
 /// end one by one, each in sight of what the ones before it did; `order` has parents before children. `is_lost` tells
-/// whether the detail below a node cannot be had.
+/// whether the detail below a node is out of reach.
 pub fn advance(
     cut: &mut Cut,
     shape: &OctreeShape,

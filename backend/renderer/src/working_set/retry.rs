@@ -54,7 +54,7 @@ impl Retry {
         }
     }
 
-    /// The transfer functions are others now: tells which of what failed shows anything.
+    /// The transfer functions have changed: notes which of what failed shows anything.
     pub fn look_anew(&mut self, shows: impl Fn(NodeKey) -> bool) {
         self.families.clear();
         let keys: Vec<NodeKey> = self.failed.keys().copied().collect();
