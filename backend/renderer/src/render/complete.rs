@@ -22,6 +22,9 @@ const COARSE_STRIDE: u32 = 16;
 /// needed more. Only a source whose answers change could take more.
 const MOST_ROUNDS: u32 = 256;
 
+/// Steps of a round, at most: a few make room, split and load; a round that cannot come to rest shows what there is.
+const MOST_STEPS: u32 = 256;
+
 /// Bricks that may be on their way: there is no limit.
 const NO_LIMIT: usize = 1 << 40;
 
@@ -118,7 +121,6 @@ impl Complete {
         if self.rounds == MOST_ROUNDS {
             return Ok(Some(false));
         }
-        self.rounds += 1;
         let Engine { set, stock, shelf, device, .. } = engine;
         let rules = work.setting.rules(&work.frame);
         let (shape, source) = (stock.shape, std::sync::Arc::clone(&stock.source));
@@ -133,7 +135,7 @@ impl Complete {
         };
         shelf.refresh_cells(set.cut(), &rules);
         let mut met = met;
-        loop {
+        for _ in 0..MOST_STEPS {
             let started = Instant::now();
             let mut clerk = Clerk::new(stock, shelf, device, &rules, Delivery::All(stop));
             set.step(&moment, met, Showing::AtOnce, &mut clerk);
@@ -148,6 +150,7 @@ impl Complete {
         }
         stock.check_root(set)?;
         shelf.write_settled(set, &moment, &rules, device, &mut work.account.stages);
+        self.rounds += 1;
         Ok(Some(shelf.has_changed))
     }
 
