@@ -157,7 +157,7 @@ fn nothing_left_out(mut frame: FrameState) -> FrameState {
     let Light { ambient, diffuse, specular, shininess, .. } = light;
     frame.optics.materials = Some(constant(Material { ambient, diffuse, specular, shininess }));
     let (gamma, form) = (NO_GAMMA, MimdaForm::Consistent);
-    frame.optics.mimda = Some(Mimda { importance: constant(1.0), gamma, form });
+    frame.optics.mimda = Some(Mimda { importance: constant(0.0), gamma, form });
     frame.optics.enhancers = idle_enhancers().pop().map_or(Vec::new(), |(_, chain)| chain);
     frame
 }
