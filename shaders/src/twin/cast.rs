@@ -5,20 +5,9 @@ use super::debug::debug_pixel;
 use super::kernel::{Blended, Full, Lean};
 use super::shade::{AnyShade, Phong, Plain};
 use super::way::cast_ray;
-use super::{Casting, ProjectorRays, Real, ray::Ray};
+use super::{Cast, Casting, ProjectorRays, Real, ray::Ray};
 use crate::needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 use optics::MimdaForm;
-
-/// What one ray brings back.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cast<F> {
-    /// Premultiplied linear RGB and opacity.
-    pub rgba: [F; 4],
-    /// Samples of the volume, gradients not counted.
-    pub samples: u32,
-    /// Whether a node on the way was too coarse.
-    pub is_missing: bool,
-}
 
 /// Casts the ray of a projector's pixel (x, y) with the modules that a kernel for the scene's needs has.
 #[inline(always)]

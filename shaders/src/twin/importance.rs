@@ -3,6 +3,9 @@
 use super::{Real, tables::span};
 use layout::ImportanceEntry;
 
+/// A step is split into this many parts at most.
+pub const MOST_PARTS: f64 = 16.0;
+
 #[inline(always)]
 fn importance_at<F: Real>(table: &[ImportanceEntry], u: F, cell: usize) -> F {
     let (a, b) = (F::of_f32(table[cell].value), F::of_f32(table[cell + 1].value));

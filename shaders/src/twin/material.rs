@@ -1,10 +1,10 @@
 //! The material of a scalar: the light's own, or that of a table.
 
-use super::{Casting, Real, kernel::Kernel};
+use super::{Casting, Real, features::Features};
 
 /// Ambient, diffuse, specular, shininess.
 #[inline(always)]
-pub fn material_at<F: Real, K: Kernel>(casting: &Casting<F>, s: F) -> [F; 4] {
+pub fn material_at<F: Real, K: Features>(casting: &Casting<F>, s: F) -> [F; 4] {
     if !K::IS_FULL || !casting.needs.has_materials {
         return casting.scene.material;
     }

@@ -2,6 +2,7 @@
 
 use super::composite::{Composite, Sample};
 use super::four::each;
+use super::importance::MOST_PARTS;
 use super::kernel::Kernel;
 use super::levels::Brick;
 use super::shade::Shade;
@@ -9,9 +10,6 @@ use super::tables::locate;
 use super::traverse::voxel_edge;
 use super::{Casting, Real, ray::Ray};
 use layout::NodeRecord;
-
-/// A step is split into this many parts at most.
-pub const MOST_PARTS: f64 = 16.0;
 
 /// Steps grow to this many voxels at most.
 const LONGEST_STEP: f64 = 1.0;

@@ -2,7 +2,8 @@
 
 use super::mimda::Form;
 use super::{Accumulated, Light, Sample};
-use crate::twin::{Casting, Real, importance::RISE, refine::MOST_PARTS};
+use crate::twin::importance::{MOST_PARTS, RISE};
+use crate::twin::{Casting, Real};
 
 /// Twin of `wgsl/composite/mimda_consistent.wgsl`.
 pub struct Consistent;

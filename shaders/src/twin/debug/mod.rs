@@ -7,13 +7,13 @@ mod samples;
 pub use heat::heat;
 
 use super::composite::Light;
-use super::kernel::Kernel;
+use super::features::Features;
 use super::{Casting, Real, ray::Ray};
 use optics::DebugView;
 
 /// A segment's light around t: itself, where no debug view colours it.
 #[inline(always)]
-pub(super) fn debug_light<F: Real, K: Kernel>(
+pub(super) fn debug_light<F: Real, K: Features>(
     casting: &Casting<F>,
     light: Light<F>,
     at: (&Ray<F>, F),

@@ -2,9 +2,10 @@
 
 use super::band::{band_between, band_most};
 use super::hooks::{Hooks, LinkState, Place};
-use super::link::{Constants, UNUSED, corners, scaled, with, xyz};
+use super::link::{UNUSED, corners, scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::importance::Importance;
+use crate::twin::scene::Constants;
 use crate::twin::{Real, vector::Vec3};
 use optics::BandPicker;
 

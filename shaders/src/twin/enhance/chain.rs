@@ -1,9 +1,9 @@
 //! The chain of enhancers along one ray: each hook calls the links in order.
 
 use super::hooks::{self, LinkState, Place};
-use crate::twin::composite::{Composite, Sample};
+use crate::twin::composite::Sample;
+use crate::twin::features::Features;
 use crate::twin::gradient::Gradients;
-use crate::twin::kernel::Kernel;
 use crate::twin::ray::{Ray, far};
 use crate::twin::{Casting, Real, vector::Vec3};
 use optics::MOST_ENHANCERS;
@@ -18,7 +18,7 @@ pub struct Chain<F> {
 impl<F: Real> Chain<F> {
     /// For a ray as it leaves the eye.
     #[inline(always)]
-    pub fn start<K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -> Self {
+    pub fn start<K: Features>(casting: &Casting<F>, ray: &Ray<F>) -> Self {
         let unused = LinkState { weights: [F::ZERO; 4], breaks: [far(); 3] };
         let mut chain = Self { view: ray.direction_in_display, links: [unused; MOST_ENHANCERS] };
         if K::IS_FULL {
@@ -45,7 +45,7 @@ impl<F: Real> Chain<F> {
 
     /// The first break beyond t.
     #[inline(always)]
-    pub fn next_break<K: Kernel>(&self, t: F) -> F {
+    pub fn next_break<K: Features>(&self, t: F) -> F {
         let mut next: F = far();
         if K::IS_FULL {
             for at in self.links.iter().flat_map(|link| link.breaks) {
@@ -57,7 +57,7 @@ impl<F: Real> Chain<F> {
 
     /// How much the links make samples around t vary within a step; 0 if none looks at gradients.
     #[inline(always)]
-    pub fn spread<K: Kernel>(&self, casting: &Casting<F>, t: F) -> F {
+    pub fn spread<K: Features>(&self, casting: &Casting<F>, t: F) -> F {
         let mut sum = F::ZERO;
         if K::IS_FULL {
             for (i, kind) in casting.needs.chain.kinds().enumerate() {
@@ -69,7 +69,7 @@ impl<F: Real> Chain<F> {
 
     /// A segment around t between two scalars, after all links.
     #[inline(always)]
-    pub fn enhance<K: Kernel>(
+    pub fn enhance<K: Features>(
         &self,
         casting: &Casting<F>,
         plain: Sample<F>,
@@ -80,7 +80,7 @@ impl<F: Real> Chain<F> {
         if !K::IS_FULL || casting.needs.chain.is_empty() {
             return plain;
         }
-        let has_importance = K::Composite::READS_IMPORTANCE;
+        let has_importance = K::READS_IMPORTANCE;
         let point = ray.point_in_display(t);
         let place = Place { point, gradient: gradients.at, scalars, view: self.view, has_importance };
         self.enhance_at(casting, plain, &place)

@@ -1,9 +1,10 @@
 //! Clip plane with view-dependent context (LFD section 4).
 
 use super::hooks::{Hooks, LinkState, Place};
-use super::link::{Constants, UNUSED, scaled, with, xyz};
+use super::link::{UNUSED, scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::ray::{Ray, far};
+use crate::twin::scene::Constants;
 use crate::twin::{Real, vector::Vec3};
 use optics::ClipPlane;
 

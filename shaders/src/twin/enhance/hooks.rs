@@ -1,8 +1,8 @@
 //! What an enhancer does along a ray.
 
-use super::Constants;
 use crate::twin::composite::Sample;
 use crate::twin::ray::{Ray, far};
+use crate::twin::scene::Constants;
 use crate::twin::{Real, vector::Vec3};
 use optics::{Enhancer, EnhancerKind};
 

@@ -5,9 +5,6 @@ use crate::twin::{Real, vector::Vec3};
 use glam::DVec3;
 use optics::Trapezoid;
 
-/// The four vectors of a link.
-pub type Constants<F> = [[F; 4]; 4];
-
 /// A vector of constants that an enhancer does without.
 pub(super) const UNUSED: [f64; 4] = [0.0; 4];
 

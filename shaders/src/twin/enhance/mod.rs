@@ -11,4 +11,3 @@ mod probe;
 
 pub use chain::Chain;
 pub use hooks::{LinkState, Place, constants};
-pub use link::Constants;

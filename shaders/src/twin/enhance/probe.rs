@@ -1,10 +1,11 @@
 //! Context-preserving probe (LFD eq. 4 and 5).
 
 use super::hooks::{Hooks, LinkState, Place};
-use super::link::{Constants, scaled, with, xyz};
+use super::link::{scaled, with, xyz};
 use crate::twin::composite::Sample;
 use crate::twin::gradient::LEAST_SQUARE;
 use crate::twin::ray::{Ray, far};
+use crate::twin::scene::Constants;
 use crate::twin::{Real, vector::Vec3};
 use optics::Probe;
 

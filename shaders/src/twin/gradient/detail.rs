@@ -1,7 +1,7 @@
 //! The gradients at the level that a sample is filtered at, and one and two levels above it.
 
 use super::central::gradient_in;
-use crate::twin::kernel::Kernel;
+use crate::twin::features::Features;
 use crate::twin::levels::Brick;
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 
@@ -22,7 +22,7 @@ impl<F: Real> Gradients<F> {
 
     /// At t.
     #[inline(always)]
-    pub fn new<K: Kernel>(casting: &Casting<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
+    pub fn new<K: Features>(casting: &Casting<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
         if (K::IS_FULL && casting.needs.reads_grandparents()) || brick.is_blended::<K>() {
             return Self::over_levels(casting, brick, ray, t);
         }

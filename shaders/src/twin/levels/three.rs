@@ -3,7 +3,7 @@
 
 use super::{Level, weights::Weights};
 use crate::needs::Levels;
-use crate::twin::kernel::Kernel;
+use crate::twin::features::Features;
 use crate::twin::traverse::voxel_edge;
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::{CELL_WORDS, NO_NODE, NO_SLOT, NodeRecord};
@@ -31,7 +31,7 @@ pub struct Brick<'a, F> {
 impl<'a, F: Real> Brick<'a, F> {
     /// The brick of a node, on a straight path.
     #[inline(always)]
-    pub fn new<K: Kernel>(casting: &Casting<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
+    pub fn new<K: Features>(casting: &Casting<'a, F>, node: &NodeRecord, ray: &Ray<F>) -> Self {
         let finest = casting.scene.finest_depth;
         let edge = voxel_edge::<F>(finest, node.depth);
         let own = Level::new(casting, node, ray);
@@ -57,13 +57,13 @@ impl<'a, F: Real> Brick<'a, F> {
 
     /// Whether the parent has a share of the samples by the weights of the node's corners.
     #[inline(always)]
-    pub fn is_blended<K: Kernel>(&self) -> bool {
+    pub fn is_blended<K: Features>(&self) -> bool {
         K::BLENDS && self.weights.is_blended
     }
 
     /// Whether samples may be of levels above the node's.
     #[inline(always)]
-    pub fn has_fractions<K: Kernel>(&self) -> bool {
+    pub fn has_fractions<K: Features>(&self) -> bool {
         self.is_blended::<K>() || (K::IS_FULL && self.filters_levels && self.coarsest > F::ZERO)
     }
 
@@ -108,7 +108,7 @@ impl<'a, F: Real> Brick<'a, F> {
 
     /// The scalar at t.
     #[inline(always)]
-    pub fn scalar_at<K: Kernel>(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
+    pub fn scalar_at<K: Features>(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
         let s = if K::IS_FULL && (self.filters_levels || self.weights.is_blended) {
             self.scalar_over_levels(casting, ray, t)
         } else if self.is_blended::<K>() {

@@ -1,17 +1,19 @@
 //! What a segment's colour becomes under the light.
 
+mod any;
 mod exaggerated;
 mod law;
 mod phong;
 mod plain;
 mod unsharp;
 
+pub use any::AnyShade;
 pub use phong::Phong;
 pub use plain::Plain;
 
 use super::gradient::Gradients;
 use super::{Casting, Real, ray::Ray};
-use crate::needs::{Needs, Shading};
+use crate::needs::Needs;
 
 /// A module for the shading slot.
 pub trait Shade {
@@ -43,39 +45,4 @@ pub struct Lighting<F> {
 impl<F: Real> Lighting<F> {
     /// Plain colours.
     pub const NONE: Self = Self { body: F::ONE, highlight: F::ZERO };
-}
-
-/// Whichever shading a scene needs.
-pub struct AnyShade;
-
-impl Shade for AnyShade {
-    #[inline(always)]
-    fn spread(needs: &Needs) -> f64 {
-        if Self::reads_gradients(needs) { Phong::spread(needs) } else { Plain::spread(needs) }
-    }
-
-    #[inline(always)]
-    fn safe_depth(needs: &Needs) -> f64 {
-        if Self::reads_gradients(needs) { Phong::safe_depth(needs) } else { Plain::safe_depth(needs) }
-    }
-
-    #[inline(always)]
-    fn reads_gradients(needs: &Needs) -> bool {
-        needs.shading != Shading::Plain
-    }
-
-    #[inline(always)]
-    fn lighting<F: Real>(
-        casting: &Casting<F>,
-        gradients: &Gradients<F>,
-        ray: &Ray<F>,
-        material: [F; 4],
-    ) -> Lighting<F> {
-        match casting.needs.shading {
-            Shading::Plain => Lighting::NONE,
-            Shading::Phong => Phong::lighting(casting, gradients, ray, material),
-            Shading::Unsharp => unsharp::lighting(casting, gradients, ray, material),
-            Shading::Exaggerated => exaggerated::lighting(casting, gradients, ray, material),
-        }
-    }
 }
