@@ -15,7 +15,7 @@ pub(in crate::device) struct Context {
     pub(super) queue: wgpu::Queue,
     pub(super) name: String,
     /// Whether the adapter is the processor.
-    is_software: bool,
+    pub(super) is_software: bool,
     pub(super) atlas_format: wgpu::TextureFormat,
     /// Whether the texture unit can interpolate `atlas_format` at all.
     pub(super) has_filter: bool,

@@ -19,10 +19,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Tiles of the first batch of a cast: few, because nobody knows yet how long they take.
-const FIRST_BATCH_TILES: usize = 64;
+const FIRST_BATCH_TILES: usize = 256;
 /// About as long as a batch may take: whoever asks a cast to leave off waits for no longer. Drivers also give up on what
 /// takes seconds.
 const BATCH: Duration = Duration::from_millis(8);
+/// The same on a driver in software, whose threads idle at the end of each batch until the last tile is done.
+const SOFTWARE_BATCH: Duration = Duration::from_millis(250);
 
 /// Workgroups along x of a dispatch: a tile each.
 const GROUPS_ACROSS: u32 = 32768;
@@ -53,7 +55,7 @@ pub struct GpuDevice {
     pixels_back: Readback,
     /// Places of the index.
     places: usize,
-    /// Tiles that take about [`BATCH`].
+    /// Tiles that take about as long as a batch may.
     batch_tiles: usize,
 }
 
@@ -197,7 +199,8 @@ impl GpuDevice {
             self.dispatch(&mut encoder, pipeline, key, job, &batch);
             context.run(encoder)?;
             if end - done == self.batch_tiles {
-                self.batch_tiles = next_batch(self.batch_tiles, started.elapsed());
+                let aim = if context.is_software { SOFTWARE_BATCH } else { BATCH };
+                self.batch_tiles = next_batch(self.batch_tiles, started.elapsed(), aim);
             }
             done = end;
         }
@@ -363,10 +366,10 @@ fn new_encoder(context: &Context) -> wgpu::CommandEncoder {
 }
 
 /// The tiles of the next batch, after one that took so long.
-fn next_batch(tiles: usize, took: Duration) -> usize {
+fn next_batch(tiles: usize, took: Duration, aim: Duration) -> usize {
     match took {
-        _ if took > 2 * BATCH => (tiles / 2).max(1),
-        _ if 2 * took < BATCH => 2 * tiles,
+        _ if took > 2 * aim => (tiles / 2).max(1),
+        _ if 2 * took < aim => 2 * tiles,
         _ => tiles,
     }
 }
