@@ -269,7 +269,10 @@ fn tells_of_damage(live: &Drawn, backend: usize, store: &str) -> bool {
         assert!(sentence.starts_with("brick ") && sentence.contains(store), "{sentence}");
         assert!(live.last()["total"]["damaged"].as_array().unwrap().contains(&json!(sentence)), "{sentence}");
         // The log of the back-end's own process.
-        assert!(live.ran.stderr.contains(&format!(" WARN renderer::render::damage: {sentence}")), "{sentence}");
+        assert!(
+            live.ran.stderr.contains(&format!(" WARN renderer::render::damage: {sentence}")),
+            "{sentence}"
+        );
     }
     !named.is_empty()
 }

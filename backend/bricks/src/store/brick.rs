@@ -7,7 +7,7 @@ use crate::CellRanges;
 /// each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
-    /// [`BRICK_VOXELS`] codes, x fastest.
+    /// [`super::BRICK_VOXELS`] codes, x fastest.
     pub codes: Vec<u8>,
     /// Data units per code: standard deviation = code × step.
     pub step: f32,

@@ -46,7 +46,7 @@ impl Device {
         on_device!(self, device => device.write_tables(tables));
     }
 
-    /// From now on the casts that gather for the frame ([`Gather::Frame`]) add to an empty table. An index that is
+    /// From now on the casts that gather for the frame ([`super::Gather::Frame`]) add to an empty table. An index that is
     /// written meanwhile empties it again: places mean other nodes then.
     pub fn clear_feedback(&mut self) {
         on_device!(self, device => device.clear_feedback());

@@ -55,7 +55,7 @@ impl TileGrid {
 pub enum Gather {
     /// Into a table of its own, which the outcome holds.
     Own,
-    /// Into the table of the frame, see [`super::Device::begin_feedback`]; the outcome holds none.
+    /// Into the table of the frame, see [`super::Device::clear_feedback`]; the outcome holds none.
     Frame,
 }
 
