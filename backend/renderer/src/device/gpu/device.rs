@@ -23,8 +23,9 @@ const FIRST_BATCH_TILES: usize = 256;
 /// About as long as a batch may take: whoever asks a cast to leave off waits for no longer. Drivers also give up on what
 /// takes seconds.
 const BATCH: Duration = Duration::from_millis(8);
-/// The same on a driver in software, whose threads idle at the end of each batch until the last tile is done.
-const SOFTWARE_BATCH: Duration = Duration::from_millis(250);
+/// Tiles of every batch on a driver in software: it deals them out to its threads beforehand, which then wait for each
+/// other, so that small batches leave threads idle.
+const SOFTWARE_BATCH_TILES: usize = 2048;
 
 /// Workgroups along x of a dispatch: a tile each.
 const GROUPS_ACROSS: u32 = 32768;
@@ -106,7 +107,7 @@ impl GpuDevice {
             feedback_back: Readback::new(),
             pixels_back: Readback::new(),
             places: 0,
-            batch_tiles: FIRST_BATCH_TILES,
+            batch_tiles: if context.is_software { SOFTWARE_BATCH_TILES } else { FIRST_BATCH_TILES },
             context,
         })
     }
@@ -198,9 +199,8 @@ impl GpuDevice {
             let mut encoder = new_encoder(&context);
             self.dispatch(&mut encoder, pipeline, key, job, &batch);
             context.run(encoder)?;
-            if end - done == self.batch_tiles {
-                let aim = if context.is_software { SOFTWARE_BATCH } else { BATCH };
-                self.batch_tiles = next_batch(self.batch_tiles, started.elapsed(), aim);
+            if end - done == self.batch_tiles && !context.is_software {
+                self.batch_tiles = next_batch(self.batch_tiles, started.elapsed());
             }
             done = end;
         }
@@ -366,10 +366,10 @@ fn new_encoder(context: &Context) -> wgpu::CommandEncoder {
 }
 
 /// The tiles of the next batch, after one that took so long.
-fn next_batch(tiles: usize, took: Duration, aim: Duration) -> usize {
+fn next_batch(tiles: usize, took: Duration) -> usize {
     match took {
-        _ if took > 2 * aim => (tiles / 2).max(1),
-        _ if 2 * took < aim => 2 * tiles,
+        _ if took > 2 * BATCH => (tiles / 2).max(1),
+        _ if 2 * took < BATCH => 2 * tiles,
         _ => tiles,
     }
 }
