@@ -73,7 +73,7 @@ impl Complete {
             engine.leave_live()?;
             engine.stock.damage.start_frame();
         }
-        if self.view == work.setting.views.len() {
+        if self.view == work.setting.rays.len() {
             return Ok(Some(self.report(work, engine)));
         }
         let met = if self.is_in_round { Vec::new() } else { self.learn(work, engine) };
@@ -190,7 +190,7 @@ impl Complete {
         }
         let [width, height] = work.setting.rays[self.view].raster;
         work.account.done += u64::from(width) * u64::from(height);
-        work.finals.push(work.setting.views[self.view].projector);
+        work.finals.push(work.setting.projectors[self.view]);
         self.sampled.clear();
         (self.view, self.stage, self.rounds) = (self.view + 1, Stage::Begun, 0);
     }

@@ -28,7 +28,7 @@ impl Course {
     pub(super) fn new(work: Work) -> Self {
         let next = match work.frame.pace {
             Pace::Complete => Next::Complete(Complete::default()),
-            Pace::Live { .. } => Next::Live(LiveFrame::default()),
+            Pace::Live { upload_bytes, fade_s } => Next::Live(LiveFrame::new(upload_bytes, fade_s)),
         };
         Self { work, next, report: None }
     }

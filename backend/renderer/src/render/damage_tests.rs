@@ -3,7 +3,7 @@
 use super::Renderer;
 use super::rules::FrameRules;
 use super::test_scene::{Pictures, display, draw, frame, renderer};
-use super::views::{ProjectorView, scene_numbers, views};
+use super::views::{rays_of, scene_numbers};
 use crate::device::{CastJob, CpuDevice, Device, Gather, NEVER, Part};
 use crate::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle};
 use bricks::LodRule;
@@ -16,6 +16,7 @@ use protocol::FrameState;
 use reference::{Integrator, Reference};
 use shaders::compose::Needs;
 use shaders::tables::Tables;
+use shaders::twin::ProjectorRays;
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::time::Duration;
@@ -129,9 +130,9 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     settle(&mut cut);
     device.write_index(&build_index(&cut, &[], &rules), &cells);
     let scene = scene_numbers(&display, frame, &shape);
-    let views = views(&display, &[0, 1], frame).unwrap();
-    let picture = |view: &ProjectorView| {
-        let (views, part) = (std::slice::from_ref(&view.rays), Part::Every { stride: 1 });
+    let rays = rays_of(&display, &[0, 1], frame).unwrap();
+    let picture = |rays: &ProjectorRays<f32>| {
+        let (views, part) = (std::slice::from_ref(rays), Part::Every { stride: 1 });
         let (gather, counts) = (Gather::Own, true);
         device
             .cast(&CastJob {
@@ -147,7 +148,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
             .unwrap();
         device.picture(0).unwrap()
     };
-    views.iter().map(picture).collect()
+    rays.iter().map(picture).collect()
 }
 
 /// The largest error of a picture of projector 0 against a reference, every fourth pixel along x and y.

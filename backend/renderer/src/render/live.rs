@@ -12,18 +12,26 @@ use crate::device::FeedbackTag;
 use crate::working_set::{Feedback, Moment, Shortfall, Showing, most_in_flight};
 use bricks::NodeKey;
 use layout::FeedbackEntry;
-use protocol::{FrameReport, FrameState, Pace, Upkeep};
+use protocol::{FrameReport, FrameState, Upkeep};
 use std::time::Instant;
 
 /// A live frame under work.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct LiveFrame {
+    /// Bytes of bricks that it may move to the device.
+    upload_bytes: u64,
+    /// Time of a fade, seconds.
+    fade_s: f64,
     upkeep: Option<Upkeep>,
     /// Whether it shows what the one before showed.
     is_still: bool,
 }
 
 impl LiveFrame {
+    pub(super) fn new(upload_bytes: u64, fade_s: f64) -> Self {
+        Self { upload_bytes, fade_s, upkeep: None, is_still: false }
+    }
+
     /// What comes when all that was pending has been cast: first the working set, then the report.
     pub(super) fn next(
         &mut self,
@@ -38,13 +46,14 @@ impl LiveFrame {
         self.upkeep = Some(self.keep_up(work, engine)?);
         engine.recording.begin()?;
         engine.device.clear_feedback();
-        work.begin_cast(Pending::all(&work.setting, 0..work.setting.views.len(), 1));
+        work.begin_cast(Pending::all(&work.setting, 0..work.setting.rays.len(), 1));
         Ok(None)
     }
 
     /// Brings the working set up to the frame's time: what rays met, what to fetch, what has come, what is shown.
     fn keep_up(&self, work: &mut Work, engine: &mut Engine) -> Result<Upkeep, RenderError> {
-        let (upload_bytes, fade_s) = limits(&work.frame);
+        let Self { upload_bytes, fade_s, is_still, .. } = *self;
+        let fade_s = if work.frame.quality.blended { fade_s } else { 0.0 };
         let before = engine.live.before(&engine.options.display);
         let Engine { set, stock, shelf, device, live, .. } = engine;
         stock.damage.start_frame();
@@ -55,7 +64,7 @@ impl LiveFrame {
             rules: rules.for_index(&shape, shelf.blank_slot()),
             summary: &summary,
             now_s: live.now_s(&work.frame),
-            is_still: self.is_still,
+            is_still,
             fade_s,
             most_in_flight: most_in_flight(upload_bytes),
         };
@@ -78,7 +87,7 @@ impl LiveFrame {
         let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
         engine.device.end_feedback(FeedbackTag { keys: keys_of(engine.set.cut()), frame });
         work.account.done = work.account.total;
-        work.finals.extend(work.setting.views.iter().map(|view| view.projector));
+        work.finals.extend(&work.setting.projectors);
         let report = self.report(work, engine, upkeep);
         engine.live.last = Some(as_seen(&work.frame));
         report
@@ -151,15 +160,5 @@ impl Engine {
             mean_deficit: short.map_or(0.0, |short| short.mean),
             update_ms: 0.0,
         }
-    }
-}
-
-/// Bytes of bricks that a live frame may move to the device, and the time of a fade, seconds.
-fn limits(frame: &FrameState) -> (u64, f64) {
-    match frame.pace {
-        Pace::Live { upload_bytes, fade_s } => {
-            (upload_bytes, if frame.quality.blended { fade_s } else { 0.0 })
-        }
-        Pace::Complete => (u64::MAX, 0.0),
     }
 }

@@ -102,7 +102,7 @@ impl Renderer {
     /// The device stopped answering.
     pub fn picture(&mut self, projector: u32) -> Result<Option<ProjectorImage>, RenderError> {
         let Some(Course { work, .. }) = &self.course else { return Ok(None) };
-        let Some(view) = work.setting.views.iter().position(|view| view.projector == projector) else {
+        let Some(view) = work.setting.projectors.iter().position(|&known| known == projector) else {
             return Ok(None);
         };
         let [width, height] = work.setting.rays[view].raster;

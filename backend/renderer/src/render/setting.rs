@@ -3,7 +3,7 @@
 use super::RenderError;
 use super::engine::Engine;
 use super::rules::FrameRules;
-use super::views::{scene_numbers, views};
+use super::views::{rays_of, scene_numbers};
 use bricks::LodRule;
 use protocol::FrameState;
 use shaders::compose::Needs;
@@ -14,18 +14,12 @@ use std::sync::Arc;
 /// Cells are kept with a margin of one voxel for half a pair of steps.
 const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;
 
-/// One projector's place among the views.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct View {
-    /// Index of the projector in the display.
-    pub(super) projector: u32,
-}
-
 /// What a frame, which has been checked, is drawn with.
 #[derive(Debug)]
 pub(super) struct Setting {
     pub(super) scene: SceneNumbers<f32>,
-    pub(super) views: Vec<View>,
+    /// Index of each view's projector in the display.
+    pub(super) projectors: Vec<u32>,
     /// Of each view.
     pub(super) rays: Vec<ProjectorRays<f32>>,
     /// Blending apart, which depends on the working set.
@@ -39,15 +33,15 @@ pub(super) struct Setting {
 impl Setting {
     pub(super) fn new(engine: &mut Engine, frame: &FrameState) -> Result<Self, RenderError> {
         let (display, shape) = (&engine.options.display, engine.stock.shape);
-        let found = views(display, &engine.options.projectors, frame)?;
+        let projectors = engine.options.projectors.clone();
         let scene = scene_numbers(display, frame, &shape);
         let lod = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
         let needs =
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
         Ok(Self {
             scene,
-            views: found.iter().map(|view| View { projector: view.projector }).collect(),
-            rays: found.into_iter().map(|view| view.rays).collect(),
+            rays: rays_of(display, &projectors, frame)?,
+            projectors,
             needs,
             tables: engine.tables.of(&frame.optics, &needs),
             has_borders: !lod.is_uniform(&shape),

@@ -6,15 +6,6 @@ use display_config::Display;
 use protocol::FrameState;
 use shaders::twin::{Placement, ProjectorRays, SceneNumbers};
 
-/// One projector's view.
-#[derive(Clone, Debug)]
-pub(super) struct ProjectorView {
-    /// Index of the projector in the display.
-    pub(super) projector: u32,
-    /// What a kernel reads.
-    pub(super) rays: ProjectorRays<f32>,
-}
-
 /// The numbers that all projectors share, as kernels read them.
 pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &OctreeShape) -> SceneNumbers<f32> {
     let place = Placement {
@@ -27,22 +18,22 @@ pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &Octre
     SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality).rounded()
 }
 
-/// The views of some projectors, as kernels read them.
+/// The rays of some projectors, as kernels read them.
 ///
 /// # Errors
 /// The observer or η of the frame does not go with a projector.
-pub(super) fn views(
+pub(super) fn rays_of(
     display: &Display,
     projectors: &[u32],
     frame: &FrameState,
-) -> Result<Vec<ProjectorView>, RenderError> {
+) -> Result<Vec<ProjectorRays<f32>>, RenderError> {
     let canonical = display.canonical_raster();
-    let view = |&projector: &u32| {
+    let rays = |&projector: &u32| {
         let found = &display.projectors[projector as usize];
         let law = display
             .beam_law(projector as usize, frame.observer_in_display, frame.eta)
             .map_err(|error| RenderError::Ray { projector: found.name.clone(), why: error.to_string() })?;
-        Ok(ProjectorView { projector, rays: ProjectorRays::new(&canonical, found, &law).rounded() })
+        Ok(ProjectorRays::new(&canonical, found, &law).rounded())
     };
-    projectors.iter().map(view).collect()
+    projectors.iter().map(rays).collect()
 }
