@@ -97,9 +97,9 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
             to_s = scalar_at(brick, ray, t);
         }
         let to_located = locate(to_s);
-        let plain = sample_between(from_located, to_located, from_s, to_s);
+        let middle = t - 0.5 * part;
+        let plain = sample_over(from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
         if !is_clear(plain.k.w) {
-            let middle = t - 0.5 * part;
             var gradients = NO_GRADIENTS;
             if plain.k.w > 0.0 && (SHADES || (CHAIN_NEEDS_GRADIENT && chain_spread(middle) > 0.0)) {
                 gradients = gradients_at(brick, ray, middle);
@@ -122,12 +122,12 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
     return front;
 }
 
-// Adds a pair of steps that meets nothing but scalars within `range`: the first along one straight path, the second along
+// Adds a pair of steps that meets nothing but scalars within `range`, each step standing for a spread: the first along one straight path, the second along
 // another, which is the same where light is not bent. Yields the number of parts that each was cut into.
 fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
-    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>) -> f32 {
+    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>, spreads: vec2<f32>) -> f32 {
     let thickness = scene.quality.z * step;
-    var pair = pair_of(s0, s1, s2, range);
+    var pair = pair_of(s0, s1, s2, range, spreads);
     let middle = t0 + step;
     var gradients = NO_GRADIENTS;
     // Only enhancers whose samples vary with the gradient look at it.

@@ -35,7 +35,7 @@ struct NodeRecord {
     neighbours: array<u32, 6>,
     most_extinction: f32,
     weights: array<u32, 2>,
-    padding: u32,
+    deviation_scale: f32,
 }
 
 struct OpticsEntry {

@@ -53,12 +53,13 @@ fn largest(v: vec4<f32>) -> f32 {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
-fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>) -> Pair {
+fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>, spreads: vec2<f32>) -> Pair {
     let l0 = locate(s0);
     let l1 = locate(s1);
     let l2 = locate(s2);
-    return Pair(sample_between(l0, l1, s0, s1), sample_between(l1, l2, s1, s2), sample_between(l0, l2, s0, s2),
-        sample_between(locate(reach.x), locate(reach.y), reach.x, reach.y));
+    return Pair(sample_over(l0, l1, s0, s1, spreads.x), sample_over(l1, l2, s1, s2, spreads.y),
+        sample_over(l0, l2, s0, s2, 0.5 * (spreads.x + spreads.y)),
+        sample_over(locate(reach.x), locate(reach.y), reach.x, reach.y, max(spreads.x, spreads.y)));
 }
 
 // Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and

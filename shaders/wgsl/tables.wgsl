@@ -44,6 +44,11 @@ fn is_vacant(low: f32, high: f32) -> bool {
     return occupied[c0] == occupied[c1 + 1u];
 }
 
+// Whether nothing within `spread` of a range of scalars changes a picture.
+fn is_vacant_around(range: vec2<f32>, spread: f32) -> bool {
+    return is_vacant(max(range.x - spread, 0.0), min(range.y + spread, 1.0));
+}
+
 // φ(x) = (1 − e^−x) / x; a series where the difference would cancel.
 fn attenuation_mean(x: f32) -> f32 {
     if x < 0.25 {

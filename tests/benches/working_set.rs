@@ -55,7 +55,8 @@ impl Supply for Disk {
 /// One frame; milliseconds of choosing, showing and weighing, without what stands for rays and disk.
 fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Optics, now_s: f64) -> [f64; 3] {
     let summary = |_: NodeKey| NodeSummary { min: 0.4, max: 0.6 };
-    let rules = IndexRules { shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None };
+    let rules =
+        IndexRules { shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None, deviations: &[] };
     let moment =
         Moment { rules, summary: &summary, now_s, is_still: false, fade_s: 0.3, most_in_flight: 1 << 20 };
     let leaf = |place: &u32| {

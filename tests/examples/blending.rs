@@ -41,7 +41,7 @@ fn compare(
     let mut devices: Vec<Device> = contenders
         .iter()
         .map(|(_, twin, _)| {
-            let mut device = Device::Cpu(Box::new(CpuDevice::new(twin.slots())));
+            let mut device = Device::Cpu(Box::new(CpuDevice::new(twin.slots(), false)));
             twin.load(&mut device);
             device
         })

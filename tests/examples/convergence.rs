@@ -78,6 +78,7 @@ fn case(display: &Display, name: &'static str, light: Option<Light>, form: Optio
         step_voxels: STEPS_VOXELS[0],
         quadrilinear: false,
         blended: false,
+        deviation: false,
     };
     Case { name, source, frame }
 }

@@ -1,6 +1,7 @@
 //! Real volumes, from the packages that carry them.
 
-use bricks::store::{BuildOptions, CodeBits, Store};
+use bricks::procedural::ProceduralVolume;
+use bricks::store::{BuildOptions, CodeBits, Store, build};
 use bricks::volume::{ByteOrder, Element};
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
@@ -59,12 +60,12 @@ fn folder() -> &'static Path {
 }
 
 /// The store of this name in the folder, built by whoever asks first.
-fn store(name: &str, build: impl FnOnce(&Path)) -> Store {
+fn store(name: &str, make: impl FnOnce(&Path)) -> Store {
     static TURN: Mutex<()> = Mutex::new(());
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let out = folder().join(name);
     if !out.exists() {
-        build(&out);
+        make(&out);
     }
     Store::open(&out).expect("a store just built opens")
 }
@@ -129,6 +130,29 @@ fn doubled_voxels(raw: &[u8], dims: UVec3) -> Vec<u8> {
         .flat_map_iter(|z| (0..2 * dims.y).flat_map(move |y| (0..2 * dims.x).map(move |x| (x, y, z))))
         .flat_map_iter(|(x, y, z)| voxel(x, y, z).to_le_bytes())
         .collect()
+}
+
+/// Vessels of about a voxel, or none: what coarse voxels lose most of.
+pub fn vessels() -> Store {
+    store("vessels.lloom", |out| {
+        let vessels = ProceduralVolume::new("sparse-vessels", UVec3::splat(192), 1e-3);
+        let mut vessels = vessels.expect("the name is one of ours");
+        build(&mut vessels, out, &BuildOptions::default(), &|_, _| {}).expect("a procedural volume builds");
+    })
+}
+
+/// Voxels that know nothing of each other.
+pub fn noise() -> Store {
+    let dims = UVec3::splat(112);
+    store("noise.lloom", |out| {
+        let hash = |i: u32| (i.wrapping_mul(2_654_435_761) ^ i >> 7).wrapping_mul(0x9e37_79b1) >> 24;
+        let voxel = |i: u32| ((hash(4 * i) + hash(4 * i + 1) + hash(4 * i + 2) + hash(4 * i + 3)) / 4) as u8;
+        let raw = folder().join("noise.raw");
+        let voxels: Vec<u8> = (0..dims.element_product()).map(voxel).collect();
+        std::fs::write(&raw, voxels).expect("a temporary folder takes 2 MB");
+        let layout = RawLayout { dims, element: Element::U8, spacing_mm: DVec3::ONE, ..cranium_layout() };
+        build_store(&raw, Some(layout), CodeBits::Eight, out);
+    })
 }
 
 /// The head MRI as an 8-bit store.

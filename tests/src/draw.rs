@@ -114,7 +114,12 @@ pub fn devices() -> Vec<DeviceChoice> {
     #[cfg(feature = "gpu")]
     let gpu = {
         let (wish, filter) = (AdapterWish::default(), FilterChoice::Exact);
-        let opened = renderer::device::open_device(DeviceChoice::Gpu, &wish, filter, 0, 0);
+        let opened = renderer::device::open_device(
+            DeviceChoice::Gpu,
+            &wish,
+            filter,
+            &renderer::device::CacheWish { bytes: 0, slots_needed: 0, has_deviations: false },
+        );
         opened.map_err(|error| error.to_string())
     };
     #[cfg(not(feature = "gpu"))]

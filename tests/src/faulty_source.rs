@@ -163,6 +163,10 @@ impl BrickSource for FaultySource {
         self.source.frame()
     }
 
+    fn has_deviation(&self) -> bool {
+        self.source.has_deviation()
+    }
+
     fn value_range(&self) -> (f64, f64) {
         self.source.value_range()
     }

@@ -77,8 +77,14 @@ impl Presented {
         let tables = Tables::new(&frame.optics, &needs);
         let (shape, lod) = (self.source.shape(), lod_rule(display, frame));
         let is_quadrilinear = frame.quality.quadrilinear;
-        let rules =
-            IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear, blank_slot: None };
+        let rules = IndexRules {
+            shape: &shape,
+            lod: &lod,
+            optics: &frame.optics,
+            is_quadrilinear,
+            blank_slot: None,
+            deviations: &[],
+        };
         let (mut cut, mut atlas) = (Cut::new(self.source.summary(NodeKey::ROOT)), Vec::new());
         let mut places = vec![0];
         while let Some(place) = places.pop() {
@@ -102,7 +108,7 @@ impl Presented {
             self.blend(&cut, place, frame, &mut nodes, &mut atlas);
         }
         let cells = vec![u32::MAX; atlas.len() / BRICK_VOXELS * CELL_WORDS];
-        TwinScene { nodes, atlas, tables, cells, needs }
+        TwinScene { nodes, atlas, deviations: Vec::new(), tables, cells, needs }
     }
 
     /// Gives a node its weights, and what goes with them.

@@ -39,6 +39,10 @@ impl BrickSource for Remembered {
         self.source.frame()
     }
 
+    fn has_deviation(&self) -> bool {
+        self.source.has_deviation()
+    }
+
     fn value_range(&self) -> (f64, f64) {
         self.source.value_range()
     }

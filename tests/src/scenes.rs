@@ -116,14 +116,22 @@ pub fn marschner_lobb(display: &Display) -> TestScene {
 
 /// Thin opaque vessels in empty space, unshaded.
 pub fn sparse_vessels(display: &Display) -> TestScene {
-    let source = procedural("sparse-vessels", 256);
+    vessels_of("sparse-vessels", procedural("sparse-vessels", 256), display)
+}
+
+/// The same as a store, fewer voxels of them: what coarse voxels lose most of.
+pub fn stored_vessels(display: &Display) -> TestScene {
+    vessels_of("stored vessels", shared("stored vessels".into(), data::vessels), display)
+}
+
+fn vessels_of(name: &'static str, source: Arc<dyn BrickSource>, display: &Display) -> TestScene {
     let optics = optics(
         (0.0, 1.0),
         &vec![(0.05, 0.0), (0.6, 0.8), (1.0, 2.0)],
         &vec![(0.0, [0.5, 0.05, 0.05]), (1.0, [1.0, 0.5, 0.3])],
     );
     let place = placed(&*source, 0.7 * display.height_m, DQuat::from_rotation_y(-0.3));
-    TestScene { name: "sparse-vessels", source, frame: frame(display, place, optics, None) }
+    TestScene { name, source, frame: frame(display, place, optics, None) }
 }
 
 /// Skin and bone of the cranium CT, shaded, the head upright.
@@ -167,6 +175,18 @@ pub fn head_mri(display: &Display) -> Option<TestScene> {
     let upright = DQuat::from_rotation_y(0.8) * DQuat::from_rotation_x(-FRAC_PI_2);
     let place = placed(&*source, 0.8 * display.height_m, upright);
     Some(TestScene { name: "head MRI", source, frame: frame(display, place, optics, None) })
+}
+
+/// The bright part of noise.
+pub fn noise(display: &Display) -> TestScene {
+    let source = shared("noise".into(), data::noise);
+    let optics = optics(
+        (0.0, 255.0),
+        &vec![(150.0, 0.0), (200.0, 0.3), (255.0, 0.3)],
+        &vec![(150.0, [0.2, 0.6, 0.9]), (220.0, [1.0, 0.8, 0.3])],
+    );
+    let place = placed(&*source, 0.5 * display.height_m, DQuat::from_rotation_y(0.4));
+    TestScene { name: "noise", source, frame: frame(display, place, optics, None) }
 }
 
 /// Every scene of which the data is there.

@@ -20,6 +20,8 @@ pub struct TwinScene {
     pub nodes: Vec<NodeRecord>,
     /// The bricks, slot by slot.
     pub atlas: Vec<u16>,
+    /// Their standard deviations; empty where bricks have none.
+    pub deviations: Vec<u8>,
     /// The tables.
     pub tables: Tables,
     /// The visible cells, slot by slot: all of them, so that the twin here passes over nothing.
@@ -54,10 +56,17 @@ impl TwinScene {
         let is_quadrilinear = frame.quality.quadrilinear;
         let blends = frame.quality.blended && !lod.is_uniform(&shape);
         let needs = Needs { blends, ..needs };
-        let mut rules =
-            IndexRules { shape: &shape, lod: &lod, optics: &frame.optics, is_quadrilinear, blank_slot: None };
+        let mut rules = IndexRules {
+            shape: &shape,
+            lod: &lod,
+            optics: &frame.optics,
+            is_quadrilinear,
+            blank_slot: None,
+            deviations: &[],
+        };
         let mut cut = Cut::new(source.summary(NodeKey::ROOT));
-        let mut atlas = Vec::new();
+        let (mut atlas, mut deviations, mut largest) = (Vec::new(), Vec::new(), Vec::new());
+        let spreads = frame.quality.deviation && source.has_deviation();
         let mut places = vec![0];
         while let Some(place) = places.pop() {
             let node = *cut.node(place);
@@ -67,6 +76,9 @@ impl TwinScene {
             // Ancestors are looked at by scenes that filter over levels.
             let brick = resident(source, node.key, &mut atlas);
             cut.set_brick(place, brick);
+            if spreads {
+                largest.push(add_deviations(source, node.key, &mut deviations));
+            }
             if rules.deficit(&node) > 0.0 {
                 let first = cut.split(place, |key| shape.contains(key).then(|| source.summary(key)));
                 places.extend(first..first + 8);
@@ -81,8 +93,11 @@ impl TwinScene {
             rules.blank_slot = Some((atlas.len() / BRICK_VOXELS) as u32);
             atlas.resize(atlas.len() + BRICK_VOXELS, 0);
         }
+        let nodes = build_index(&cut, &weights, &IndexRules { deviations: &largest, ..rules });
+        let needs = Needs { spreads: nodes.iter().any(|node| node.deviation_scale > 0.0), ..needs };
         Self {
-            nodes: build_index(&cut, &weights, &rules),
+            nodes,
+            deviations,
             cells: vec![u32::MAX; atlas.len() / BRICK_VOXELS * CELL_WORDS],
             atlas,
             tables: Tables::new(&frame.optics, &needs),
@@ -106,7 +121,12 @@ impl TwinScene {
     ) -> Casting<'a, F> {
         Casting {
             scene,
-            volume: Volume { nodes: &self.nodes, cells: &self.cells, atlas: &self.atlas },
+            volume: Volume {
+                nodes: &self.nodes,
+                cells: &self.cells,
+                atlas: &self.atlas,
+                deviations: &self.deviations,
+            },
             tables: &self.tables,
             needs: &self.needs,
             observer: Observer { feedback },
@@ -124,6 +144,17 @@ pub(crate) fn resident(source: &dyn BrickSource, key: NodeKey, atlas: &mut Vec<u
         Codes::U16(codes) => atlas.extend(codes),
     }
     ResidentBrick { slot, low: f64::from(brick.low), span }
+}
+
+/// Puts a brick's standard deviations behind the others; the largest that a code stands for, data units.
+fn add_deviations(source: &dyn BrickSource, key: NodeKey, all: &mut Vec<u8>) -> f64 {
+    let brick = source.brick(key).expect("every brick of a test scene can be read");
+    let Some(deviation) = brick.deviation else {
+        all.resize(all.len() + BRICK_VOXELS, 0);
+        return 0.0;
+    };
+    all.extend(&deviation.codes);
+    255.0 * f64::from(deviation.step)
 }
 
 /// The view of one projector.

@@ -134,14 +134,13 @@ impl<'a> Accumulator<'a> {
     /// Ordinary compositing of a span.
     fn pass(&mut self, shown: &Shown) {
         let Integrator { tolerance, max_depth } = self.scene.integrator;
-        let depth = shown.span.depth(1.0);
-        if depth <= 0.0 {
+        if shown.is_clear() {
             return;
         }
         if let Some(enhanced) = shown.enhanced() {
             return self.advance(&enhanced, None, 1.0);
         }
-        let opacity = -(-depth).exp_m1();
+        let opacity = -(-shown.span.depth(1.0)).exp_m1();
         let emission = shown.span.whole_emission(opacity, 0.5 * tolerance * opacity, max_depth);
         let through = 1.0 - self.state.opacity;
         self.state.rgb += through * emission.value;
@@ -152,7 +151,7 @@ impl<'a> Accumulator<'a> {
     /// A span on which importance rises from ι_max to `importance`.
     fn rise(&mut self, shown: &Shown, importance: f64, erasure: Erasure) {
         let kept = erasure.kept(self.importance, importance);
-        if shown.span.depth(1.0) <= 0.0 || kept <= 0.0 {
+        if shown.is_clear() || kept <= 0.0 {
             // Nothing is added, or all that is added is erased before the end.
             self.raise(importance);
             return;
@@ -220,13 +219,14 @@ impl<'a> Accumulator<'a> {
         cuts: impl Iterator<Item = f64>,
         take: impl Fn(&mut Self, &Stretch, f64, f64),
     ) {
-        let (chain, shader) = (self.scene.chain, passage.shader());
+        let Scene { chain, medium, .. } = self.scene;
+        let shader = passage.shader();
         let mut ends: Vec<f64> = cuts.chain(passage.breaks(chain)).chain([1.0]).collect();
         ends.sort_by(f64::total_cmp);
         let mut from = 0.0;
         for to in ends {
             let zones = passage.zones(chain, from, to);
-            take(self, &Stretch { passage, shader: shader.as_ref(), chain, zones }, from, to);
+            take(self, &Stretch { passage, shader: shader.as_ref(), medium, chain, zones }, from, to);
             from = to;
         }
     }
@@ -248,13 +248,20 @@ impl Visitor for Accumulator<'_> {
         let (low, high) = scalar.bounds();
         let (first, last) = (medium.band_number(low), medium.band_number(high));
         let band = if low == high { medium.band_at(low) } else { medium.band(first) };
-        let in_one_band = first == last;
+        let spread = medium.spread(piece.deviation);
+        if let Some(half) = spread.map(|spread| spread.bounds().1) {
+            let (least, most) = (low - half, high + half);
+            if self.erasure.is_none() && medium.is_clear_on(least, most) {
+                return ControlFlow::Continue(());
+            }
+        }
+        let in_one_band = first == last && spread.is_none();
         let is_plain = self.erasure.is_none()
             || in_one_band && band.importance_at(low).max(band.importance_at(high)) <= self.importance;
         if in_one_band && is_plain && band.is_empty() {
             return ControlFlow::Continue(());
         }
-        let passage = Passage::new(piece, scalar, self.course, self.scene.levels);
+        let passage = Passage::new(piece, (scalar, spread), self.course, self.scene.levels);
         if in_one_band && is_plain {
             self.pass_whole(&passage, band);
         } else {

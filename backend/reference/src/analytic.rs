@@ -61,8 +61,13 @@ where
         let is_good = value.error <= accuracy && gradient.error <= accuracy * GRADIENT_SLACK;
         let middle = 0.5 * (part.0 + part.1);
         if is_good || left == 0 || middle <= part.0 || middle >= part.1 {
-            let piece =
-                Piece { t0: part.0, t1: part.1, value: value.cubics[0], gradient: &|_| gradient.cubics };
+            let piece = Piece {
+                t0: part.0,
+                t1: part.1,
+                value: value.cubics[0],
+                deviation: None,
+                gradient: &|_| gradient.cubics,
+            };
             return visitor.piece(&piece);
         }
         self.visit(line, (part.0, middle), accuracy, left - 1, visitor)?;

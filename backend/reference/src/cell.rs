@@ -31,6 +31,13 @@ impl<'a> Cell<'a> {
         along(corners, self.enter, self.leave).scaled(self.voxels.low, self.voxels.step)
     }
 
+    /// The standard deviation along the way of what the values stand for.
+    pub fn deviation(&self) -> Option<Cubic> {
+        let deviation = self.voxels.deviation.as_ref()?;
+        let corners = self.corners(|index| f64::from(deviation.codes[index]));
+        Some(along(corners, self.enter, self.leave).scaled(0.0, f64::from(deviation.step)))
+    }
+
     /// The gradient along the way, per finest voxel: trilinear central differences over one voxel of `voxel_edge`
     /// finest voxels on each side.
     pub fn gradient(&self, voxel_edge: f64) -> [Cubic; 3] {

@@ -75,6 +75,7 @@ impl<'a> Cells<'a> {
             t0: self.t,
             t1: exit,
             value: cell.value(),
+            deviation: cell.deviation(),
             gradient: &|_| cell.gradient(edge),
         })
     }

@@ -3,7 +3,9 @@
 use super::{Line, corners::Corners};
 use bricks::LodRule;
 use bricks::is_shown;
-use bricks::{BRICK_VOXELS, BrickError, BrickSource, Codes, NodeKey, OVERLAP, OWN_EDGE, OctreeShape};
+use bricks::{
+    BRICK_VOXELS, BrickError, BrickSource, Codes, Deviation, NodeKey, OVERLAP, OWN_EDGE, OctreeShape,
+};
 use glam::{DVec3, IVec3};
 use optics::Optics;
 use std::collections::{HashMap, HashSet};
@@ -17,6 +19,8 @@ pub struct Voxels {
     pub low: f64,
     /// Data value per code.
     pub step: f64,
+    /// Standard deviations of the source's voxels in each, where the source keeps them.
+    pub deviation: Option<Deviation>,
 }
 
 /// The samples of a node. Its brick is read when a ray first meets it, and kept.
@@ -59,6 +63,8 @@ pub struct Cut {
     source: Arc<dyn BrickSource>,
     shape: OctreeShape,
     nodes: Vec<Node>,
+    /// Whether voxels stand for more than their means.
+    reads_deviation: bool,
 }
 
 impl Cut {
@@ -108,6 +114,11 @@ impl Cut {
         self
     }
 
+    /// This cut, with every voxel taken as its mean alone.
+    pub fn without_deviation(self) -> Self {
+        Self { reads_deviation: false, ..self }
+    }
+
     /// Gives a node's parent its share of the node's samples, where it has one and shows anything.
     fn blend(&mut self, index: usize, weights: [f64; 8], optics: &Optics) {
         let key = self.nodes[index].grid.key;
@@ -121,7 +132,8 @@ impl Cut {
         let (low, high) = leaf.bounds;
         if !is_shown(optics, self.source.summary(key)) {
             // The renderer reads no brick of such a node.
-            let middle = Voxels { codes: vec![0; BRICK_VOXELS], low: 0.5 * (low + high), step: 0.0 };
+            let middle =
+                Voxels { codes: vec![0; BRICK_VOXELS], low: 0.5 * (low + high), step: 0.0, deviation: None };
             grid.voxels = OnceLock::from(Ok(middle));
         }
         leaf.bounds = (low.min(f64::from(parent.min)), high.max(f64::from(parent.max)));
@@ -133,7 +145,7 @@ impl Cut {
         splits: impl Fn(&OctreeShape, &dyn BrickSource, NodeKey) -> bool,
     ) -> Self {
         let shape = source.shape();
-        let mut cut = Self { source: Arc::clone(&source), shape, nodes: Vec::new() };
+        let mut cut = Self { source: Arc::clone(&source), shape, nodes: Vec::new(), reads_deviation: true };
         cut.grow(&|key| splits(&shape, source.as_ref(), key), NodeKey::ROOT, None);
         cut
     }
@@ -167,7 +179,12 @@ impl Cut {
 
     /// A node's voxels.
     pub fn voxels<'a>(&self, grid: &'a Grid) -> Result<&'a Voxels, BrickError> {
-        grid.voxels.get_or_init(|| read(self.source.as_ref(), grid.key)).as_ref().map_err(Clone::clone)
+        let read = || {
+            let voxels = read(self.source.as_ref(), grid.key)?;
+            let deviation = voxels.deviation.filter(|_| self.reads_deviation);
+            Ok(Voxels { deviation, ..voxels })
+        };
+        grid.voxels.get_or_init(read).as_ref().map_err(Clone::clone)
     }
 
     fn leaf_where(&self, is_beyond: impl Fn(usize, f64) -> bool) -> &Leaf {
@@ -244,7 +261,7 @@ fn read(source: &dyn BrickSource, key: NodeKey) -> Result<Voxels, BrickError> {
             codes.len()
         )));
     }
-    Ok(Voxels { codes, low: f64::from(brick.low), step: f64::from(brick.step) })
+    Ok(Voxels { codes, low: f64::from(brick.low), step: f64::from(brick.step), deviation: brick.deviation })
 }
 
 /// The weights of a leaf's corners: 0 where a coarser leaf that shows anything touches.

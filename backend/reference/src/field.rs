@@ -33,6 +33,8 @@ pub struct Piece<'a> {
     pub t1: f64,
     /// The data value.
     pub value: Cubic,
+    /// The standard deviation of the data that the value stands for; None where it stands for itself.
+    pub deviation: Option<Cubic>,
     /// The gradient of the data value, in the volume frame, per finest voxel, so many levels above the sample's own;
     /// asked for only where it is needed, and only for levels that the visitor wants.
     pub gradient: &'a dyn Fn(usize) -> [Cubic; 3],

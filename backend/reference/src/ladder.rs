@@ -134,9 +134,13 @@ impl Way<'_> {
         let [enter, leave, middle] = [part.0, part.1, 0.5 * (part.0 + part.1)].map(|t| self.line.at(t));
         let cells: Vec<Cell> = used.iter().map(|rung| rung.cell(middle, enter, leave)).collect();
         let values: Vec<Cubic> = cells.iter().map(Cell::value).collect();
+        let deviations: Vec<Option<Cubic>> = cells.iter().map(Cell::deviation).collect();
+        let has_deviation = deviations.iter().any(Option::is_some);
+        let or_none = |found: Option<Cubic>| found.unwrap_or(Cubic::constant(0.0));
+        let deviations = has_deviation.then(|| deviations.into_iter().map(or_none).collect());
         let sloped = cells.iter().zip(used).filter(|_| self.levels > Levels::Zero);
         let gradients = sloped.map(|(cell, rung)| cell.gradient(rung.grid.voxel_edge)).collect();
-        let blend = Blend { way: self, values, gradients, part };
+        let blend = Blend { way: self, values, deviations, gradients, part };
         match &self.blending {
             None => blend.show_fixed(visitor),
             Some(blending) => blend.show_fitted(blending, (0.0, 1.0), MOST_BISECTIONS, visitor),
@@ -154,6 +158,8 @@ impl Way<'_> {
 struct Blend<'a> {
     way: &'a Way<'a>,
     values: Vec<Cubic>,
+    /// None if no rung has any.
+    deviations: Option<Vec<Cubic>>,
     gradients: Vec<[Cubic; 3]>,
     part: (f64, f64),
 }
@@ -174,7 +180,11 @@ impl Blend<'_> {
             let (low, high) = self.pair(&self.gradients, above);
             std::array::from_fn(|axis| low[axis].lerp(&high[axis], share))
         };
-        visitor.piece(&Piece { t0: self.part.0, t1: self.part.1, value, gradient: &gradient })
+        let deviation = self.deviations.as_ref().map(|deviations| {
+            let (low, high) = self.pair(deviations, 0);
+            low.lerp(high, share)
+        });
+        visitor.piece(&Piece { t0: self.part.0, t1: self.part.1, value, deviation, gradient: &gradient })
     }
 
     /// Where it is not, cubics are fitted to it.
@@ -193,17 +203,24 @@ impl Blend<'_> {
         };
         let (low, high) = self.pair(&self.values, 0);
         let value = Fit::new(|u| [lerp(low, high, at(u))]);
+        let deviation = self.deviations.as_ref().map(|deviations| {
+            let (low, high) = self.pair(deviations, 0);
+            Fit::new(|u| [lerp(low, high, at(u))])
+        });
         let gradient = |above: usize| {
             let (low, high) = self.pair(&self.gradients, above);
             Fit::new(|u| std::array::from_fn(|axis| lerp(&low[axis], &high[axis], at(u))))
         };
         let is_smooth = |above: usize| gradient(above).error <= self.way.accuracy * GRADIENT_SLACK;
-        let is_good = value.error <= self.way.accuracy && (0..self.way.levels.count()).all(is_smooth);
+        let is_spread_good = deviation.as_ref().is_none_or(|fit| fit.error <= self.way.accuracy);
+        let is_good =
+            value.error <= self.way.accuracy && is_spread_good && (0..self.way.levels.count()).all(is_smooth);
         let middle = 0.5 * (from + to);
         if is_good || left == 0 || t(middle) <= t(from) || t(middle) >= t(to) {
             let gradient = |above: usize| gradient(above).cubics;
-            let piece = Piece { t0: t(from), t1: t(to), value: value.cubics[0], gradient: &gradient };
-            return visitor.piece(&piece);
+            let deviation = deviation.map(|fit| fit.cubics[0]);
+            let (t0, t1, value) = (t(from), t(to), value.cubics[0]);
+            return visitor.piece(&Piece { t0, t1, value, deviation, gradient: &gradient });
         }
         self.show_fitted(blending, (from, middle), left - 1, visitor)?;
         self.show_fitted(blending, (middle, to), left - 1, visitor)

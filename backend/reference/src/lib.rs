@@ -15,6 +15,10 @@
 //! differential equation. Where a refraction index bends light, t is the length of the bent path, which is laid as chords;
 //! enhancers still know the direction in which the ray left the eye, and the light sees the direction of the chord.
 //!
+//! A voxel of a coarse level stands for many. Where its standard deviation σ is known, extinction and colour are the means
+//! over the scalars within σ of its own, of equal share each; importance, material, refraction index and the bands of
+//! enhancers are those of its mean.
+//!
 //! How errors keep to the tolerance ε, of which [`Radiance::error_estimate`] is the sum:
 //!
 //! | what | its error |
@@ -34,7 +38,7 @@
 //! | `corners`, `level`, `ladder` | its samples blended with those of the two nodes above |
 //! | `analytic` | the field of a closed formula, for tests |
 //! | `band`, `medium`, `slopes`, `shading`, `span` | the optical model, made ready |
-//! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts |
+//! | `enhancer`, `enhanced` | a chain of enhancers told of one ray, and a span on which it acts or whose values stand for a spread |
 //! | `setting`, `course`, `passage` | what rays of a frame, a straight way and a piece have of it |
 //! | `quadrature`, `rise`, `accumulator` | the integration |
 //! | `refraction_index`, `refraction` | bent ways, and the light along them |

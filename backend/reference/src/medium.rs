@@ -3,7 +3,7 @@
 use super::Cubic;
 use super::band::{Band, Linear, linear};
 use super::enhancer::Chain;
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 use optics::{Curve, Material, MimdaForm, Optics};
 
 /// How strongly importance erases what lies in front of it.
@@ -91,6 +91,33 @@ impl Medium {
         &self.optics
     }
 
+    /// The half-width, in scalars, of what a way's values stand for: see [`Medium::mean_light`]. None where they stand for
+    /// themselves.
+    pub fn spread(&self, deviation: Option<Cubic>) -> Option<Cubic> {
+        let (low, high) = self.optics.domain;
+        let spread = deviation?.scaled(0.0, 1.0 / (high - low));
+        (spread.bounds().1 > 0.0).then_some(spread)
+    }
+
+    /// Mean extinction (1/metre) and mean of extinction times colour over the scalars [a, b], of equal share each.
+    pub fn mean_light(&self, a: f64, b: f64) -> (f64, DVec3) {
+        let light = |band: &Band, s: f64| {
+            let (place, Linear(extinction, change)) = (band.place(s), band.extinction);
+            let extinction = (extinction + change * place).max(0.0);
+            DVec4::from(((band.colour.0 + band.colour.1 * place) * extinction, extinction))
+        };
+        let (mut sum, mut from) = (DVec4::ZERO, a);
+        for to in self.knots_between(a, b).chain([b]) {
+            let middle = 0.5 * (from + to);
+            let band = if a < b { self.band(self.band_number(middle)) } else { self.band_at(a) };
+            // Simpson's rule is exact: colour times extinction is quadratic in a band.
+            let mean = (light(band, from) + 4.0 * light(band, middle) + light(band, to)) / 6.0;
+            sum += mean * if a < b { (to - from) / (b - a) } else { 1.0 };
+            from = to;
+        }
+        (sum.w, sum.truncate())
+    }
+
     /// The scalar, not clamped, along a way on which the data value is a cubic.
     pub fn scalar(&self, value: &Cubic) -> Cubic {
         let (low, high) = self.optics.domain;
@@ -142,6 +169,11 @@ impl Medium {
         let first = self.knots.partition_point(|&knot| knot <= low);
         let last = self.knots.partition_point(|&knot| knot < high).max(first);
         (first..last).map(move |i| self.knots[if is_rising { i } else { first + last - 1 - i }])
+    }
+
+    /// Whether no scalar in [low, high] shows.
+    pub fn is_clear_on(&self, low: f64, high: f64) -> bool {
+        (self.band_number(low)..=self.band_number(high)).all(|number| self.band(number).is_empty())
     }
 
     /// Whether data values in [low, high] neither show nor, with ι_max already at `importance`, erase anything.

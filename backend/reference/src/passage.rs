@@ -2,9 +2,10 @@
 
 use super::band::Band;
 use super::course::Course;
-use super::enhanced::Enhanced;
+use super::enhanced::{Enhanced, Spread};
 use super::enhancer::{Chain, Zones};
 use super::field::Levels;
+use super::medium::Medium;
 use super::shading::Shader;
 use super::slopes::Slopes;
 use super::span::Span;
@@ -14,6 +15,8 @@ use super::{Cubic, Piece};
 pub struct Passage<'p> {
     /// The scalar, not clamped.
     pub scalar: Cubic,
+    /// The half-width of the scalars that it stands for; None where it stands for itself.
+    pub spread: Option<Cubic>,
     t0: f64,
     length_m: f64,
     course: &'p Course,
@@ -21,11 +24,16 @@ pub struct Passage<'p> {
 }
 
 impl<'p> Passage<'p> {
-    /// `piece` of `course`, on which the scalar is `scalar`, with its gradients of `levels`.
-    pub fn new(piece: &Piece, scalar: Cubic, course: &'p Course, levels: Levels) -> Self {
+    /// `piece` of `course`, on which the scalar is `scalar` and its half-width `spread`, with its gradients of `levels`.
+    pub fn new(
+        piece: &Piece,
+        (scalar, spread): (Cubic, Option<Cubic>),
+        course: &'p Course,
+        levels: Levels,
+    ) -> Self {
         let matrix = &course.shading_from_gradient;
         let slopes = (levels > Levels::Zero).then(|| Slopes::new(matrix, levels, piece.gradient));
-        Self { scalar, t0: piece.t0, length_m: piece.t1 - piece.t0, course, slopes }
+        Self { scalar, spread, t0: piece.t0, length_m: piece.t1 - piece.t0, course, slopes }
     }
 
     /// The light along the piece.
@@ -59,6 +67,8 @@ pub struct Stretch<'p> {
     pub passage: &'p Passage<'p>,
     /// Its light.
     pub shader: Option<&'p Shader<'p>>,
+    /// The optics.
+    pub medium: &'p Medium,
     /// The chain.
     pub chain: &'p Chain,
     /// Which parts of the chain's laws hold.
@@ -71,7 +81,7 @@ pub struct Shown<'p> {
     pub span: Span<'p>,
     stretch: Stretch<'p>,
     part: (f64, f64),
-    acts: bool,
+    has_law: bool,
 }
 
 impl<'p> Stretch<'p> {
@@ -79,16 +89,28 @@ impl<'p> Stretch<'p> {
     pub fn part(&self, part: (f64, f64), band: &'p Band) -> Shown<'p> {
         let passage = self.passage;
         let span = Span::new(&passage.scalar, part, passage.length_m, band, self.shader);
-        Shown { span, stretch: *self, part, acts: self.chain.acts_in(&self.zones, band) }
+        Shown { span, stretch: *self, part, has_law: self.chain.acts_in(&self.zones, band) }
     }
 }
 
 impl Shown<'_> {
-    /// The span as the chain leaves it; None if the chain leaves it alone.
+    /// Whether it holds nothing.
+    pub fn is_clear(&self) -> bool {
+        self.stretch.passage.spread.is_none() && self.span.depth(1.0) <= 0.0
+    }
+
+    /// The span as the chain leaves it, of all that its values stand for; None if the chain leaves it alone and they stand for
+    /// themselves.
     pub fn enhanced(&self) -> Option<Enhanced<'_>> {
-        let Stretch { passage, chain, zones, .. } = &self.stretch;
-        self.acts.then(|| Enhanced {
+        let Stretch { passage, chain, zones, medium, .. } = &self.stretch;
+        (self.has_law || passage.spread.is_some()).then(|| Enhanced {
             span: &self.span,
+            spread: passage.spread.map(|spread| Spread {
+                medium,
+                scalar: passage.scalar,
+                half: spread,
+                length_m: passage.length_m * (self.part.1 - self.part.0),
+            }),
             chain,
             zones,
             way: &passage.course.way,

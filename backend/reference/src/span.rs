@@ -49,8 +49,12 @@ impl<'a> Span<'a> {
 
     /// The colour shown at `x`, with the shading weight scaled by `weight`.
     pub fn colour(&self, x: f64, weight: f64) -> DVec3 {
+        self.shaded(self.band.colour.0 + self.band.colour.1 * self.places.at(x), x, weight)
+    }
+
+    /// What light makes at `x` of a colour, with the shading weight scaled by `weight`.
+    pub fn shaded(&self, colour: DVec3, x: f64, weight: f64) -> DVec3 {
         let place = self.places.at(x);
-        let colour = self.band.colour.0 + self.band.colour.1 * place;
         let Some(shader) = self.shader else { return colour };
         let material = self.band.material(place, shader.material());
         shader.shade(&Surface { colour, material, weight }, self.part.0 + x * (self.part.1 - self.part.0))

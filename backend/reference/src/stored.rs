@@ -61,6 +61,11 @@ impl StoredField {
         Self { filter: Some(FilterLevel::new(rule)), ..self }
     }
 
+    /// This field, with every voxel taken as its mean alone, whatever [`optics::Quality::deviation`] says.
+    pub fn without_deviation(self) -> Self {
+        Self { cut: self.cut.without_deviation(), ..self }
+    }
+
     fn blending<'a>(&'a self, leaf: &'a Leaf) -> Blending<'a> {
         Blending { filter: self.filter.as_ref(), corners: leaf.corners.as_ref(), level: leaf.level }
     }
@@ -83,8 +88,9 @@ impl StoredField {
         }
         if low == high {
             let gradient = |_| [Cubic::constant(0.0); 3];
-            let value = Cubic::constant(low);
-            return Ok(visitor.piece(&Piece { t0: within.0, t1: within.1, value, gradient: &gradient }));
+            let (value, deviation) = (Cubic::constant(low), None);
+            let piece = Piece { t0: within.0, t1: within.1, value, deviation, gradient: &gradient };
+            return Ok(visitor.piece(&piece));
         }
         let grid = self.cut.grid(leaf);
         let voxels = self.cut.voxels(grid)?;

@@ -166,5 +166,6 @@ impl Reference {
 /// A field with what the frame's quality makes of it.
 fn as_shown(field: StoredField, frame: &FrameState, rule: &LodRule) -> StoredField {
     let field = if frame.quality.blended { field.blended(rule, &frame.optics) } else { field };
+    let field = if frame.quality.deviation { field } else { field.without_deviation() };
     if frame.quality.quadrilinear { field.filtered(rule) } else { field }
 }

@@ -31,9 +31,10 @@ pub struct ImportArgs {
     /// Leave out bricks that the transfer functions of this scene do not show.
     #[arg(long, value_name = "SCENE.toml")]
     pub empty_for: Option<PathBuf>,
-    /// Keep the standard deviation of the voxels that each coarse voxel represents, beside their mean.
+    /// Keep the mean of the voxels that each coarse voxel represents, but not their standard deviation: the store is up to a
+    /// tenth smaller, and coarse levels show less of what they hold.
     #[arg(long)]
-    pub deviation: bool,
+    pub no_deviation: bool,
     /// Which volume, if the input holds several.
     #[command(flatten)]
     pub pick: PickArgs,
@@ -63,7 +64,7 @@ impl ImportArgs {
             codec: self.codec.into(),
             memory_bytes: self.memory_mib << 20,
             skipped,
-            has_deviation: self.deviation,
+            has_deviation: !self.no_deviation,
             series: self.pick.series.clone(),
             level: self.pick.level,
             channel: self.pick.channel,

@@ -129,7 +129,7 @@ fn an_import_takes_all_that_a_build_can_be_told() {
         "512",
         "--empty-below",
         "-200",
-        "--deviation",
+        "--no-deviation",
         "--series",
         "2",
         "--level",
@@ -144,7 +144,7 @@ fn an_import_takes_all_that_a_build_can_be_told() {
     .unwrap();
     assert_eq!((args.codec, args.memory_mib, args.empty_below), (CodecArg::Zstd, 512, Some(-200.0)));
     assert_eq!((args.pick.level, args.pick.channel, args.pick.time), (Some(1), Some(0), Some(3)));
-    assert_eq!((args.pick.series.as_deref(), args.deviation), (Some("2"), true));
+    assert_eq!((args.pick.series.as_deref(), args.no_deviation), (Some("2"), true));
     assert_eq!(args.pick.voxel_mm, Some(DVec3::new(0.5, 0.5, 2.0)));
 }
 

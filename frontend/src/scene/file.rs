@@ -162,6 +162,8 @@ pub(super) struct QualityTable {
     pub termination: Option<Number>,
     pub lod_scale: Option<Number>,
     pub quadrilinear: Option<bool>,
+    /// See [`optics::Quality::deviation`].
+    pub deviation: Option<bool>,
     pub blended: Option<bool>,
 }
 

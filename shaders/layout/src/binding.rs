@@ -44,6 +44,8 @@ bindings! {
     COUNTS = 15;
     /// The [`FeedbackEntry`](crate::FeedbackEntry)s, node by node.
     FEEDBACK = 16;
+    /// The texture of the bricks' standard deviations, slot by slot as in the atlas.
+    DEVIATIONS = 17;
 }
 
 #[cfg(test)]

@@ -35,8 +35,8 @@ pub struct NodeRecord {
     /// Share of the node's own samples at its eight corners, the parent's having the rest: unorm8 each, corner
     /// x + 2 y + 4 z in byte x + 2 y of word z. See [`pack_weights`].
     pub weights: [u32; 2],
-    /// Fills the struct to a multiple of 16 bytes.
-    pub padding: u32,
+    /// Standard deviation of code 255 of the node's deviations, normalised; 0 where its samples stand for themselves.
+    pub deviation_scale: f32,
 }
 
 /// The weights of a node whose samples are all its own.

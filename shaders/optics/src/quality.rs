@@ -24,6 +24,9 @@ pub struct Quality {
     /// Whether samples blend into the parent's toward coarser neighbours and while detail appears or goes, so that no
     /// border between bricks shows.
     pub blended: bool,
+    /// Whether a coarse voxel is taken as all that it stands for, where its volume keeps standard deviations: extinction and
+    /// colour are then means over the scalars within one deviation of the voxel's mean.
+    pub deviation: bool,
 }
 
 impl Quality {
@@ -56,6 +59,7 @@ impl Default for Quality {
             lod_scale: 1.0,
             quadrilinear: false,
             blended: true,
+            deviation: true,
         }
     }
 }

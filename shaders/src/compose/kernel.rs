@@ -47,6 +47,18 @@ impl Needs {
         modules
     }
 
+    fn spread_wgsl(&self) -> Vec<&'static str> {
+        if !self.spreads {
+            return vec![module!("spread/none")];
+        }
+        let levels = match (self.reads_ancestors(), self.reads_grandparents()) {
+            (false, _) => module!("spread/one"),
+            (true, false) => module!("spread/two"),
+            (true, true) => module!("spread/three"),
+        };
+        vec![module!("spread/level"), levels]
+    }
+
     fn gradient_wgsl(&self) -> Vec<&'static str> {
         if !self.reads_gradients() {
             return vec![module!("gradient/none")];
@@ -104,6 +116,7 @@ impl KernelKey {
             sample,
         ];
         modules.extend(needs.levels_wgsl());
+        modules.extend(needs.spread_wgsl());
         modules.extend(needs.gradient_wgsl());
         modules.extend(needs.composite_wgsl());
         modules.extend(needs.shade_wgsl());
@@ -140,10 +153,11 @@ impl KernelKey {
                         for way in [Way::Straight, Way::Refracted] {
                             for &chain in &chains {
                                 let has_materials = shading != Shading::Plain && chain.is_empty();
-                                let (blends, debug) = (false, None);
+                                let (blends, spreads, debug) = (false, false, None);
                                 let needs = Needs {
                                     levels,
                                     blends,
+                                    spreads,
                                     shading,
                                     has_materials,
                                     compositing,
@@ -175,6 +189,10 @@ impl KernelKey {
         };
         let blended: Vec<Self> = keys.iter().filter(is_apart).copied().map(with_blending).collect();
         keys.extend(blended);
+        // So are spreads, by the ways and by what a segment shows.
+        let with_spreads = |key: Self| Self { needs: Needs { spreads: true, ..key.needs }, ..key };
+        let spread: Vec<Self> = keys.iter().filter(is_apart).copied().map(with_spreads).collect();
+        keys.extend(spread);
         keys
     }
 }

@@ -5,6 +5,7 @@
 //! | filter | `sample/hardware`, `sample/exact` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
 //! | weights | `levels/no_weights`, `levels/weights` |
+//! | spread | `spread/none`, or `spread/level` with `one`, `two` or `three` |
 //! | gradient | `gradient/none`, `own`, `toward_parent`, `blended`, `detail` |
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |

@@ -53,6 +53,8 @@ pub struct Needs {
     pub levels: Levels,
     /// Whether nodes blend into their parents by the weights of their corners.
     pub blends: bool,
+    /// Whether samples of coarse levels stand for the scalars within their standard deviation.
+    pub spreads: bool,
     /// Shading.
     pub shading: Shading,
     /// Whether each scalar has a material of its own.
@@ -113,6 +115,7 @@ impl Needs {
     pub const PLAIN: Self = Self {
         levels: Levels::Single,
         blends: false,
+        spreads: false,
         shading: Shading::Plain,
         has_materials: false,
         compositing: Compositing::Over,
@@ -121,12 +124,13 @@ impl Needs {
         debug: None,
     };
 
-    /// What a scene needs; whether nodes blend, too, is the working set's to say, and a debug view the frame's.
+    /// What a scene needs; whether nodes blend and stand for a spread is the working set's to say, and a debug view the frame's.
     pub fn of(optics: &Optics, light: Option<&Light>, quality: &Quality) -> Self {
         let shading = Shading::for_light(light);
         Self {
             levels: if quality.quadrilinear { Levels::Quadrilinear } else { Levels::Single },
             blends: false,
+            spreads: false,
             shading,
             has_materials: optics.materials.is_some() && shading != Shading::Plain,
             compositing: Compositing::for_optics(optics),

@@ -7,7 +7,7 @@ use super::gradient::Gradients;
 use super::kernel::Kernel;
 use super::levels::Brick;
 use super::material::material_at;
-use super::refine::{Pair, parts_of_step};
+use super::refine::{Pair, parts_of_step, sample_over};
 use super::shade::{Lighting, Shade};
 use super::tables::{attenuation_mean, locate};
 use super::{Casting, Real, ray::Ray, vector::Vec3};
@@ -85,6 +85,8 @@ pub(super) struct PairOfSteps<'a, F> {
     pub(super) scalars: [F; 3],
     /// All that may have been met.
     pub(super) range: (F, F),
+    /// Half-width of the scalars that the samples of each stand for.
+    pub(super) spreads: [F; 2],
 }
 
 /// One step along a way.
@@ -173,9 +175,11 @@ fn add_parts_here<F: Real, K: Kernel>(
         let t = step.t0 + F::of_u32(j) * part;
         let to = if j < count { brick.scalar_at::<K>(casting, ray, t) } else { end };
         let to_located = locate(&casting.tables.optics, to);
-        let plain = K::Composite::sample_between(casting, [&from_located, &to_located], (from, to));
+        let middle = t - half * part;
+        let spread = brick.spread_at::<K>(casting, ray, middle);
+        let located = [&from_located, &to_located];
+        let plain = sample_over::<F, K::Composite>(casting, located, (from, to), spread);
         if !K::Composite::is_clear(plain.k[3]) {
-            let middle = t - half * part;
             let mut gradients = Gradients::NONE;
             let enhancers_look = chain.spread::<K>(casting, middle) > F::ZERO;
             if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
@@ -214,9 +218,9 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     steps: &PairOfSteps<F>,
 ) -> (Accumulated<F>, F) {
     let scene = casting.scene;
-    let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range } = *steps;
+    let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range, spreads } = *steps;
     let thickness = scene.extinction_per_metre * length;
-    let mut pair = Pair::new::<K::Composite>(casting, [s0, s1, s2], range);
+    let mut pair = Pair::new::<K::Composite>(casting, [s0, s1, s2], range, spreads);
     let middle = t0 + length;
     let mut gradients = Gradients::NONE;
     // Only enhancers whose samples vary with the gradient look at it.

@@ -30,7 +30,7 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
         };
     }
     let is_plain = needs.shading == Shading::Plain;
-    match (is_lean(needs), needs.blends, is_plain) {
+    match (is_lean(needs), needs.blends || needs.spreads, is_plain) {
         (true, false, true) => composited!(Lean, Plain),
         (true, false, false) => composited!(Lean, Phong),
         (true, true, true) if needs.compositing == Compositing::Over => {
@@ -46,9 +46,10 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
     }
 }
 
-/// Whether shading, compositing and blending are all that a scene needs.
+/// Whether shading, compositing, blending and spreads are all that a scene needs.
 fn is_lean(needs: &Needs) -> bool {
-    let Needs { levels, blends: _, shading, has_materials, compositing: _, way, chain, debug } = *needs;
+    let Needs { levels, blends: _, spreads: _, shading, has_materials, compositing: _, way, chain, debug } =
+        *needs;
     levels == Levels::Single
         && !shading.has_detail()
         && !has_materials

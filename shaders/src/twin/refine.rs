@@ -6,7 +6,7 @@ use super::importance::MOST_PARTS;
 use super::kernel::Kernel;
 use super::levels::Brick;
 use super::shade::Shade;
-use super::tables::locate;
+use super::tables::{Located, locate, optics_over};
 use super::traverse::voxel_edge;
 use super::{Casting, Real, ray::Ray};
 use layout::NodeRecord;
@@ -54,6 +54,22 @@ impl<F: Real> Voxel<F> {
     }
 }
 
+/// What a segment between two scalars shows, each of which stands for those within `spread` of it.
+#[inline(always)]
+pub fn sample_over<F: Real, C: Composite>(
+    casting: &Casting<F>,
+    located: [&Located<F>; 2],
+    scalars: (F, F),
+    spread: F,
+) -> Sample<F> {
+    let sample = C::sample_between(casting, located, scalars);
+    if spread > F::ZERO {
+        Sample { k: optics_over(&casting.tables.optics, scalars, spread), ..sample }
+    } else {
+        sample
+    }
+}
+
 /// What a pair of steps shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<F> {
@@ -68,17 +84,23 @@ pub struct Pair<F> {
 }
 
 impl<F: Real> Pair<F> {
-    /// Over scalars s0 to s1 to s2, with `reach` from [`scalars_in_reach`].
+    /// Over scalars s0 to s1 to s2, with `reach` from [`scalars_in_reach`], each step standing for those within one of `spreads`
+    /// of it.
     #[inline(always)]
-    pub fn new<C: Composite>(casting: &Casting<F>, [s0, s1, s2]: [F; 3], reach: (F, F)) -> Self {
+    pub fn new<C: Composite>(
+        casting: &Casting<F>,
+        [s0, s1, s2]: [F; 3],
+        reach: (F, F),
+        spreads: [F; 2],
+    ) -> Self {
         let table = &casting.tables.optics;
         let (l0, l1, l2) = (locate(table, s0), locate(table, s1), locate(table, s2));
         let (low, high) = (locate(table, reach.0), locate(table, reach.1));
         Self {
-            first: C::sample_between(casting, [&l0, &l1], (s0, s1)),
-            second: C::sample_between(casting, [&l1, &l2], (s1, s2)),
-            both: C::sample_between(casting, [&l0, &l2], (s0, s2)),
-            reach: C::sample_between(casting, [&low, &high], reach),
+            first: sample_over::<F, C>(casting, [&l0, &l1], (s0, s1), spreads[0]),
+            second: sample_over::<F, C>(casting, [&l1, &l2], (s1, s2), spreads[1]),
+            both: sample_over::<F, C>(casting, [&l0, &l2], (s0, s2), F::of(0.5) * (spreads[0] + spreads[1])),
+            reach: sample_over::<F, C>(casting, [&low, &high], reach, spreads[0].most(spreads[1])),
         }
     }
 }

@@ -51,6 +51,17 @@ pub fn sample_brick<F: Real>(brick: &[u16; VOXELS], point: Vec3<F>) -> F {
     between_corners(along_x, f[1], f[2]) * F::of(PER_CODE)
 }
 
+/// The deviation at `point`, in [0, 1]: see `wgsl/spread/level.wgsl`.
+#[inline(always)]
+pub fn sample_deviations<F: Real>(brick: &[u8; VOXELS], point: Vec3<F>) -> F {
+    let (base, f) = place(point, 0, EDGE - 2);
+    let window = &brick[base..base + LAYER + ROW + 2];
+    let texel = |i: usize| F::of_u32(u32::from(window[i]));
+    let low = [texel(0), texel(ROW), texel(LAYER), texel(LAYER + ROW)];
+    let high = [texel(1), texel(ROW + 1), texel(LAYER + 1), texel(LAYER + ROW + 1)];
+    between_corners(mix(low, high, f[0]), f[1], f[2]) * F::of(1.0 / 255.0)
+}
+
 /// Differences of the samples one texel ahead and one behind, along each axis; `point` from 1.5 to 30.5. The same as six
 /// samples: neighbours a whole texel apart share their weights, so codes are subtracted before they are weighed.
 #[inline(always)]

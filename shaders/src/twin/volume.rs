@@ -12,6 +12,8 @@ pub struct Volume<'a> {
     pub cells: &'a [u32],
     /// The brick cache: slot i holds the codes from i · 32³.
     pub atlas: &'a [u16],
+    /// Their standard deviations, likewise; empty where no brick has any.
+    pub deviations: &'a [u8],
 }
 
 impl<'a> Volume<'a> {
@@ -20,6 +22,13 @@ impl<'a> Volume<'a> {
     pub fn cells(&self, slot: u32) -> &'a [u32; CELL_WORDS] {
         let start = slot as usize * CELL_WORDS;
         self.cells[start..start + CELL_WORDS].first_chunk().expect("a slot has 16 words of cells")
+    }
+
+    /// The standard deviations of a slot.
+    #[inline(always)]
+    pub fn deviations(&self, slot: u32) -> &'a [u8; brick::VOXELS] {
+        let start = slot as usize * brick::VOXELS;
+        self.deviations[start..start + brick::VOXELS].first_chunk().expect("a slot holds 32³ deviations")
     }
 
     /// The codes of a slot.

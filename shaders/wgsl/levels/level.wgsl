@@ -10,6 +10,8 @@ struct Level {
     gradient_scale: f32,
     offset: f32,
     scale: f32,
+    // Standard deviation of code 255; 0 where samples stand for themselves.
+    deviation_scale: f32,
 }
 
 fn slot_origin(slot: u32) -> vec3<f32> {
@@ -27,6 +29,7 @@ fn level_of(node: NodeRecord, ray: Ray) -> Level {
     level.gradient_scale = 0.5 * node.scale / edge;
     level.offset = node.offset;
     level.scale = node.scale;
+    level.deviation_scale = node.deviation_scale;
     return level;
 }
 

@@ -37,16 +37,19 @@ fn take_pair(walk: ptr<function, Walk>, node: NodeRecord, brick: Brick, longest:
         s2 = scalar_at(next_brick, (*walk).bent.ray, step);
         (*walk).count += 1u;
     }
+    let spreads = vec2<f32>(spread_at(brick, ray, t0 + 0.5 * step),
+        spread_at(next_brick, (*walk).bent.ray, t1 + 0.5 * step));
     (*walk).is_known = true;
     (*walk).known = s2;
     (*walk).bent.t = t1 + step;
     (*walk).bent.way += 2.0 * step;
     let range = scalars_in_reach(ends.s0, s1, s2);
-    if is_vacant(range.x, range.y) {
+    if is_vacant_around(range, max(spreads.x, spreads.y)) {
         return Taken(false, is_turned);
     }
     var front = (*walk).front;
-    let parts = add_pair(&front, brick, ray, t0, next_brick, (*walk).bent.ray, t1, step, ends.s0, s1, s2, range);
+    let parts = add_pair(&front, brick, ray, t0, next_brick, (*walk).bent.ray, t1, step, ends.s0, s1, s2, range,
+        spreads);
     (*walk).front = front;
     (*walk).count += 2u * u32(parts - 1.0);
     return Taken(still_to_come(front) < scene.quality.y, is_turned);

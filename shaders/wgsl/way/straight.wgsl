@@ -46,10 +46,11 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         marched.samples += 2u;
         known = true;
         let range = scalars_in_reach(s0, s1, s2);
-        if is_vacant(range.x, range.y) {
+        let spreads = vec2<f32>(spread_at(brick, ray, t0 + 0.5 * step), spread_at(brick, ray, t0 + 1.5 * step));
+        if is_vacant_around(range, max(spreads.x, spreads.y)) {
             continue;
         }
-        let parts = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range);
+        let parts = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
         marched.samples += 2u * u32(parts - 1.0);
         if still_to_come(front) < scene.quality.y {
             marched.is_done = true;

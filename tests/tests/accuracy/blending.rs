@@ -137,13 +137,14 @@ fn twin_and_reference_tell_the_same_picture() {
 }
 
 fn devices(slots: u32) -> Vec<Device> {
-    let mut all = vec![Device::Cpu(Box::new(CpuDevice::new(slots)))];
+    let mut all = vec![Device::Cpu(Box::new(CpuDevice::new(slots, false)))];
     #[cfg(feature = "gpu")]
     if draw::has_gpu() {
         use protocol::{AdapterWish, DeviceChoice, FilterChoice};
-        use renderer::device::open_device;
+        use renderer::device::{CacheWish, open_device};
         let (gpu, exact) = (DeviceChoice::Gpu, FilterChoice::Exact);
-        all.push(open_device(gpu, &AdapterWish::default(), exact, 1 << 30, slots.into()).unwrap().device);
+        let cache = CacheWish { bytes: 1 << 30, slots_needed: slots.into(), has_deviations: false };
+        all.push(open_device(gpu, &AdapterWish::default(), exact, &cache).unwrap().device);
     }
     all
 }

@@ -7,6 +7,7 @@
 
 mod blending;
 mod debug_views;
+mod deviation;
 mod devices;
 mod eye;
 mod flat_layers;

@@ -7,7 +7,9 @@ use lightloom_tests::draw;
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{AdapterWish, DeviceChoice, FilterChoice};
-use renderer::device::{CastJob, CastOutcome, Device, FeedbackTag, Gather, NEVER, Part, open_device};
+use renderer::device::{
+    CacheWish, CastJob, CastOutcome, Device, FeedbackTag, Gather, NEVER, Part, open_device,
+};
 use std::time::{Duration, Instant};
 
 /// A table that has not come by then never will.
@@ -26,8 +28,9 @@ impl Stage {
         let shells = scenes::shells(&display);
         let scene = TwinScene::new(&display, &shells.frame, &*shells.source);
         let slots = (scene.atlas.len() / BRICK_VOXELS) as u64;
+        let cache = CacheWish { bytes: 1 << 30, slots_needed: slots, has_deviations: false };
         let device =
-            open_device(choice, &AdapterWish::default(), FilterChoice::Exact, 1 << 30, slots).unwrap().device;
+            open_device(choice, &AdapterWish::default(), FilterChoice::Exact, &cache).unwrap().device;
         let views = [1, 5].map(|p| view(&display, p, &shells.frame, &*shells.source).rounded()).to_vec();
         let mut stage = Self { scene, device, views };
         stage.load();

@@ -26,6 +26,10 @@ impl BrickSource for EightBits {
         self.0.frame()
     }
 
+    fn has_deviation(&self) -> bool {
+        self.0.has_deviation()
+    }
+
     fn value_range(&self) -> (f64, f64) {
         self.0.value_range()
     }

@@ -128,11 +128,6 @@ impl Store {
         &self.header.levels
     }
 
-    /// Whether coarse levels keep standard deviations.
-    pub fn has_deviation(&self) -> bool {
-        self.header.has_deviation
-    }
-
     /// Bits per code.
     pub fn bits(&self) -> CodeBits {
         self.header.bits
@@ -262,6 +257,10 @@ impl BrickSource for Store {
 
     fn frame(&self) -> VolumeFrame {
         self.header.frame
+    }
+
+    fn has_deviation(&self) -> bool {
+        self.header.has_deviation
     }
 
     fn value_range(&self) -> (f64, f64) {

@@ -57,7 +57,7 @@ impl Default for BuildOptions {
             codec: Codec::Lz4,
             memory_bytes: 2 << 30,
             emptiness: Emptiness::Lossless,
-            has_deviation: false,
+            has_deviation: true,
             stop: None,
         }
     }

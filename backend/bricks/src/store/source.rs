@@ -55,6 +55,10 @@ pub trait BrickSource: Send + Sync {
     fn voxel_size_m(&self) -> DVec3 {
         self.frame().voxel_size_m()
     }
+    /// Whether bricks of coarse levels have standard deviations.
+    fn has_deviation(&self) -> bool {
+        false
+    }
     /// Smallest and largest data value of the whole volume.
     fn value_range(&self) -> (f64, f64);
     /// Bounds of a node's values; `node` must be one that [`OctreeShape::contains`].

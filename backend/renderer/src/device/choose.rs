@@ -13,8 +13,31 @@ pub struct ChosenDevice {
     pub info: DeviceInfo,
 }
 
-/// Opens the device of choice, by default a GPU where there is one that is no driver in software, with a brick cache of at
-/// most `cache_bytes` and at most `slots_needed` bricks. A GPU that the display file names is taken whatever it is.
+/// The brick cache that a device is opened with.
+#[derive(Clone, Copy, Debug)]
+pub struct CacheWish {
+    /// It takes no more memory.
+    pub bytes: u64,
+    /// It holds no more bricks: the volume has no more.
+    pub slots_needed: u64,
+    /// Whether bricks have standard deviations.
+    pub has_deviations: bool,
+}
+
+impl CacheWish {
+    /// Slots of bricks whose samples take so many bytes each.
+    fn slots(&self, slots_needed: u64, sample_bytes: u64) -> u32 {
+        slots_within(self.bytes, self.brick_bytes(sample_bytes), slots_needed)
+    }
+
+    /// Bytes of a brick whose samples take so many.
+    fn brick_bytes(&self, sample_bytes: u64) -> u64 {
+        sample_bytes + if self.has_deviations { bricks::BRICK_VOXELS as u64 } else { 0 }
+    }
+}
+
+/// Opens the device of choice, by default a GPU where there is one that is no driver in software, with such a brick
+/// cache. A GPU that the display file names is taken whatever it is.
 ///
 /// # Errors
 /// A GPU was asked for and there is none, or none of that name, or its memory does not hold the cache.
@@ -22,20 +45,19 @@ pub fn open_device(
     choice: DeviceChoice,
     adapter: &AdapterWish,
     filter: FilterChoice,
-    cache_bytes: u64,
-    slots_needed: u64,
+    cache: &CacheWish,
 ) -> Result<ChosenDevice, DeviceError> {
     let cpu = |reason: &str| {
-        let slots = slots_within(cache_bytes, CPU_BRICK_BYTES, slots_needed);
+        let slots = cache.slots(cache.slots_needed, CPU_BRICK_BYTES);
         let info = DeviceInfo {
             adapter: format!("cpu: {} threads", rayon::current_num_threads()),
             reason: reason.into(),
             filter: "exact".into(),
-            cache_bytes: u64::from(slots) * CPU_BRICK_BYTES,
+            cache_bytes: u64::from(slots) * cache.brick_bytes(CPU_BRICK_BYTES),
         };
-        Ok(ChosenDevice { device: Device::Cpu(Box::new(CpuDevice::new(slots))), info })
+        Ok(ChosenDevice { device: Device::Cpu(Box::new(CpuDevice::new(slots, cache.has_deviations))), info })
     };
-    let gpu = || open_gpu(adapter, filter, cache_bytes, slots_needed);
+    let gpu = || open_gpu(adapter, filter, cache);
     match (choice, &adapter.name) {
         (DeviceChoice::Cpu, _) => cpu("it was asked for"),
         (DeviceChoice::Auto, None) => match software_gpu(adapter) {
@@ -60,15 +82,15 @@ const CPU_BRICK_BYTES: u64 = 2 * bricks::BRICK_VOXELS as u64;
 fn open_gpu(
     adapter: &AdapterWish,
     filter: FilterChoice,
-    cache_bytes: u64,
-    slots_needed: u64,
+    cache: &CacheWish,
 ) -> Result<ChosenDevice, DeviceError> {
     let (context, why) = super::gpu::context(adapter)?;
     // A power of two, the larger one where the cache allows it.
     let brick_bytes = context.brick_bytes();
-    let slots = slots_within(cache_bytes, brick_bytes, slots_needed).next_power_of_two();
-    let most = slots_within(cache_bytes, brick_bytes, u64::MAX).max(16);
-    let device = super::gpu::GpuDevice::new(context, filter, if slots > most { slots / 2 } else { slots })?;
+    let slots = cache.slots(cache.slots_needed, brick_bytes).next_power_of_two();
+    let most = cache.slots(u64::MAX, brick_bytes).max(16);
+    let slots = if slots > most { slots / 2 } else { slots };
+    let device = super::gpu::GpuDevice::new(context, filter, slots, cache.has_deviations)?;
     let info = device.info(&why);
     Ok(ChosenDevice { device: Device::Gpu(Box::new(device)), info })
 }
@@ -85,6 +107,6 @@ fn software_gpu(_: &AdapterWish) -> Option<String> {
 }
 
 #[cfg(not(feature = "gpu"))]
-fn open_gpu(_: &AdapterWish, _: FilterChoice, _: u64, _: u64) -> Result<ChosenDevice, DeviceError> {
+fn open_gpu(_: &AdapterWish, _: FilterChoice, _: &CacheWish) -> Result<ChosenDevice, DeviceError> {
     Err(DeviceError("this program was built without its gpu feature".into()))
 }

@@ -13,6 +13,8 @@ use shaders::twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixel};
 #[derive(Debug)]
 pub struct CpuDevice {
     atlas: Vec<u16>,
+    /// Empty where bricks have none.
+    deviations: Vec<u8>,
     nodes: Vec<NodeRecord>,
     cells: Vec<u32>,
     tables: Tables,
@@ -28,10 +30,11 @@ pub struct CpuDevice {
 type TileCasts = Vec<((u32, u32), Cast<f32>)>;
 
 impl CpuDevice {
-    /// A device with room for `slots` bricks.
-    pub fn new(slots: u32) -> Self {
+    /// A device with room for `slots` bricks, and for their standard deviations if they have any.
+    pub fn new(slots: u32, has_deviations: bool) -> Self {
         Self {
             atlas: vec![0; slots as usize * BRICK_VOXELS],
+            deviations: vec![0; if has_deviations { slots as usize * BRICK_VOXELS } else { 0 }],
             nodes: Vec::new(),
             cells: Vec::new(),
             tables: Tables::default(),
@@ -48,6 +51,11 @@ impl CpuDevice {
     pub(super) fn write_brick(&mut self, slot: u32, samples: &[u16]) {
         let start = slot as usize * BRICK_VOXELS;
         self.atlas[start..start + BRICK_VOXELS].copy_from_slice(samples);
+    }
+
+    pub(super) fn write_deviations(&mut self, slot: u32, codes: &[u8]) {
+        let start = slot as usize * BRICK_VOXELS;
+        self.deviations[start..start + BRICK_VOXELS].copy_from_slice(codes);
     }
 
     pub(super) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
@@ -68,7 +76,12 @@ impl CpuDevice {
         };
         let casting = Casting {
             scene: job.scene,
-            volume: Volume { nodes: &self.nodes, cells: &self.cells, atlas: &self.atlas },
+            volume: Volume {
+                nodes: &self.nodes,
+                cells: &self.cells,
+                atlas: &self.atlas,
+                deviations: &self.deviations,
+            },
             tables: &self.tables,
             needs: &job.needs,
             observer: Observer {

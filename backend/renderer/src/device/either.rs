@@ -36,6 +36,11 @@ impl Device {
         on_device!(self, device => device.write_brick(slot, samples));
     }
 
+    /// Puts the 32³ standard deviations of a brick's samples into its slot; the cache was made with room for them.
+    pub fn write_deviations(&mut self, slot: u32, codes: &[u8]) {
+        on_device!(self, device => device.write_deviations(slot, codes));
+    }
+
     /// Replaces the spatial index, and which cells of each slot show anything.
     pub fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
         on_device!(self, device => device.write_index(nodes, cells));

@@ -12,7 +12,7 @@ mod job;
 mod tag;
 mod under_way;
 
-pub use choose::{ChosenDevice, open_device};
+pub use choose::{CacheWish, ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use either::Device;
 pub use error::DeviceError;

@@ -1,7 +1,7 @@
 //! The bricks above a node, as filtering over levels reads them.
 
-use crate::working_set::ResidentBrick;
-use bricks::{CellRanges, NodeKey, OVERLAP, OWN_EDGE};
+use super::brick_ranges::BrickRanges;
+use bricks::{NodeKey, OVERLAP, OWN_EDGE};
 use layout::{CELL_EDGE, CELLS_ACROSS};
 
 /// Levels above a node that samples may be blended with.
@@ -10,9 +10,7 @@ pub(super) const MOST_ANCESTORS: usize = 2;
 /// A brick above a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ancestor<'a> {
-    /// Its brick.
-    pub(super) brick: ResidentBrick,
-    ranges: &'a CellRanges,
+    ranges: BrickRanges<'a>,
     /// Levels between, 1 or 2.
     levels: u8,
     /// Where the node lies in it, in nodes of the node's own depth.
@@ -21,26 +19,20 @@ pub(super) struct Ancestor<'a> {
 
 impl<'a> Ancestor<'a> {
     /// The brick of `above` for the node `key` below it.
-    pub(super) fn new(key: NodeKey, above: NodeKey, brick: ResidentBrick, ranges: &'a CellRanges) -> Self {
+    pub(super) fn new(key: NodeKey, above: NodeKey, ranges: BrickRanges<'a>) -> Self {
         let levels = key.depth - above.depth;
         let offset = (key.cell - (above.cell << glam::UVec3::splat(u32::from(levels)))).to_array();
-        Self { brick, ranges, levels, offset: offset.map(|c| c as usize) }
+        Self { ranges, levels, offset: offset.map(|c| c as usize) }
     }
 
-    /// Smallest and largest sample around a cell of the node: of the cells of this brick that the cell reaches into,
+    /// Smallest and largest data value around a cell of the node: of the cells of this brick that the cell reaches into,
     /// which are kept with a margin of two of this brick's texels.
-    pub(super) fn range_around(&self, cell: [usize; 3]) -> [u16; 2] {
+    pub(super) fn values_around(&self, cell: [usize; 3], spreads: bool) -> [f64; 2] {
         let spans: [(usize, usize); 3] = std::array::from_fn(|axis| self.span(self.offset[axis], cell[axis]));
-        let mut range = [u16::MAX, 0];
-        for z in spans[2].0..=spans[2].1 {
-            for y in spans[1].0..=spans[1].1 {
-                for x in spans[0].0..=spans[0].1 {
-                    let [low, high] = self.ranges.around([x, y, z]);
-                    range = [range[0].min(low), range[1].max(high)];
-                }
-            }
-        }
-        range
+        let [xs, ys, zs] = spans.map(|(first, last)| first..=last);
+        let rows = zs.flat_map(|z| ys.clone().map(move |y| (y, z)));
+        let cells = rows.flat_map(|(y, z)| xs.clone().map(move |x| [x, y, z]));
+        self.ranges.values_in(cells, spreads)
     }
 
     /// First and last cell of this brick along an axis that a cell of the node reaches into. A texel x of the node is
@@ -55,7 +47,8 @@ impl<'a> Ancestor<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bricks::{BRICK_VOXELS, Brick};
+    use crate::working_set::ResidentBrick;
+    use bricks::{BRICK_VOXELS, Brick, CellRanges};
     use glam::UVec3;
 
     #[test]
@@ -68,21 +61,22 @@ mod tests {
             }
         }
         let ranges = CellRanges::of_samples(&samples);
-        let brick = ResidentBrick { slot: 0, low: 0.0, span: 1.0 };
+        let brick = ResidentBrick { slot: 0, low: 0.0, span: 65535.0 };
+        let ranges = BrickRanges { brick, samples: &ranges, deviations: None };
         for (levels, offset) in [(1, 0), (1, 1), (2, 0), (2, 3)] {
             let key = NodeKey { depth: 5, cell: UVec3::new(8 + offset, 4, 4) };
             let above =
                 NodeKey { depth: 5 - levels, cell: UVec3::new(8 >> levels, 4 >> levels, 4 >> levels) };
-            let ancestor = Ancestor::new(key, above, brick, &ranges);
+            let ancestor = Ancestor::new(key, above, ranges);
             for cell in 0..8 {
-                let [low, high] = ancestor.range_around([cell, 0, 0]);
+                let [low, high] = ancestor.values_around([cell, 0, 0], true);
                 for texel in 4 * cell..=4 * cell + 4 {
                     let own = (28 * offset as usize + texel) as f64 - 2.0;
                     let there = own / f64::from(1 << levels) + 2.0;
                     // Interpolation reaches half a texel beyond, a step another half; ends of the brick cut it off.
                     let reach = [(there - 1.5).max(0.0), (there + 0.5).min(31.0)];
                     assert!(
-                        f64::from(low) <= reach[0].ceil() && f64::from(high) >= reach[1].floor(),
+                        low <= reach[0].ceil() && high >= reach[1].floor(),
                         "{levels} {offset} {cell}: {low} to {high} for {reach:?}"
                     );
                 }

@@ -1,6 +1,7 @@
 //! Laws of damaged bricks: they are named, drawn from their parents, and nothing else changes.
 
 use super::Renderer;
+use super::brick_ranges::BrickRanges;
 use super::rules::FrameRules;
 use super::test_scene::{Pictures, display, draw, frame, renderer};
 use super::views::{rays_of, scene_numbers};
@@ -103,6 +104,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         optics: &frame.optics,
         is_quadrilinear: false,
         blank_slot: None,
+        deviations: &[],
     };
     let frame_rules = FrameRules {
         lod,
@@ -111,10 +113,11 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         can_pass_over: true,
         is_quadrilinear: false,
         blends: false,
+        spreads: false,
     };
     let mut cut = limited_cut(&*source, &rules, broken);
     let leaves: Vec<u32> = cut.walk().filter(|&p| !rules.is_empty(cut.node(p))).collect();
-    let mut device = Device::Cpu(Box::new(CpuDevice::new(leaves.len() as u32)));
+    let mut device = Device::Cpu(Box::new(CpuDevice::new(leaves.len() as u32, false)));
     let mut cells = Vec::new();
     for (slot, &place) in (0..).zip(&leaves) {
         let brick = source.brick(cut.node(place).key).unwrap();
@@ -122,7 +125,10 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
         device.write_brick(slot, &samples);
         let brick = ResidentBrick { slot, low: f64::from(brick.low), span: f64::from(brick.step) * 65535.0 };
         cut.set_brick(place, brick);
-        cells.extend(frame_rules.visible_cells(&CellRanges::of_samples(&samples), brick, &[]));
+        cells.extend({
+            let samples = CellRanges::of_samples(&samples);
+            frame_rules.visible_cells(&BrickRanges { brick, samples: &samples, deviations: None }, &[])
+        });
     }
     device.write_tables(tables.clone());
     let order: Vec<u32> = cut.walk().collect();

@@ -6,7 +6,7 @@ use super::recording::Recording;
 use super::shelf::Shelf;
 use super::stock::Stock;
 use super::table_cache::TableCache;
-use crate::device::{ChosenDevice, Device, open_device};
+use crate::device::{CacheWish, ChosenDevice, Device, open_device};
 use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
 use bricks::{BrickSource, NodeKey};
 use protocol::{DeviceInfo, RendererOptions};
@@ -32,8 +32,13 @@ impl Engine {
         let shape = source.shape();
         let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
         let bricks: u64 = (0..=shape.finest_depth()).map(level).sum();
+        let cache = CacheWish {
+            bytes: options.cache_bytes,
+            slots_needed: bricks,
+            has_deviations: source.has_deviation(),
+        };
         let ChosenDevice { device, info } =
-            open_device(options.device, &options.adapter, options.filter, options.cache_bytes, bricks)?;
+            open_device(options.device, &options.adapter, options.filter, &cache)?;
         let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
         let engine = Self {
             options: options.clone(),

@@ -7,6 +7,7 @@
 
 mod account;
 mod ancestors;
+mod brick_ranges;
 mod complete;
 mod course;
 mod damage;

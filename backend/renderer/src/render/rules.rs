@@ -1,9 +1,10 @@
 //! What one frame asks of the cut and its bricks.
 
 use super::ancestors::Ancestor;
-use crate::working_set::{IndexRules, ResidentBrick};
+use super::brick_ranges::BrickRanges;
+use crate::working_set::IndexRules;
 use bricks::LodRule;
-use bricks::{CellRanges, OctreeShape};
+use bricks::OctreeShape;
 use layout::CELL_WORDS;
 use optics::Optics;
 use shaders::tables::Tables;
@@ -20,6 +21,8 @@ pub(super) struct FrameRules<'a> {
     pub(super) is_quadrilinear: bool,
     /// Whether nodes blend into their parents.
     pub(super) blends: bool,
+    /// Whether samples of coarse levels stand for the scalars within their standard deviation.
+    pub(super) spreads: bool,
 }
 
 impl FrameRules<'_> {
@@ -31,34 +34,24 @@ impl FrameRules<'_> {
             optics: self.optics,
             is_quadrilinear: self.is_quadrilinear,
             blank_slot: self.blends.then_some(blank_slot),
+            deviations: &[],
         }
     }
 
     /// The bits of the cells of a brick that show anything; blended with ancestors, where the scene does that.
-    pub(super) fn visible_cells(
-        &self,
-        ranges: &CellRanges,
-        brick: ResidentBrick,
-        ancestors: &[Ancestor],
-    ) -> [u32; CELL_WORDS] {
+    pub(super) fn visible_cells(&self, own: &BrickRanges, ancestors: &[Ancestor]) -> [u32; CELL_WORDS] {
         if !self.can_pass_over {
             return [u32::MAX; CELL_WORDS];
         }
-        ranges.visible(|cell, range| {
-            let own = self.scalars(brick, range);
-            let (low, high) = ancestors.iter().fold(own, |(low, high), ancestor| {
-                let (least, most) = self.scalars(ancestor.brick, ancestor.range_around(cell));
-                (low.min(least), high.max(most))
+        let (start, end) = self.optics.domain;
+        own.samples.visible(|cell, _| {
+            let values = own.values_in(std::iter::once(cell), self.spreads);
+            let [low, high] = ancestors.iter().fold(values, |[low, high], ancestor| {
+                let [least, most] = ancestor.values_around(cell, self.spreads);
+                [low.min(least), high.max(most)]
             });
-            !self.tables.is_vacant(low, high)
+            let scalar = |value: f64| (value - start) / (end - start);
+            !self.tables.is_vacant(scalar(low), scalar(high))
         })
-    }
-
-    /// The scalars of a range of samples.
-    fn scalars(&self, brick: ResidentBrick, samples: [u16; 2]) -> (f64, f64) {
-        let (low, high) = self.optics.domain;
-        let scalar =
-            |sample: u16| (brick.low + brick.span * f64::from(sample) / 65535.0 - low) / (high - low);
-        (scalar(samples[0]), scalar(samples[1]))
     }
 }

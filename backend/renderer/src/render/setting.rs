@@ -63,6 +63,7 @@ impl Setting {
             can_pass_over: frame.quality.step_voxels <= LONGEST_STEP_THAT_PASSES_OVER,
             is_quadrilinear: frame.quality.quadrilinear,
             blends: frame.quality.blended && self.has_borders,
+            spreads: frame.quality.deviation,
         }
     }
 }

@@ -2,13 +2,15 @@
 
 use super::account::milliseconds;
 use super::ancestors::{Ancestor, MOST_ANCESTORS};
+use super::brick_ranges::BrickRanges;
 use super::rules::FrameRules;
 use crate::device::Device;
 use crate::working_set::{
-    Cut, LoadedBrick, Moment, WorkingSet, build_index, corner_weights, settled_weights,
+    Cut, IndexRules, LoadedBrick, Moment, ResidentBrick, WorkingSet, build_index, corner_weights,
+    settled_weights,
 };
 use bricks::{CellRanges, LodRule};
-use layout::{CELL_WORDS, FULL_WEIGHTS, NodeRecord};
+use layout::{CELL_WORDS, FULL_WEIGHTS, NO_NODE, NodeRecord};
 use optics::Optics;
 use protocol::Stages;
 use std::time::Instant;
@@ -19,6 +21,10 @@ pub(super) struct Shelf {
     blank_slot: u32,
     /// Of each slot: the ranges of its cells.
     ranges: Vec<Option<CellRanges>>,
+    /// Of each slot: the ranges of its deviations around each cell.
+    deviation_ranges: Vec<Option<CellRanges>>,
+    /// Of each slot: its largest standard deviation, data units; 0 where samples stand for themselves.
+    deviations: Vec<f64>,
     /// Of each slot: the bits of its visible cells in this frame.
     cells: Vec<u32>,
     /// Of each slot: whether its cells are those of a node that blends with its parent.
@@ -33,6 +39,8 @@ pub(super) struct Shelf {
     index_by: Option<IndexInputs>,
     /// Whether any node of it blends with its parent.
     pub(super) blends: bool,
+    /// Whether samples of any leaf stand for more than themselves.
+    pub(super) spreads: bool,
     /// Whether the last write changed what rays meet.
     pub(super) has_changed: bool,
 }
@@ -43,6 +51,7 @@ struct CellRules {
     optics: Optics,
     can_pass_over: bool,
     is_quadrilinear: bool,
+    spreads: bool,
 }
 
 /// What decides the index.
@@ -53,6 +62,7 @@ struct IndexInputs {
     optics: Optics,
     is_quadrilinear: bool,
     blends: bool,
+    spreads: bool,
     is_settled: bool,
 }
 
@@ -61,6 +71,8 @@ impl Shelf {
         Self {
             blank_slot: slots - 1,
             ranges: vec![None; slots as usize],
+            deviation_ranges: vec![None; slots as usize],
+            deviations: vec![0.0; slots as usize],
             // Everything shows in the blank slot, which is never written to.
             cells: vec![u32::MAX; slots as usize * CELL_WORDS],
             has_blended_cells: vec![false; slots as usize],
@@ -69,6 +81,7 @@ impl Shelf {
             index: Vec::new(),
             index_by: None,
             blends: false,
+            spreads: false,
             has_changed: true,
         }
     }
@@ -88,7 +101,14 @@ impl Shelf {
         device: &mut Device,
     ) {
         device.write_brick(slot, &loaded.samples);
-        self.ranges[slot as usize] = Some(loaded.cells);
+        let LoadedBrick { cells, deviation, .. } = loaded;
+        let at = slot as usize;
+        self.ranges[at] = Some(cells);
+        self.deviations[at] = deviation.as_ref().map_or(0.0, |deviation| deviation.largest);
+        if let Some(deviation) = &deviation {
+            device.write_deviations(slot, &deviation.codes);
+        }
+        self.deviation_ranges[at] = deviation.map(|deviation| deviation.cells);
         self.refresh_cells_of(cut, place, rules, false);
     }
 
@@ -98,6 +118,7 @@ impl Shelf {
             optics: rules.optics.clone(),
             can_pass_over: rules.can_pass_over,
             is_quadrilinear: rules.is_quadrilinear,
+            spreads: rules.spreads,
         };
         if self.cells_by.as_ref() == Some(&by) {
             return;
@@ -114,12 +135,19 @@ impl Shelf {
     fn refresh_cells_of(&mut self, cut: &Cut, place: u32, rules: &FrameRules, blends: bool) {
         let Some(brick) = cut.node(place).brick else { return };
         let slot = brick.slot as usize;
-        let Some(ranges) = &self.ranges[slot] else { return };
-        let cells = rules.visible_cells(ranges, brick, &self.ancestors(cut, place, rules, blends));
+        let Some(own) = self.brick_ranges(brick) else { return };
+        let cells = rules.visible_cells(&own, &self.ancestors(cut, place, rules, blends));
         let known = &mut self.cells[slot * CELL_WORDS..(slot + 1) * CELL_WORDS];
         self.are_cells_stale |= *known != cells;
         known.copy_from_slice(&cells);
         self.has_blended_cells[slot] = blends;
+    }
+
+    /// What is known of the cells of a resident brick.
+    fn brick_ranges(&self, brick: ResidentBrick) -> Option<BrickRanges<'_>> {
+        let slot = brick.slot as usize;
+        let deviations = self.deviation_ranges[slot].as_ref().map(|ranges| (ranges, self.deviations[slot]));
+        Some(BrickRanges { brick, samples: self.ranges[slot].as_ref()?, deviations })
     }
 
     /// The bricks above a node that its samples are blended with.
@@ -130,8 +158,8 @@ impl Shelf {
         while let Some(above) = at.filter(|_| found.len() < most) {
             let node = cut.node(above);
             let Some(brick) = node.brick else { break };
-            let Some(ranges) = &self.ranges[brick.slot as usize] else { break };
-            found.push(Ancestor::new(cut.node(place).key, node.key, brick, ranges));
+            let Some(ranges) = self.brick_ranges(brick) else { break };
+            found.push(Ancestor::new(cut.node(place).key, node.key, ranges));
             at = node.parent;
         }
         found
@@ -180,6 +208,7 @@ impl Shelf {
             optics: rules.optics.clone(),
             is_quadrilinear: rules.is_quadrilinear,
             blends: rules.blends,
+            spreads: rules.spreads,
             is_settled,
         };
         // What cannot be read now may be worth another try as time goes on.
@@ -191,7 +220,11 @@ impl Shelf {
         let started = Instant::now();
         let weights = if rules.blends { weigh() } else { Vec::new() };
         self.refresh_blended_cells(set.cut(), &weights, rules);
-        let index = build_index(set.cut(), &weights, &rules.for_index(moment.rules.shape, self.blank_slot));
+        let deviations = if rules.spreads { &self.deviations[..] } else { &[] };
+        let index_rules = IndexRules { deviations, ..rules.for_index(moment.rules.shape, self.blank_slot) };
+        let index = build_index(set.cut(), &weights, &index_rules);
+        self.spreads =
+            set.cut().walk_shown().any(|place| stands_for_more(&index, place, rules.is_quadrilinear));
         // Where no leaf has less than all weight, a kernel without blending gives the same bits in half the time.
         self.blends = set.cut().walk_shown().any(|place| index[place as usize].weights != FULL_WEIGHTS);
         stages.refine_ms += milliseconds(started);
@@ -215,4 +248,13 @@ impl Shelf {
             }
         }
     }
+}
+
+/// Whether samples of a leaf, or of those above that it blends with, stand for more than themselves.
+fn stands_for_more(index: &[NodeRecord], place: u32, is_quadrilinear: bool) -> bool {
+    let node = &index[place as usize];
+    let has_share = is_quadrilinear || node.weights != FULL_WEIGHTS;
+    let parent = index.get(node.parent as usize).filter(|_| has_share && node.parent != NO_NODE);
+    let stands_for_more = |node: &NodeRecord| node.deviation_scale > 0.0;
+    node.first_child == NO_NODE && (stands_for_more(node) || parent.is_some_and(stands_for_more))
 }

@@ -89,7 +89,7 @@ impl Work {
             scene: &self.setting.scene,
             views: &self.setting.rays[views.clone()],
             first_picture: self.picture_of(views.start),
-            needs: Needs { blends: engine.shelf.blends, ..self.setting.needs },
+            needs: Needs { blends: engine.shelf.blends, spreads: engine.shelf.spreads, ..self.setting.needs },
             part: Part::Tiles { stride: *stride, tiles },
             gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },
             counts: true,

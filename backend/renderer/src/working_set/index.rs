@@ -22,6 +22,9 @@ pub struct IndexRules<'a> {
     /// A slot that holds no brick and all of whose cells show something; nodes that have no brick of their own and
     /// blend with their parent stand in it. None if nodes do not blend.
     pub blank_slot: Option<u32>,
+    /// Of each slot: the largest standard deviation of its brick's samples, data units; empty where samples stand for
+    /// themselves.
+    pub deviations: &'a [f64],
 }
 
 /// What a record says of a node's samples.
@@ -63,6 +66,7 @@ impl IndexRules<'_> {
     ) -> NodeRecord {
         let node = cut.node(place);
         let content = self.content(cut, node, weights);
+        let (low, high) = self.optics.domain;
         NodeRecord {
             cell: node.key.cell.to_array(),
             depth: u32::from(node.key.depth),
@@ -75,8 +79,13 @@ impl IndexRules<'_> {
             neighbours,
             most_extinction: self.most_extinction(cut, node, content.weights) as f32,
             weights: content.weights,
-            padding: 0,
+            deviation_scale: (self.deviation(node) / (high - low)) as f32,
         }
+    }
+
+    /// The largest standard deviation of what a node's samples stand for, data units.
+    fn deviation(&self, node: &CutNode) -> f64 {
+        node.brick.and_then(|brick| self.deviations.get(brick.slot as usize)).copied().unwrap_or(0.0)
     }
 
     /// A node that shows nothing has nothing to sample, unless it blends with a parent that does: then its own sample is
@@ -110,10 +119,12 @@ impl IndexRules<'_> {
             return f64::from(f32::MAX);
         }
         let parent = node.parent.filter(|_| weights != FULL_WEIGHTS).map(|parent| cut.node(parent));
+        let reach = parent.map_or(0.0, |parent| self.deviation(parent)).max(self.deviation(node));
         let summary = parent.map_or(node.summary, |parent| parent.summary);
         match (summary, Compositing::for_optics(self.optics), Way::for_optics(self.optics)) {
             (Some(NodeSummary { min, max }), Compositing::Over, Way::Straight) => {
-                let [low, high] = [min, max].map(|value| self.optics.normalise(f64::from(value)));
+                let bounds = [f64::from(min) - reach, f64::from(max) + reach];
+                let [low, high] = bounds.map(|value| self.optics.normalise(value));
                 self.optics.extinction.max_on(low, high) * self.optics.most_factor()
             }
             (_, Compositing::Mimda(_), _) | (_, _, Way::Refracted) | (None, ..) => f64::from(f32::MAX),
@@ -206,8 +217,7 @@ mod tests {
             }
             let optics = optics();
             let rules = IndexRules {
-                shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false, blank_slot: None,
-            };
+                shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false, blank_slot: None, deviations: &[] };
             let order: Vec<u32> = cut.walk().collect();
             refresh(&mut cut, &rules, &order);
             order.iter().for_each(|&place| cut.set_brick(place, ResidentBrick { slot: 0, low: 0.0, span: 1.0 }));

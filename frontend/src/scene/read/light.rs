@@ -59,6 +59,7 @@ impl SceneText {
             termination: self.within_or(&table.termination, preset.termination, 0.0..=1.0)?,
             lod_scale: self.within_or(&table.lod_scale, preset.lod_scale, AT_LEAST_ZERO)?,
             quadrilinear: table.quadrilinear.unwrap_or(preset.quadrilinear),
+            deviation: table.deviation.unwrap_or(preset.deviation),
             blended: table.blended.unwrap_or(preset.blended),
         })
     }

@@ -63,7 +63,7 @@ mod tests {
             neighbours: [NO_NODE; 6],
             most_extinction: 1.0,
             weights: pack_weights([0.0, 1.0, 0.0, 1.0, 0.2, 1.0, 0.2, 1.0]),
-            padding: 0,
+            deviation_scale: 0.0,
         };
         let at = |x: f64, y: f64, z: f64| weight(3, &node, Vec3([56.0 + x, y, 112.0 + z]));
         assert_eq!((at(0.0, 9.0, 0.0), at(56.0, 50.0, 30.0)), (0.0, 1.0));

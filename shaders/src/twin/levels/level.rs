@@ -1,6 +1,6 @@
 //! One level of detail around a ray: where a brick's samples lie on it.
 
-use crate::twin::sample::sample_brick;
+use crate::twin::sample::{sample_brick, sample_deviations};
 use crate::twin::traverse::{node_low, voxel_edge};
 use crate::twin::{Casting, Real, ray::Ray, vector::Vec3};
 use layout::{NodeRecord, brick};
@@ -17,6 +17,8 @@ pub struct Level<'a, F> {
     pub gradient_scale: F,
     offset: F,
     scale: F,
+    /// The standard deviations, and that of code 255; None where samples stand for themselves.
+    deviations: Option<(&'a [u8; brick::VOXELS], F)>,
 }
 
 impl<'a, F: Real> Level<'a, F> {
@@ -37,6 +39,8 @@ impl<'a, F: Real> Level<'a, F> {
             gradient_scale: F::of(0.5) * scale / edge,
             offset: F::of_f32(node.offset),
             scale,
+            deviations: (node.deviation_scale > 0.0)
+                .then(|| (casting.volume.deviations(node.slot), F::of_f32(node.deviation_scale))),
         }
     }
 
@@ -44,6 +48,12 @@ impl<'a, F: Real> Level<'a, F> {
     #[inline(always)]
     pub fn point(&self, t: F) -> Vec3<F> {
         self.base + self.slope * t
+    }
+
+    /// The standard deviation at t of what samples stand for.
+    #[inline(always)]
+    pub fn spread(&self, t: F) -> F {
+        self.deviations.map_or(F::ZERO, |(codes, scale)| scale * sample_deviations(codes, self.point(t)))
     }
 
     /// The scalar at t, not held to [0, 1].

@@ -8,7 +8,7 @@ use crate::twin::gradient::Gradients;
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
 use crate::twin::refine::scalars_in_reach;
-use crate::twin::tables::is_vacant;
+use crate::twin::tables::is_vacant_around;
 use crate::twin::{Casting, Real};
 use layout::NodeRecord;
 
@@ -54,11 +54,16 @@ impl<F: Real> Walk<F> {
             s2 = next_brick.scalar_at::<K>(casting, &self.bent.ray, step);
             self.cast.samples += 1;
         }
+        let half = F::of(0.5) * step;
+        let spreads = [
+            brick.spread_at::<K>(casting, &ray, t0 + half),
+            next_brick.spread_at::<K>(casting, &self.bent.ray, t1 + half),
+        ];
         self.known = Some(s2);
         self.bent.t = t1 + step;
         self.bent.way = self.bent.way + F::of(2.0) * step;
         let range = scalars_in_reach(s0, s1, s2);
-        if is_vacant(&casting.tables.occupied, range.0, range.1) {
+        if is_vacant_around(&casting.tables.occupied, range, spreads[0].most(spreads[1])) {
             return Taken { is_last: false, is_turned };
         }
         let steps = PairOfSteps {
@@ -68,6 +73,7 @@ impl<F: Real> Walk<F> {
             length: step,
             scalars: [s0, s1, s2],
             range,
+            spreads,
         };
         let (added, parts) = add_pair::<F, K>(casting, &self.chain, self.front, &steps);
         self.front = added;

@@ -6,7 +6,7 @@ use crate::twin::enhance::Chain;
 use crate::twin::kernel::Kernel;
 use crate::twin::levels::Brick;
 use crate::twin::refine::{Voxel, scalars_in_reach};
-use crate::twin::tables::is_vacant;
+use crate::twin::tables::is_vacant_around;
 use crate::twin::{Cast, Casting, Real, ray::Ray};
 use layout::{NO_NODE, NO_SLOT};
 
@@ -65,7 +65,8 @@ fn march<F: Real, K: Kernel>(
         marched.samples += 2;
         known = Some(s2);
         let range = scalars_in_reach(s0, s1, s2);
-        if is_vacant(&casting.tables.occupied, range.0, range.1) {
+        let spreads = [0.5, 1.5].map(|steps| brick.spread_at::<K>(casting, ray, t0 + F::of(steps) * step));
+        if is_vacant_around(&casting.tables.occupied, range, spreads[0].most(spreads[1])) {
             continue;
         }
         let steps = PairOfSteps {
@@ -75,6 +76,7 @@ fn march<F: Real, K: Kernel>(
             length: step,
             scalars: [s0, s1, s2],
             range,
+            spreads,
         };
         let (added, parts) = add_pair::<F, K>(casting, chain, front, &steps);
         front = added;

@@ -1,4 +1,4 @@
-//! The brick cache on the GPU: one 3-D texture of slots.
+//! The brick cache on the GPU: a 3-D texture of slots.
 
 use super::context::Context;
 use crate::device::DeviceError;
@@ -18,7 +18,11 @@ pub(super) struct Atlas {
 impl Atlas {
     /// Room for `slots` bricks, a power of two, as far as a texture goes. Every edge is a power of two, so that texture
     /// coordinates of whole texels are exact.
-    pub(super) fn new(context: &Context, slots: u32) -> Result<Self, DeviceError> {
+    pub(super) fn new(
+        context: &Context,
+        slots: u32,
+        format: wgpu::TextureFormat,
+    ) -> Result<Self, DeviceError> {
         assert!(slots.is_power_of_two(), "the caller rounds the number of slots");
         let edge = BRICK_EDGE as u32;
         let most = (context.device.limits().max_texture_dimension_3d / edge).ilog2();
@@ -34,7 +38,7 @@ impl Atlas {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D3,
-            format: context.atlas_format,
+            format,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
@@ -56,19 +60,24 @@ impl Atlas {
 
     /// Puts samples (65535 = 1) into a slot.
     pub(super) fn write(&self, context: &Context, slot: u32, samples: &[u16]) {
-        let [across, down, _] = self.slots;
-        let edge = BRICK_EDGE as u32;
-        let origin = wgpu::Origin3d {
-            x: slot % across * edge,
-            y: slot / across % down * edge,
-            z: slot / (across * down) * edge,
-        };
         let as_floats: Vec<f32>;
         let bytes: &[u8] = if self.texture.format() == wgpu::TextureFormat::R16Unorm {
             bytemuck::cast_slice(samples)
         } else {
             as_floats = samples.iter().map(|&sample| f32::from(sample) / 65535.0).collect();
             bytemuck::cast_slice(&as_floats)
+        };
+        self.write_bytes(context, slot, bytes);
+    }
+
+    /// Puts the bytes of 32³ texels into a slot.
+    pub(super) fn write_bytes(&self, context: &Context, slot: u32, bytes: &[u8]) {
+        let [across, down, _] = self.slots;
+        let edge = BRICK_EDGE as u32;
+        let origin = wgpu::Origin3d {
+            x: slot % across * edge,
+            y: slot / across % down * edge,
+            z: slot / (across * down) * edge,
         };
         let bytes_per_row = (bytes.len() / (BRICK_EDGE * BRICK_EDGE)) as u32;
         context.queue.write_texture(

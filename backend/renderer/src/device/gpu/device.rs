@@ -10,6 +10,7 @@ use super::storage::{Storage, uniform};
 use super::view::ViewBuffers;
 use crate::device::job::ViewJob;
 use crate::device::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
+use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock, binding};
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
@@ -35,6 +36,8 @@ const GROUPS_ACROSS: u32 = 32768;
 pub struct GpuDevice {
     context: Arc<Context>,
     atlas: Atlas,
+    /// The bricks' standard deviations, slot by slot as in the atlas; None where bricks have none.
+    deviations: Option<Atlas>,
     sampler: wgpu::Sampler,
     filter: Filter,
     filter_error: Option<f32>,
@@ -69,9 +72,12 @@ impl GpuDevice {
         context: Arc<Context>,
         filter: FilterChoice,
         slots: u32,
+        has_deviations: bool,
     ) -> Result<Self, DeviceError> {
         let turn = context.turn();
-        let atlas = Atlas::new(&context, slots)?;
+        let atlas = Atlas::new(&context, slots, context.atlas_format)?;
+        let deviations =
+            has_deviations.then(|| Atlas::new(&context, slots, wgpu::TextureFormat::R8Unorm)).transpose()?;
         let sampler = context.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("trilinear"),
             mag_filter: wgpu::FilterMode::Linear,
@@ -87,6 +93,7 @@ impl GpuDevice {
         drop(turn);
         Ok(Self {
             atlas,
+            deviations,
             sampler,
             filter,
             filter_error,
@@ -126,8 +133,13 @@ impl GpuDevice {
             adapter: self.context.name.clone(),
             reason: format!("{why}; {measured}"),
             filter: filter.into(),
-            cache_bytes: u64::from(self.atlas.count()) * self.context.brick_bytes(),
+            cache_bytes: u64::from(self.atlas.count()) * self.brick_bytes(),
         }
+    }
+
+    fn brick_bytes(&self) -> u64 {
+        let deviations = if self.deviations.is_some() { BRICK_VOXELS as u64 } else { 0 };
+        self.context.brick_bytes() + deviations
     }
 
     pub(in crate::device) fn slots(&self) -> u32 {
@@ -137,6 +149,13 @@ impl GpuDevice {
     pub(in crate::device) fn write_brick(&mut self, slot: u32, samples: &[u16]) {
         let _turn = self.context.turn();
         self.atlas.write(&self.context, slot, samples);
+    }
+
+    pub(in crate::device) fn write_deviations(&mut self, slot: u32, codes: &[u8]) {
+        let _turn = self.context.turn();
+        if let Some(deviations) = &self.deviations {
+            deviations.write_bytes(&self.context, slot, codes);
+        }
     }
 
     pub(in crate::device) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
@@ -334,6 +353,10 @@ impl GpuDevice {
         }
         let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
         entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
+        if let Some(deviations) = self.deviations.as_ref().filter(|_| key.needs.spreads) {
+            let resource = wgpu::BindingResource::TextureView(&deviations.view);
+            entries.push(wgpu::BindGroupEntry { binding: binding::DEVIATIONS, resource });
+        }
         if key.filter == Filter::Hardware {
             let sampler = wgpu::BindingResource::Sampler(&self.sampler);
             entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });

@@ -10,12 +10,33 @@ pub struct LoadedBrick {
     pub samples: Vec<u16>,
     /// Range of the samples around each of the 8³ cells.
     pub cells: CellRanges,
+    /// Standard deviations of what the samples stand for, where the source keeps them.
+    pub deviation: Option<LoadedDeviation>,
     /// Data value of sample 0.
     pub low: f64,
     /// Data value of sample 65535, less `low`.
     pub span: f64,
     /// Bytes of the codes as the store held them, decoded.
     pub bytes: u64,
+}
+
+impl LoadedBrick {
+    /// One of which nothing but its size matters.
+    pub fn without_samples(bytes: u64) -> Self {
+        let cells = CellRanges::uniform(0);
+        Self { samples: Vec::new(), cells, deviation: None, low: 0.0, span: 0.0, bytes }
+    }
+}
+
+/// Standard deviations of a brick's samples.
+#[derive(Clone, Debug)]
+pub struct LoadedDeviation {
+    /// 32³ codes; 255 stands for `largest`.
+    pub codes: Vec<u8>,
+    /// Range of the codes around each of the 8³ cells.
+    pub cells: CellRanges,
+    /// Data units.
+    pub largest: f64,
 }
 
 /// A node, and its brick or why it cannot be read.
@@ -59,5 +80,16 @@ fn unpack(brick: Brick, key: NodeKey) -> Result<LoadedBrick, BrickError> {
         Codes::U16(codes) => (codes, SAMPLE_BYTES),
     };
     let span = f64::from(brick.step) * f64::from(largest);
-    Ok(LoadedBrick { samples, cells, low: f64::from(brick.low), span, bytes })
+    let lengths = brick.deviation.as_ref().map(|deviation| deviation.codes.len());
+    if let Some(count) = lengths.filter(|&count| count != BRICK_VOXELS) {
+        let sentence = format!("brick {key:?} has {count} standard deviations instead of {BRICK_VOXELS}");
+        return Err(BrickError::damaged(sentence));
+    }
+    let deviation =
+        brick.deviation.filter(|deviation| deviation.step > 0.0).map(|deviation| LoadedDeviation {
+            cells: CellRanges::of_samples(&deviation.codes),
+            largest: f64::from(u8::MAX) * f64::from(deviation.step),
+            codes: deviation.codes,
+        });
+    Ok(LoadedBrick { samples, cells, deviation, low: f64::from(brick.low), span, bytes })
 }

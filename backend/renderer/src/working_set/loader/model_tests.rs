@@ -3,7 +3,7 @@
 use super::queue::Queue;
 use super::test_source::keys;
 use super::{LoadedBrick, SAMPLE_BYTES};
-use bricks::{BrickError, CellRanges, NodeKey};
+use bricks::{BrickError, NodeKey};
 use proptest::prelude::*;
 use std::collections::HashSet;
 
@@ -28,7 +28,7 @@ fn step() -> impl Strategy<Value = Step> {
 }
 
 fn brick() -> LoadedBrick {
-    LoadedBrick { samples: Vec::new(), cells: CellRanges::uniform(0), low: 0.0, span: 0.0, bytes: 0 }
+    LoadedBrick::without_samples(0)
 }
 
 /// Without bounds of memory.

@@ -40,7 +40,8 @@ pub(super) struct Pantry {
 }
 
 impl Pantry {
-    /// Room for so many bytes of samples, and for `least` bricks in any case: their cells take a thirtieth more.
+    /// Room for so many bytes of samples, and for `least` bricks in any case: their cells take a thirtieth more, standard deviations
+    /// half as much again where the volume keeps them.
     pub fn new(bytes: u64, least: usize) -> Self {
         let capacity = usize::try_from(bytes / SAMPLE_BYTES).unwrap_or(usize::MAX).max(least);
         Self { capacity, kept: HashMap::new(), order: BTreeMap::new(), clock: 0 }
@@ -130,7 +131,6 @@ impl Pantry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bricks::CellRanges;
     use glam::UVec3;
 
     fn key(x: u32) -> NodeKey {
@@ -138,7 +138,7 @@ mod tests {
     }
 
     fn brick() -> LoadedBrick {
-        LoadedBrick { samples: Vec::new(), cells: CellRanges::uniform(0), low: 0.0, span: 0.0, bytes: 0 }
+        LoadedBrick::without_samples(0)
     }
 
     fn wanted(x: u32) -> Option<Worth> {

@@ -3,7 +3,7 @@
 use super::DiskModel;
 use crate::working_set::loader::Queue;
 use crate::working_set::{LoadedBrick, PANTRY_BYTES};
-use bricks::{CellRanges, NodeKey};
+use bricks::NodeKey;
 
 /// A read that has begun.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +79,6 @@ impl Disk {
     }
 
     fn brick(&self) -> LoadedBrick {
-        let (samples, cells) = (Vec::new(), CellRanges::uniform(0));
-        LoadedBrick { samples, cells, low: 0.0, span: 0.0, bytes: self.brick_bytes }
+        LoadedBrick::without_samples(self.brick_bytes)
     }
 }

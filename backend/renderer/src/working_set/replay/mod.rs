@@ -110,6 +110,7 @@ impl<'a> Replay<'a> {
                 optics: &frame.optics,
                 is_quadrilinear: false,
                 blank_slot: None,
+                deviations: &[],
             },
             summary: self.volume.summary,
             now_s: frame.time_s,
