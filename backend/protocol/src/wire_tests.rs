@@ -132,6 +132,7 @@ fn from_backend() -> impl Strategy<Value = FromBackend> {
         (".*", ".*", ".*", any::<u64>()).prop_map(|(adapter, reason, filter, cache_bytes)| {
             FromBackend::Ready(DeviceInfo { adapter, reason, filter, cache_bytes })
         }),
+        Just(FromBackend::Alive),
         (any::<u64>(), any::<u64>()).prop_map(|(done, total)| FromBackend::Progress { done, total }),
         image(),
         done(),

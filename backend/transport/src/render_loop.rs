@@ -7,7 +7,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::JoinHandle;
+use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// What the messages' thread asks of it.
@@ -49,7 +49,10 @@ pub(super) struct RenderThread {
 
 impl RenderThread {
     /// Starts it; it opens its renderer with `make`.
-    pub(super) fn start<M>(make: M) -> Self
+    ///
+    /// # Errors
+    /// The system has no thread left.
+    pub(super) fn start<M>(make: M) -> std::io::Result<Self>
     where
         M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
     {
@@ -57,8 +60,8 @@ impl RenderThread {
         let (outbox, replies) = bounded(MOST_AHEAD);
         let is_over = Arc::new(AtomicBool::new(false));
         let studio = Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0 };
-        let thread = std::thread::spawn(move || studio.run(make));
-        Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) }
+        let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
+        Ok(Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) })
     }
 
     /// Asks something of it; what it is drawing is left off after the present tile.

@@ -23,17 +23,17 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<(), FrontendError> {
     let traces = Traces::open(&args.traces, args.volume.as_deref())?;
     let mut rows = Vec::new();
     if !args.json {
-        say(&heading());
+        say(&heading())?;
     }
     for policy in combinations(args) {
         let row = policy.row(&traces);
         if !args.json {
-            say(&line(&row));
+            say(&line(&row))?;
         }
         rows.push(row);
     }
     if args.json {
-        say(&serde_json::to_string_pretty(&rows)?);
+        say(&serde_json::to_string_pretty(&rows)?)?;
     }
     Ok(())
 }

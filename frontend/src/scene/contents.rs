@@ -7,6 +7,7 @@ use display_config::Display;
 use glam::DVec3;
 use optics::{Enhancer, Light, Quality, Trapezoid, TrapezoidError};
 use protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
+use std::ops::Range;
 
 /// A scene, read and checked. Everything that is the same in all frames is here; `motion`
 /// and `edits` hold the rest.
@@ -89,6 +90,24 @@ impl Scene {
             pace: Pace::Complete,
             debug: None,
         })
+    }
+
+    /// Whether the look fits the volume in some frames: it changes at keyframes only, so that not every frame is made.
+    pub fn check_frames(
+        &self,
+        frames: Range<u32>,
+        display: &Display,
+        facts: &VolumeFacts,
+    ) -> Result<(), SceneError> {
+        self.frame(frames.start, display, facts)?;
+        let last_s = f64::from(frames.end.saturating_sub(1)) / self.rate_hz;
+        let longest_m =
+            (facts.dims.as_dvec3() * self.voxel_size_m.unwrap_or(facts.voxel_size_m())).max_element();
+        for time_s in self.edits.times().filter(|&time_s| time_s <= last_s) {
+            let look = self.look.edited(&self.edits, time_s);
+            look.optics(facts.value_range, longest_m, &self.chain_at(time_s))?;
+        }
+        Ok(())
     }
 
     fn placement_at(&self, time_s: f64) -> Placement {
