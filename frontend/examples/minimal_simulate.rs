@@ -15,7 +15,7 @@ fn main() -> Result<(), FrontendError> {
     let scene = Scene::load("procedural:shells@64")?;
     let display = adapter::load_display("desk8")?;
     // Only an open volume knows its size and values, which placement and transfer functions depend on.
-    let facts = adapter::volume_facts(&scene.volume_ref())?;
+    let facts = adapter::scene_facts(&scene)?;
 
     // One back-end in this process draws all projectors.
     let backends = Backends::connect(Some(1), &display)?;

@@ -37,7 +37,7 @@ fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), Fro
         return Err(AccuracyError::Frame { frame: args.frame, count }.into());
     }
     check_projectors(&display, &args.projectors)?;
-    let source = adapter::open_volume(&scene.volume_ref())?;
+    let source = adapter::open_scene_volume(scene)?;
     let facts = VolumeFacts::of(source.as_ref());
     let study = Study {
         frame: scene.frame(args.frame, &display, &facts)?,

@@ -18,7 +18,7 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = adapter::load_display(&args.display)?;
     let display = args.size.map_or(display.clone(), |size| with_picture_size(display, size));
-    let facts = adapter::volume_facts(&scene.volume_ref())?;
+    let facts = adapter::scene_facts(&scene)?;
     let subject = Subject::new(&scene, &display, &facts)?;
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;

@@ -21,7 +21,7 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = adapter::load_display(&args.display)?;
-    let facts = adapter::volume_facts(&scene.volume_ref())?;
+    let facts = adapter::scene_facts(&scene)?;
     let frames = frames(args, &scene)?;
     scene.check_frames(frames.clone(), &display, &facts)?;
     let job = Job {

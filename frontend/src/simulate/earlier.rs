@@ -20,7 +20,7 @@ pub(super) fn remove_earlier_run(out: &Path) -> Result<(), OutputError> {
         remove(&out.join(name), |path| fs::remove_file(path))?;
     }
     let of_run = |name: &str| number_after(name, FRAME).is_some_and(|digits| digits.len() >= 4);
-    for folder in below(out, of_run)? {
+    for folder in below(out, of_run)?.into_iter().filter(|folder| folder.is_dir()) {
         for picture in below(&folder, is_picture)? {
             remove(&picture, |path| fs::remove_file(path))?;
         }
