@@ -8,7 +8,7 @@ use frontend::adapter::dismiss_backends;
 use frontend::cli::Cli;
 use frontend::command::print;
 use frontend::interrupt;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -30,7 +30,10 @@ fn main() -> ExitCode {
 fn usage(error: &clap::Error) -> ! {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            let told = dismiss_backends().and_then(|()| print(&error.render().to_string()));
+            let text = error.render();
+            let text =
+                if std::io::stdout().is_terminal() { text.ansi().to_string() } else { text.to_string() };
+            let told = dismiss_backends().and_then(|()| print(&text));
             match told {
                 Ok(()) => std::process::exit(0),
                 Err(error) => transport::fail("lightloom", &error.to_string()),

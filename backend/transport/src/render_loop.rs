@@ -138,6 +138,16 @@ impl Studio {
         self.taken = 1;
         let (mut renderer, info) = make(*setup).map_err(End::Failed)?;
         self.tell(FromBackend::Ready(info), true)?;
+        let ended = self.obey(renderer.as_mut());
+        if let Err(End::Dismissed) = ended {
+            // Whoever ended the run wants what was written until then. Nobody is left to hear why that fails.
+            let _ = renderer.finish();
+        }
+        ended
+    }
+
+    /// Does what it is asked to, until nobody asks any more.
+    fn obey(&mut self, renderer: &mut dyn Render) -> Result<(), End> {
         let mut is_drawing = false;
         loop {
             match self.next(is_drawing)? {
@@ -151,7 +161,7 @@ impl Studio {
                     is_drawing = false;
                 }
                 Some(Command::Open(_)) => return Err(End::Failed("it was set up twice".to_owned())),
-                None => is_drawing = !self.go_on(renderer.as_mut())?,
+                None => is_drawing = !self.go_on(renderer)?,
             }
         }
     }

@@ -101,13 +101,15 @@ impl Drawing {
     /// # Errors
     /// That of the work, or what is written cannot be completed.
     pub fn finish<T>(&mut self, work: Result<T, FrontendError>) -> Result<T, FrontendError> {
-        match work.map_err(|error| interrupt::or_stopped(error, &self.stop)) {
-            // They cannot be asked for anything any more.
-            Err(error @ FrontendError::Backend(_)) => Err(error),
-            worked => {
-                self.source.finish()?;
-                worked
+        let work = work.map_err(|error| interrupt::or_stopped(error, &self.stop));
+        // Back-ends that failed cannot be asked for anything any more.
+        let finished = if let Err(FrontendError::Backend(_)) = work { Ok(()) } else { self.source.finish() };
+        match (work, finished) {
+            (Err(FrontendError::Stopped(why)), Err(error)) => {
+                Err(FrontendError::Stopped(format!("{why}; {error}")))
             }
+            (Err(error), _) => Err(error),
+            (Ok(done), finished) => finished.map(|()| done).map_err(FrontendError::from),
         }
     }
 }
