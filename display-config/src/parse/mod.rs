@@ -47,7 +47,7 @@ impl Display {
 }
 
 /// Positive lengths, as messages ask for them.
-const A_LENGTH: &str = "a length in metres, above 0";
+const A_LENGTH: &str = "a length in metres, above 0 and at most 1000000";
 
 fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError> {
     let width_m = source.positive("screen_width_m", &raw.screen_width_m, A_LENGTH)?;
@@ -73,9 +73,7 @@ fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError
 
 fn observer(source: &Source<'_>, raw: &RawDisplay) -> Result<DVec3, ConfigError> {
     let (key, span) = ("observer_m", raw.observer_m.span());
-    let observer = raw.observer_m.get_ref().0;
-    source.all_finite(key, span.clone(), &observer)?;
-    let observer = DVec3::from_array(observer);
+    let observer = source.point(key, &raw.observer_m)?;
     if observer.z <= 0.0 {
         let expected = "an observer before the screen, with z (the third number) above 0";
         return Err(source.out_of_range(key, span, observer.z, expected));

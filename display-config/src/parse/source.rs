@@ -8,6 +8,9 @@ use glam::DVec3;
 use std::ops::Range;
 use toml::Spanned;
 
+/// Nothing of a display is longer, or farther away, metres.
+const FARTHEST_M: f64 = 1e6;
+
 pub(super) struct Source<'a> {
     pub text: &'a str,
     /// What messages call it.
@@ -47,7 +50,20 @@ impl Source<'_> {
         value: &Spanned<f64>,
         expected: &'static str,
     ) -> Result<f64, ConfigError> {
-        self.within(key, value, expected, |number| number > 0.0)
+        self.within(key, value, expected, |number| number > 0.0 && number <= FARTHEST_M)
+    }
+
+    /// A point of the display frame.
+    pub fn point(&self, key: &str, value: &Spanned<ListOf<f64, 3>>) -> Result<DVec3, ConfigError> {
+        let coordinates = value.get_ref().0;
+        self.all_finite(key, value.span(), &coordinates)?;
+        match coordinates.into_iter().find(|coordinate| coordinate.abs() > FARTHEST_M) {
+            Some(far) => {
+                let expected = "coordinates from -1000000 to 1000000 metres";
+                Err(self.out_of_range(key, value.span(), far, expected))
+            }
+            None => Ok(DVec3::from_array(coordinates)),
+        }
     }
 
     pub fn within(
@@ -101,8 +117,7 @@ impl Source<'_> {
 
     /// A projector's centre: finite, and not in the screen plane.
     pub fn centre(&self, key: &str, value: &Spanned<ListOf<f64, 3>>) -> Result<DVec3, ConfigError> {
-        self.all_finite(key, value.span(), &value.get_ref().0)?;
-        let centre = DVec3::from_array(value.get_ref().0);
+        let centre = self.point(key, value)?;
         if centre.z == 0.0 {
             return Err(ConfigError::ProjectorInScreenPlane { place: self.place(key, value.span()) });
         }

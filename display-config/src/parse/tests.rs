@@ -205,6 +205,10 @@ fn long_keys_and_numbers_are_told_in_few_letters() {
     assert!(told.len() < 1000, "{}", told.len());
     let told = message("eta = 1\n", "eta = 1e300\n");
     assert!(told.contains("`eta` is 1e300; give"), "{told}");
+    let told = message("[0.0, 0.0, 3.0]", "[0.0, -1e300, 3.0]");
+    assert!(told.contains("`observer_m` is -1e300; give coordinates"), "{told}");
+    let told = message("screen_width_m = 1.6", "screen_width_m = 1e300");
+    assert!(told.contains("`screen_width_m` is 1e300; give a length"), "{told}");
 }
 
 #[test]
