@@ -24,6 +24,9 @@ const TICK: Duration = Duration::from_millis(200);
 /// How often the front-end says that it is alive while it waits.
 const ALIVE_INTERVAL: Duration = Duration::from_secs(1);
 
+/// How long a back-end may take to leave off what it is drawing, once the run is stopped.
+const LAST_PIECE: Duration = Duration::from_secs(20);
+
 /// Back-ends that are set up and wait for frames.
 pub struct Session {
     link: Box<dyn Link>,
@@ -140,8 +143,11 @@ impl Session {
     fn part(&mut self) -> Result<(), SessionError> {
         self.set_activity("finishing".to_owned());
         let has_left_frame = self.has_left_frame;
-        // Who asked the run to end wants what back-ends write to be complete.
+        // Who asked the run to end wants what back-ends write to be complete, and that soon.
         self.stop = Arc::default();
+        if has_left_frame {
+            self.limits.standstill = self.limits.standstill.min(LAST_PIECE);
+        }
         if self.has_traces {
             self.link.broadcast(&FromFrontend::Finish).map_err(|error| self.lost(error))?;
             self.gather(|_, message| match message {
