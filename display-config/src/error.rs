@@ -1,5 +1,7 @@
 //! What can be wrong with a display.
 
+use crate::raster::MOST_PIXELS;
+use crate::text::brief_number;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -15,20 +17,21 @@ pub enum RayError {
     )]
     ProjectorInScreenPlane,
     /// Vz ≤ 0.
-    #[error("the observer is at z = {z_m} m; it must stand before the screen, at z > 0")]
+    #[error("the observer is at z = {} m; it must stand before the screen, at z > 0", brief_number(*z_m))]
     ObserverBehindScreen {
         /// Its z, metres.
         z_m: f64,
     },
     /// η outside [0, 1].
-    #[error("η is {eta}; give a number from 0 (one perspective view) to 1 (full horizontal parallax)")]
+    #[error("η is {}; give a number from 0 (one perspective view) to 1 (full horizontal parallax)", brief_number(*eta))]
     EtaOutOfRange {
         /// The value given.
         eta: f64,
     },
     /// An eye in the screen plane or behind it.
     #[error(
-        "the eye is at z = {z_m} m, in the screen plane or behind it; put it before the screen, at z > 0"
+        "the eye is at z = {} m, in the screen plane or behind it; put it before the screen, at z > 0",
+        brief_number(*z_m)
     )]
     EyeBehindScreen {
         /// Its z, metres.
@@ -75,14 +78,16 @@ pub enum ConfigError {
     #[error("cannot read the display file {}: {cause}; give the path of a readable .toml file", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
     /// Neither a preset nor a path.
-    #[error("there is no preset display `{name}`; use one of {presets}, or give the path of a .toml file")]
-    UnknownPreset { name: String, presets: String },
+    #[error(
+        "there is no preset display `{name}`{suggestion}; use one of {presets}, or give the path of a .toml file"
+    )]
+    UnknownPreset { name: String, suggestion: String, presets: String },
     /// Not TOML.
     #[error("{file}, line {line}: this is not TOML ({message}); correct the line")]
     Syntax { file: String, line: usize, message: String },
     /// A key that nothing reads.
-    #[error("{place} is not a key of this table; remove it, or use {known}")]
-    UnknownKey { place: Place, known: String },
+    #[error("{place} is not a key of this table{suggestion}; remove it, or use {known}")]
+    UnknownKey { place: Place, suggestion: String, known: String },
     /// A key that the geometry needs.
     #[error("{place} is missing from the table that starts here; add it")]
     MissingKey { place: Place },
@@ -93,8 +98,11 @@ pub enum ConfigError {
     #[error("{place} has an infinite number or NaN; give an ordinary number")]
     NotFinite { place: Place },
     /// A number outside its range.
-    #[error("{place} is {value}; give {expected}")]
+    #[error("{place} is {}; give {expected}", brief_number(*value))]
     OutOfRange { place: Place, value: f64, expected: &'static str },
+    /// A raster that does not fit into memory, or into a message.
+    #[error("{place} makes a picture of {width} × {height} pixels; give at most {MOST_PIXELS} of them")]
+    TooManyPixels { place: Place, width: u32, height: u32 },
     /// A text that must not be empty.
     #[error("{place} is empty; give a name")]
     EmptyName { place: Place },

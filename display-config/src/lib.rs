@@ -1,4 +1,4 @@
-//! What a light-field display is: its geometry, its projectors, its ray model.
+//! What a light-field display is: its geometry, its projectors, its ray model, and the file that describes it.
 
 mod beams;
 mod display;
@@ -13,6 +13,7 @@ mod projector;
 mod raster;
 mod ray;
 mod resolution;
+pub mod text;
 mod wiring;
 mod zone;
 
@@ -22,7 +23,7 @@ pub use eye::EyeModel;
 pub use homography::Homography;
 pub use preset::presets;
 pub use projector::Projector;
-pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, Raster, RasterInverse, Warp};
+pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, MOST_PIXELS, Raster, RasterInverse, Warp};
 pub use ray::{BeamLaw, Ray};
 pub use resolution::{Resolution, longest_voxel_edge_m};
 pub use wiring::{Origin, Share, Wiring};

@@ -12,7 +12,7 @@ const PROJECTOR: usize = 4;
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::load("procedural:shells@64")?;
     let display = adapter::load_display("desk8")?;
-    let volume = adapter::open_volume(&scene.volume_ref())?;
+    let volume = adapter::open_scene_volume(&scene)?;
     let frame = scene.frame(0, &display, &VolumeFacts::of(volume.as_ref()))?;
 
     // The rule of detail says which levels the display asks for; the reference samples the very same ones.

@@ -3,9 +3,9 @@
 use frontend::FrontendError;
 use frontend::adapter::{self, BackendOptions, Backends};
 use frontend::progress::Progress;
-use frontend::scene::{Scene, VolumeFacts};
+use frontend::scene::Scene;
 use frontend::simulate::Job;
-use protocol::{DeviceChoice, FilterChoice};
+use protocol::{DeviceChoice, FilterChoice, Pace};
 use std::path::PathBuf;
 
 fn main() -> Result<(), FrontendError> {
@@ -15,25 +15,24 @@ fn main() -> Result<(), FrontendError> {
     let scene = Scene::load("procedural:shells@64")?;
     let display = adapter::load_display("desk8")?;
     // Only an open volume knows its size and values, which placement and transfer functions depend on.
-    let volume = adapter::open_volume(&scene.volume_ref())?;
-    let frame = scene.frame(0, &display, &VolumeFacts::of(volume.as_ref()))?;
+    let facts = adapter::scene_facts(&scene)?;
 
     // One back-end in this process draws all projectors.
-    let backends = Backends::connect(Some(1))?;
-    let wiring = backends.wiring(&display)?;
+    let backends = Backends::connect(Some(1), &display)?;
     let options = BackendOptions {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Auto,
         cache_bytes: 256 << 20,
         traces: None,
     };
-    let (mut source, _) = backends.start(&options, &scene.volume_ref(), &display, &wiring)?;
+    let mut drawing = backends.start(&options, &scene.volume_ref(), &display)?;
 
     // A job writes each picture as soon as it is final.
-    let job = Job { display, frames: vec![frame], eyes: Vec::new(), out, exr: false };
+    let (frames, pace, debug, eyes) = (0..1, Pace::Complete, None, Vec::new());
+    let job = Job { scene, facts, display, frames, pace, debug, eyes, out, exr: false };
     Job::prepare_output(&job.out)?;
-    let frames = job.run(source.as_mut(), &mut Progress::new(false))?;
-    source.finish()?;
+    let drawn = job.run(drawing.source.as_mut(), &mut Progress::new(false));
+    let frames = drawing.finish(drawn)?;
     println!("{} pictures in {}", frames[0].pictures.len(), job.out.display());
     Ok(())
 }

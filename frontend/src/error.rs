@@ -78,6 +78,11 @@ pub enum FrontendError {
         /// The observer's distance from the screen, metres.
         distance_m: f64,
     },
+    /// What was asked for cannot be told.
+    #[error(
+        "cannot write to standard output: {0}; check the free space of the disk that it goes to, or send it elsewhere"
+    )]
+    StandardOutput(std::io::Error),
     /// The report does not go into JSON.
     #[error("cannot put the report into JSON: {0}")]
     Json(#[from] serde_json::Error),

@@ -1,11 +1,14 @@
 //! `lightloom`: parses the command line, runs the command, and prints one sentence if it fails.
 
 use clap::Parser;
+use clap::error::ErrorKind;
 use frontend::FrontendError;
 use frontend::accuracy::AccuracyError;
+use frontend::adapter::dismiss_backends;
 use frontend::cli::Cli;
-use frontend::interrupt::EXIT_CODE as INTERRUPTED;
-use std::io::Write;
+use frontend::command::print;
+use frontend::interrupt;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -16,18 +19,30 @@ fn main() -> ExitCode {
         // Only this process is at work then, so nothing else has to be ended.
         Err(error @ (FrontendError::Stopped(_) | FrontendError::Accuracy(AccuracyError::Stopped))) => {
             complain(&error.to_string());
-            std::process::exit(INTERRUPTED)
+            std::process::exit(interrupt::exit_code())
         }
         Err(error) => transport::fail("lightloom", &error.to_string()),
     }
 }
 
-/// Help goes to standard output; a usage error is a sentence of ours and exit code 2.
+/// Help and version go to standard output. A usage error is a sentence of ours and exit code 2; who gave no arguments at
+/// all gets the help with it.
 fn usage(error: &clap::Error) -> ! {
-    if error.use_stderr() {
-        complain(error.render().to_string().trim_start_matches("error: ").trim_end());
-    } else {
-        let _ = error.print();
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            let text = error.render();
+            let text =
+                if std::io::stdout().is_terminal() { text.ansi().to_string() } else { text.to_string() };
+            let told = dismiss_backends().and_then(|()| print(&text));
+            match told {
+                Ok(()) => std::process::exit(0),
+                Err(error) => transport::fail("lightloom", &error.to_string()),
+            }
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let _ = write!(std::io::stderr(), "{}", error.render());
+        }
+        _ => complain(error.render().to_string().trim_start_matches("error: ").trim_end()),
     }
     std::process::exit(error.exit_code())
 }

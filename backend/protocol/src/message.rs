@@ -43,4 +43,6 @@ pub enum FromBackend {
     Finished,
     /// It cannot go on: one sentence.
     Failed(String),
+    /// At work, with nothing new to say.
+    Alive,
 }

@@ -15,6 +15,7 @@
 
 use super::{FromBackend, FromFrontend, PROTOCOL_VERSION, ProjectorImage};
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
+use display_config::MOST_PIXELS;
 use serde::{Serialize, de::DeserializeOwned};
 
 const MAGIC: u32 = u32::from_le_bytes(*b"LLMW");
@@ -25,11 +26,11 @@ const BODY_AT: usize = BODY_LENGTH_AT + size_of::<u32>();
 /// Longest body: the setup of a display needs about 200 bytes per projector, so this holds 20,000 of them.
 pub const BODY_LIMIT_BYTES: usize = 4 << 20;
 
-/// Longest message: a raster of 4096 × 2160 takes 135 MiB, and this is the next power of two. Below 2³¹, so a count
-/// of the kind MPI uses can state it.
-pub const MESSAGE_LIMIT_BYTES: usize = 256 << 20;
-
 const BYTES_PER_PIXEL: usize = 4 * size_of::<f32>();
+
+/// Longest message: the largest picture that a display may have, and a body. Below 2³¹, so a count of the kind MPI uses can
+/// state it.
+pub const MESSAGE_LIMIT_BYTES: usize = MOST_PIXELS as usize * BYTES_PER_PIXEL + BODY_LIMIT_BYTES;
 
 /// Why bytes are not a message, or a message does not become bytes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

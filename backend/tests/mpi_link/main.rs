@@ -71,8 +71,12 @@ const CASES: &[Case] = &[
         let run = mpirun("opening fails", &[FRONTEND, WORKERS], false);
         run.failed_with(&["back-end 1 (rank 2", "while opening its volume", "/no/such/head.lloom"])
     }),
-    ("a back-end that lives and is silent", || {
-        mpirun("silent", &[FRONTEND, WORKERS], false)
+    ("a back-end that lives and gets no further", || {
+        mpirun("stuck", &[FRONTEND, WORKERS], false)
+            .failed_with(&["back-end 1 (rank 2", "got no further for 4 s"])
+    }),
+    ("a back-end whose process is stopped", || {
+        mpirun("stopped", &[FRONTEND, WORKERS], false)
             .failed_with(&["back-end 1 (rank 2", "said nothing for 3 s"])
     }),
     ("a front-end that lives and is silent", || {

@@ -9,10 +9,14 @@ use protocol::{
     Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked, VolumeRef, wire,
 };
 
-use signal_hook::{consts::SIGKILL, low_level::raise};
+use signal_hook::{
+    consts::{SIGKILL, SIGSTOP},
+    low_level::raise,
+};
 use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
 use transport::*;
@@ -52,7 +56,8 @@ impl Fake {
                 "killed" => die_by_kill(),
                 "panics" => panic!("a fake fault"),
                 "errors" => return Err(DrawError("the fake device is lost; use another".to_owned())),
-                "silent" => thread::sleep(2 * CASE_LIMIT),
+                "stuck" => thread::sleep(2 * CASE_LIMIT),
+                "stopped" => raise(SIGSTOP).expect("a process may stop itself"),
                 _ => {}
             }
         }
@@ -167,9 +172,9 @@ fn frame(index: u32, knots: usize) -> FrameState {
 /// All that the front-end gets of two frames, as bytes: pictures by frame and projector, and reports.
 pub fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, Box<dyn Error>> {
     let count = link.backends();
-    let limits = Limits { opening: Duration::from_secs(10), drawing: Duration::from_secs(3) };
+    let limits = Limits { silence: Duration::from_secs(3), standstill: Duration::from_secs(4) };
     let width = if case() == "large pictures" { 1600 } else { 40 };
-    let mut session = Session::start(link, setups(count, width), limits)?;
+    let mut session = Session::start(link, setups(count, width), limits, Arc::default())?;
     let mut bytes = Vec::new();
     for index in 0..2 {
         let mut pictures = Vec::new();
@@ -207,8 +212,8 @@ pub fn be_frontend() -> ExitCode {
 /// Prints what a frame costs whose pictures, two per back-end, are `width` pixels wide and no work to draw.
 fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
     let count = link.backends();
-    let mut session =
-        Session::start(link, setups(count, width), Limits::default()).expect("the back-ends start");
+    let mut session = Session::start(link, setups(count, width), Limits::default(), Arc::default())
+        .expect("the back-ends start");
     let bytes = wire::encode(&FromFrontend::Frame(Box::new(frame(0, 40)))).expect("a frame");
     let mut times: Vec<Duration> = (0..frames)
         .map(|index| {

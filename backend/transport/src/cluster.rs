@@ -220,11 +220,13 @@ struct RankLink {
     messenger: Messenger,
     silence: Duration,
     is_parting: Arc<AtomicBool>,
+    /// True once the launcher ends the job.
+    is_ended: Arc<AtomicBool>,
 }
 
 impl RankLink {
     /// Joins the job as a back-end.
-    fn connect(silence: Duration) -> Result<Self, LinkError> {
+    fn connect(silence: Duration, is_ended: Arc<AtomicBool>) -> Result<Self, LinkError> {
         let mut messenger = Messenger::start().map_err(LinkError::Launch)?;
         if messenger.rank() == FRONTEND_RANK {
             return Err(LinkError::Launch(format!(
@@ -234,8 +236,16 @@ impl RankLink {
         messenger.post(FRONTEND_RANK, introduction(IS_BACKEND)).map_err(LinkError::FrontendEnded)?;
         let (_, frontend) = await_introduction(&mut messenger, FRONTEND_RANK)?;
         let is_parting = Arc::new(AtomicBool::new(false));
-        watchdog::guard_backend(frontend, Arc::clone(&is_parting)).map_err(LinkError::Launch)?;
-        Ok(Self { messenger, silence, is_parting })
+        watchdog::guard_backend(frontend, Arc::clone(&is_parting), Arc::clone(&is_ended))
+            .map_err(LinkError::Launch)?;
+        Ok(Self { messenger, silence, is_parting, is_ended })
+    }
+
+    fn check_end(&self) -> Result<(), LinkError> {
+        match self.is_ended.load(Ordering::SeqCst) {
+            true => Err(LinkError::FrontendEnded("the launcher ended the run".to_owned())),
+            false => Ok(()),
+        }
     }
 
     fn finish(mut self) -> Result<(), LinkError> {
@@ -253,6 +263,7 @@ impl WorkerLink for RankLink {
         let since = Instant::now();
         let mut pause = Pause::default();
         while self.messenger.is_sending().map_err(LinkError::FrontendEnded)? {
+            self.check_end()?;
             if since.elapsed() > self.silence {
                 return Err(LinkError::FrontendEnded("it takes no messages any more".to_owned()));
             }
@@ -265,6 +276,7 @@ impl WorkerLink for RankLink {
         let since = Instant::now();
         let mut pause = Pause::default();
         loop {
+            self.check_end()?;
             if let Some(bytes) = self.messenger.poll(FRONTEND_RANK).map_err(LinkError::FrontendEnded)? {
                 return Ok(decode(&bytes)?);
             }
@@ -286,10 +298,16 @@ pub fn work<M>(make: M, frontend_silence: Duration) -> ExitCode
 where
     M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
 {
-    let ended = RankLink::connect(frontend_silence).map_err(WorkerError::from).and_then(|mut link| {
+    let is_ended = Arc::new(AtomicBool::new(false));
+    let link = RankLink::connect(frontend_silence, Arc::clone(&is_ended)).map_err(WorkerError::from);
+    let ended = link.and_then(|mut link| {
         serve(&mut link, make)?;
         Ok(link.finish()?)
     });
+    if is_ended.load(Ordering::SeqCst) {
+        // What the renderer writes is complete; the watchdog ends this process, as the launcher asked.
+        std::thread::sleep(2 * watchdog::STAY);
+    }
     match ended {
         Ok(()) => ExitCode::SUCCESS,
         Err(WorkerError::Failed(_)) => ExitCode::FAILURE,

@@ -3,6 +3,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `session` | the front-end's side: set up, draw frames, name whoever is lost |
+//! | `limits` | how long back-ends may keep it waiting |
 //! | `worker` | a back-end's side: the thread that passes messages on |
 //! | `render_loop` | a back-end's thread that draws |
 //! | `threads` | back-ends as threads of this process |
@@ -14,6 +15,7 @@
 #[cfg(feature = "mpi")]
 pub mod cluster;
 pub mod launch;
+mod limits;
 mod link;
 #[cfg(feature = "mpi")]
 mod mpi;
@@ -27,6 +29,7 @@ mod restart_tests;
 #[cfg(feature = "mpi")]
 mod roster;
 pub mod session;
+mod session_error;
 #[cfg(test)]
 mod session_fixtures;
 pub mod threads;
@@ -35,7 +38,9 @@ mod watchdog;
 pub mod worker;
 
 pub use launch::{Launch, fail, launch, local_rank, under_mpi};
+pub use limits::Limits;
 pub use link::{Link, LinkError, WorkerLink};
 pub use opened::Opened;
-pub use session::{Limits, Session, SessionError};
+pub use session::Session;
+pub use session_error::SessionError;
 pub use worker::{WorkerError, serve};

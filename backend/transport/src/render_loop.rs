@@ -7,7 +7,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::JoinHandle;
+use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// What the messages' thread asks of it.
@@ -49,7 +49,10 @@ pub(super) struct RenderThread {
 
 impl RenderThread {
     /// Starts it; it opens its renderer with `make`.
-    pub(super) fn start<M>(make: M) -> Self
+    ///
+    /// # Errors
+    /// The system has no thread left.
+    pub(super) fn start<M>(make: M) -> std::io::Result<Self>
     where
         M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
     {
@@ -57,8 +60,8 @@ impl RenderThread {
         let (outbox, replies) = bounded(MOST_AHEAD);
         let is_over = Arc::new(AtomicBool::new(false));
         let studio = Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0 };
-        let thread = std::thread::spawn(move || studio.run(make));
-        Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) }
+        let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
+        Ok(Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) })
     }
 
     /// Asks something of it; what it is drawing is left off after the present tile.
@@ -135,6 +138,16 @@ impl Studio {
         self.taken = 1;
         let (mut renderer, info) = make(*setup).map_err(End::Failed)?;
         self.tell(FromBackend::Ready(info), true)?;
+        let ended = self.obey(renderer.as_mut());
+        if let Err(End::Dismissed) = ended {
+            // Whoever ended the run wants what was written until then. Nobody is left to hear why that fails.
+            let _ = renderer.finish();
+        }
+        ended
+    }
+
+    /// Does what it is asked to, until nobody asks any more.
+    fn obey(&mut self, renderer: &mut dyn Render) -> Result<(), End> {
         let mut is_drawing = false;
         loop {
             match self.next(is_drawing)? {
@@ -148,7 +161,7 @@ impl Studio {
                     is_drawing = false;
                 }
                 Some(Command::Open(_)) => return Err(End::Failed("it was set up twice".to_owned())),
-                None => is_drawing = !self.go_on(renderer.as_mut())?,
+                None => is_drawing = !self.go_on(renderer)?,
             }
         }
     }

@@ -49,7 +49,7 @@ impl Render for Slow {
 fn answer(link: &mut dyn Link) -> FromBackend {
     loop {
         match link.receive(Duration::from_secs(20)) {
-            Ok((_, FromBackend::Progress { .. } | FromBackend::Hello(_))) => {}
+            Ok((_, FromBackend::Progress { .. } | FromBackend::Hello(_) | FromBackend::Alive)) => {}
             Ok((_, message)) => return message,
             Err(error) => panic!("{error}"),
         }

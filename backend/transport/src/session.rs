@@ -1,95 +1,15 @@
 //! A run as the front-end sees it: its back-ends set up once, then frame after frame.
 
+use super::limits::{Limits, Patience};
 use super::link::{Link, LinkError};
+use super::session_error::SessionError;
 use protocol::{
     DeviceInfo, Draw, DrawError, FrameReport, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION,
     RenderEvent, Setup,
 };
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// How long a back-end may be silent before it counts as lost. Only time in which the front-end listens counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// Before it opened its volume and device.
-    pub opening: Duration,
-    /// While it draws.
-    pub drawing: Duration,
-}
-
-impl Default for Limits {
-    /// A minute: a procedural volume or one tile on a slow device may take that long. A process that dies is noticed
-    /// in a second whatever these say; they are for one that lives and is stuck, and for other hosts.
-    fn default() -> Self {
-        Self { opening: Duration::from_secs(60), drawing: Duration::from_secs(60) }
-    }
-}
-
-/// Why a run cannot go on: a sentence that names the back-end and what to do. The session is over after it.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SessionError {
-    /// There is not one setup for each back-end.
-    #[error(
-        "there are {setups} back-ends to set up and {backends} were started; start as many back-ends as the \
-         display is assigned to, or assign it again"
-    )]
-    Count {
-        /// Setups given.
-        setups: usize,
-        /// Back-ends there are.
-        backends: usize,
-    },
-    /// A back-end is gone.
-    #[error("{name} ended while {activity}: {how}")]
-    Ended {
-        /// Its name and place.
-        name: String,
-        /// What the run was doing.
-        activity: String,
-        /// What is known of it, and what to do.
-        how: String,
-    },
-    /// A back-end lives, or is on a host that cannot be asked, and says nothing.
-    #[error(
-        "{name} has said nothing for {seconds} s while {activity}; see whether it is stuck or its host is down, or \
-         allow more time"
-    )]
-    Silent {
-        /// Its name and place.
-        name: String,
-        /// What the run was doing.
-        activity: String,
-        /// How long.
-        seconds: u64,
-    },
-    /// A back-end said why it cannot go on.
-    #[error("{name} failed while {activity}: {sentence}")]
-    Failed {
-        /// Its name and place.
-        name: String,
-        /// What the run was doing.
-        activity: String,
-        /// What it said.
-        sentence: String,
-    },
-    /// A back-end is of another build, or answers what was not asked.
-    #[error(
-        "{name} does not fit this front-end: {what}; start lightloom and lightloom-backend from the same build"
-    )]
-    Misfit {
-        /// Its name and place.
-        name: String,
-        /// What it did.
-        what: String,
-    },
-    /// The connection itself.
-    #[error("the connection failed while {activity}: {error}")]
-    Link {
-        /// What the run was doing.
-        activity: String,
-        /// Why.
-        error: LinkError,
-    },
-}
 
 /// What a message means while the session waits for an answer from each back-end.
 enum Answer<T> {
@@ -104,6 +24,9 @@ const TICK: Duration = Duration::from_millis(200);
 /// How often the front-end says that it is alive while it waits.
 const ALIVE_INTERVAL: Duration = Duration::from_secs(1);
 
+/// How long a back-end may take to leave off what it is drawing, once the run is stopped.
+const LAST_PIECE: Duration = Duration::from_secs(20);
+
 /// Back-ends that are set up and wait for frames.
 pub struct Session {
     link: Box<dyn Link>,
@@ -111,35 +34,64 @@ pub struct Session {
     activity: String,
     last_alive: Instant,
     devices: Vec<DeviceInfo>,
+    /// True once somebody asks the run to end.
+    stop: Arc<AtomicBool>,
+    /// Whether a frame was left for that reason: what is still said of it does not matter.
+    has_left_frame: bool,
     /// Whether back-ends write something that is complete only at the end.
     has_traces: bool,
 }
 
 impl Session {
-    /// Sets the back-ends up, `setups[i]` for back-end i, and waits until all are ready.
-    pub fn start(link: Box<dyn Link>, setups: Vec<Setup>, limits: Limits) -> Result<Self, SessionError> {
+    /// Sets the back-ends up, `setups[i]` for back-end i, and waits until all are ready. Once `stop` is true, the session
+    /// waits for nothing but the end of what back-ends write.
+    pub fn start(
+        link: Box<dyn Link>,
+        setups: Vec<Setup>,
+        limits: Limits,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Self, SessionError> {
         if setups.len() != link.backends() {
             return Err(SessionError::Count { setups: setups.len(), backends: link.backends() });
         }
-        let (activity, devices) = (String::new(), Vec::new());
-        let has_traces = setups.iter().any(|setup| setup.trace.is_some());
-        let mut session = Self { link, limits, activity, last_alive: Instant::now(), devices, has_traces };
-        session.set_activity("starting".to_owned());
-        session.gather(limits.opening, |_, message| match message {
-            FromBackend::Hello(hello) if hello.protocol == PROTOCOL_VERSION => Answer::Given(()),
-            FromBackend::Hello(_) => Answer::Misfit("it speaks another protocol"),
-            _ => Answer::Misfit("it did not say hello"),
-        })?;
+        let mut session = Self::greet(link, limits, stop)?;
+        session.has_traces = setups.iter().any(|setup| setup.trace.is_some());
         session.set_activity("opening its volume and device".to_owned());
         for (backend, setup) in setups.into_iter().enumerate() {
             let sent = session.link.send(backend, &FromFrontend::Setup(Box::new(setup)));
             sent.map_err(|error| session.lost(error))?;
         }
-        session.devices = session.gather(limits.opening, |_, message| match message {
+        session.devices = session.gather(|_, message| match message {
             FromBackend::Ready(info) => Answer::Given(info),
             _ => Answer::Misfit("it answered the setup with something other than ready"),
         })?;
         session.set_activity("waiting for the next frame".to_owned());
+        Ok(session)
+    }
+
+    /// Lets back-ends go that nothing is asked of.
+    pub fn dismiss(link: Box<dyn Link>, limits: Limits) -> Result<(), SessionError> {
+        Self::greet(link, limits, Arc::default())?.part()
+    }
+
+    /// Waits until all back-ends have said hello.
+    fn greet(link: Box<dyn Link>, limits: Limits, stop: Arc<AtomicBool>) -> Result<Self, SessionError> {
+        let mut session = Self {
+            link,
+            limits,
+            activity: String::new(),
+            last_alive: Instant::now(),
+            devices: Vec::new(),
+            stop,
+            has_left_frame: false,
+            has_traces: false,
+        };
+        session.set_activity("starting".to_owned());
+        session.gather(|_, message| match message {
+            FromBackend::Hello(hello) if hello.protocol == PROTOCOL_VERSION => Answer::Given(()),
+            FromBackend::Hello(_) => Answer::Misfit("it speaks another protocol"),
+            _ => Answer::Misfit("it did not say hello"),
+        })?;
         Ok(session)
     }
 
@@ -159,7 +111,7 @@ impl Session {
             .broadcast(&FromFrontend::Frame(Box::new(frame.clone())))
             .map_err(|error| self.lost(error))?;
         let mut parts = vec![(0, 0); self.link.backends()];
-        let reports = self.gather(self.limits.drawing, |backend, message| {
+        let reports = self.gather(|backend, message| {
             match message {
                 FromBackend::Progress { done, total } => {
                     parts[backend] = (done, total);
@@ -190,10 +142,21 @@ impl Session {
     /// Lets the back-ends go, once all that they write is complete.
     fn part(&mut self) -> Result<(), SessionError> {
         self.set_activity("finishing".to_owned());
+        let has_left_frame = self.has_left_frame;
+        // Who asked the run to end wants what back-ends write to be complete, and that soon.
+        self.stop = Arc::default();
+        if has_left_frame {
+            self.limits.standstill = self.limits.standstill.min(LAST_PIECE);
+        }
         if self.has_traces {
             self.link.broadcast(&FromFrontend::Finish).map_err(|error| self.lost(error))?;
-            self.gather(self.limits.drawing, |_, message| match message {
+            self.gather(|_, message| match message {
                 FromBackend::Finished => Answer::Given(()),
+                FromBackend::Progress { .. } | FromBackend::Image(_) | FromBackend::Done(_)
+                    if has_left_frame =>
+                {
+                    Answer::Pending
+                }
                 _ => Answer::Misfit("it answered the end with something other than its own"),
             })?;
         }
@@ -204,33 +167,59 @@ impl Session {
     /// Waits until each back-end has answered, in whatever order.
     fn gather<T>(
         &mut self,
-        limit: Duration,
         mut take: impl FnMut(usize, FromBackend) -> Answer<T>,
     ) -> Result<Vec<T>, SessionError> {
         let mut answers: Vec<Option<T>> = (0..self.link.backends()).map(|_| None).collect();
-        let mut silences = vec![Duration::ZERO; answers.len()];
+        let mut patience = vec![Patience::default(); answers.len()];
         while answers.iter().any(Option::is_none) {
+            self.check_stop()?;
             self.keep_alive()?;
             let since = Instant::now();
             let received = self.link.receive(TICK);
-            // Receiving a large picture may take longer than a tick; that is this end's time, not their silence.
+            // Receiving a large picture may take longer than a tick; that is this end's time, not theirs.
             let listened = since.elapsed().min(TICK);
-            silences.iter_mut().for_each(|silence| *silence += listened);
+            patience.iter_mut().for_each(|patience| patience.waited(listened));
             match received {
                 Ok((backend, message)) => {
-                    silences[backend] = Duration::ZERO;
+                    patience[backend].heard(!matches!(message, FromBackend::Alive));
                     self.note_answer(backend, message, &mut answers, &mut take)?;
                 }
                 Err(LinkError::Silent) => {}
                 Err(error) => return Err(self.lost(error)),
             }
-            let is_stuck = |b: &usize| answers[*b].is_none() && silences[*b] > limit;
-            if let Some(backend) = (0..answers.len()).find(is_stuck) {
-                let (name, activity) = (self.link.name(backend), self.activity.clone());
-                return Err(SessionError::Silent { name, activity, seconds: limit.as_secs() });
+            for backend in (0..answers.len()).filter(|&backend| answers[backend].is_none()) {
+                self.check_patience(backend, patience[backend])?;
             }
         }
         Ok(answers.into_iter().flatten().collect())
+    }
+
+    fn check_stop(&mut self) -> Result<(), SessionError> {
+        if !self.stop.load(Ordering::SeqCst) {
+            return Ok(());
+        }
+        self.has_left_frame = true;
+        Err(SessionError::Stopped { activity: self.activity.clone() })
+    }
+
+    fn check_patience(&self, backend: usize, waited: Patience) -> Result<(), SessionError> {
+        let Limits { silence, standstill } = self.limits;
+        let (name, activity) = (|| self.link.name(backend), || self.activity.clone());
+        if waited.silence > silence {
+            return Err(SessionError::Silent {
+                name: name(),
+                activity: activity(),
+                seconds: silence.as_secs(),
+            });
+        }
+        if waited.standstill > standstill {
+            return Err(SessionError::Stuck {
+                name: name(),
+                activity: activity(),
+                seconds: standstill.as_secs(),
+            });
+        }
+        Ok(())
     }
 
     fn note_answer<T>(
@@ -240,11 +229,15 @@ impl Session {
         answers: &mut [Option<T>],
         take: &mut impl FnMut(usize, FromBackend) -> Answer<T>,
     ) -> Result<(), SessionError> {
-        if let FromBackend::Failed(sentence) = message {
-            let (name, activity) = (self.link.name(backend), self.activity.clone());
-            return Err(SessionError::Failed { name, activity, sentence });
-        }
-        match take(backend, message) {
+        let taken = match message {
+            FromBackend::Alive => Answer::Pending,
+            FromBackend::Failed(sentence) => {
+                let (name, activity) = (self.link.name(backend), self.activity.clone());
+                return Err(SessionError::Failed { name, activity, sentence });
+            }
+            message => take(backend, message),
+        };
+        match taken {
             Answer::Given(answer) if answers[backend].is_none() => answers[backend] = Some(answer),
             Answer::Given(_) => return Err(self.misfit(backend, "it answered twice")),
             Answer::Pending => {}

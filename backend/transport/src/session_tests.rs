@@ -7,7 +7,12 @@ use crate::threads::{self, ThreadLink};
 use protocol::{Advance, Hello, ProjectorImage, Render, StopAsked};
 use std::collections::VecDeque;
 
-const SHORT: Limits = Limits { opening: Duration::from_secs(1), drawing: Duration::from_secs(1) };
+/// Long against the interval of signs of life.
+const SHORT: Limits = Limits { silence: Duration::from_secs(1), standstill: Duration::from_secs(2) };
+
+fn start(link: Box<dyn Link>, setups: Vec<Setup>) -> Result<Session, SessionError> {
+    Session::start(link, setups, SHORT, Arc::default())
+}
 
 /// Draws a grey pixel; back-end 1 does `mischief` in frame 1.
 struct Fake {
@@ -52,14 +57,14 @@ fn threads_with(mischief: fn() -> Result<(), String>) -> Box<ThreadLink> {
 }
 
 fn fate_of(mischief: fn() -> Result<(), String>) -> String {
-    let mut session = Session::start(threads_with(mischief), setups(3), SHORT).unwrap();
+    let mut session = start(threads_with(mischief), setups(3)).unwrap();
     session.render(&frame(0), &mut |_| {}).unwrap();
     session.render(&frame(1), &mut |_| {}).unwrap_err().to_string()
 }
 
 #[test]
 fn every_back_end_draws_every_frame_and_leaves() {
-    let mut session = Session::start(threads_with(|| Ok(())), setups(3), SHORT).unwrap();
+    let mut session = start(threads_with(|| Ok(())), setups(3)).unwrap();
     assert_eq!(session.devices(), [device(), device(), device()]);
     for index in 0..4 {
         let mut drawn = Vec::new();
@@ -93,13 +98,83 @@ fn a_stuck_back_end_is_named_after_the_limit() {
         std::thread::sleep(Duration::from_secs(20));
         Ok(())
     });
-    assert!(sentence.starts_with("back-end 1 ") && sentence.contains("nothing for 1 s"), "{sentence}");
+    assert!(sentence.starts_with("back-end 1 ") && sentence.contains("no further for 2 s"), "{sentence}");
     assert!(since.elapsed() < Duration::from_secs(10));
+}
+
+/// Several pieces, each longer than a back-end may be silent, and together longer than it may get no further.
+#[test]
+fn a_picture_may_take_longer_than_any_limit_while_work_goes_on() {
+    const PIECE: Duration = Duration::from_millis(1300);
+    let lost = fate_of_pieces(3, PIECE);
+    assert!(PIECE > SHORT.silence && 3 * PIECE > SHORT.standstill && PIECE < SHORT.standstill);
+    assert_eq!(lost, None);
+}
+
+/// What ends a run of frames that take so many pieces, each of so long.
+fn fate_of_pieces(pieces: u64, each: Duration) -> Option<String> {
+    struct Slow(u64, u64, Duration);
+    impl Render for Slow {
+        fn restart(&mut self, _: &FrameState) -> Result<(), DrawError> {
+            self.0 = 0;
+            Ok(())
+        }
+        fn advance(&mut self, _: StopAsked) -> Result<Advance, DrawError> {
+            let Self(done, pieces, each) = self;
+            std::thread::sleep(*each);
+            *done += 1;
+            let report = (done == pieces).then(|| Box::new(report(0, 0)));
+            Ok(Advance { done: *done, total: *pieces, lacking_bricks: 0, report })
+        }
+        fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+            Ok(())
+        }
+    }
+    let open = move |_: Setup| -> Result<Opened, String> { Ok((Box::new(Slow(0, pieces, each)), device())) };
+    let mut session = start(Box::new(threads::spawn(1, open).unwrap()), setups(1)).unwrap();
+    session.render(&frame(0), &mut |_| {}).err().map(|error| error.to_string())
+}
+
+#[test]
+fn a_run_that_is_stopped_leaves_its_frame_and_completes_what_is_written() {
+    struct Writing(Arc<AtomicBool>);
+    impl Render for Writing {
+        fn restart(&mut self, _: &FrameState) -> Result<(), DrawError> {
+            Ok(())
+        }
+        fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
+            while !stop() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Ok(Advance { done: 0, total: 1, lacking_bricks: 0, report: None })
+        }
+        fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+            Ok(())
+        }
+        fn finish(&mut self) -> Result<(), DrawError> {
+            self.0.store(true, Ordering::SeqCst);
+            Ok(())
+        }
+    }
+    let (is_written, stop) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
+    let written = Arc::clone(&is_written);
+    let open =
+        move |_: Setup| -> Result<Opened, String> { Ok((Box::new(Writing(Arc::clone(&written))), device())) };
+    let link = Box::new(threads::spawn(2, open).unwrap());
+    let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
+    let setups = setups(2).into_iter().map(traced).collect();
+    let mut session = Session::start(link, setups, SHORT, Arc::clone(&stop)).unwrap();
+    let asked = Arc::clone(&stop);
+    let ended = session.render(&frame(4), &mut |_| asked.store(true, Ordering::SeqCst));
+    assert_eq!(ended.unwrap_err().to_string(), "stopped by a signal while drawing frame 4");
+    assert!(!is_written.load(Ordering::SeqCst));
+    session.part().unwrap();
+    assert!(is_written.load(Ordering::SeqCst));
 }
 
 #[test]
 fn as_many_setups_as_back_ends_are_needed() {
-    let error = Session::start(threads_with(|| Ok(())), setups(2), SHORT).map(drop).unwrap_err();
+    let error = start(threads_with(|| Ok(())), setups(2)).map(drop).unwrap_err();
     assert_eq!(error, SessionError::Count { setups: 2, backends: 3 });
 }
 
@@ -136,8 +211,8 @@ fn hello(protocol: u32) -> FromBackend {
 }
 
 fn started(rest: Vec<(usize, FromBackend)>) -> Result<Session, SessionError> {
-    let start = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
-    Session::start(Box::new(Script(start.into_iter().chain(rest).collect())), setups(2), SHORT)
+    let first = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
+    start(Box::new(Script(first.into_iter().chain(rest).collect())), setups(2))
 }
 
 fn ready() -> Vec<(usize, FromBackend)> {
@@ -170,12 +245,12 @@ fn answers_that_were_not_asked_for_are_refused() {
 #[test]
 fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
     let end = |answer: FromBackend| {
-        let start = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
+        let first = [(0, hello(PROTOCOL_VERSION)), (1, hello(PROTOCOL_VERSION))];
         let end = [(0, FromBackend::Finished), (1, answer)];
-        let script = Script(start.into_iter().chain(ready()).chain(end).collect());
+        let script = Script(first.into_iter().chain(ready()).chain(end).collect());
         let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
         let setups = setups(2).into_iter().map(traced).collect();
-        Session::start(Box::new(script), setups, SHORT).unwrap().part().map_err(|error| error.to_string())
+        start(Box::new(script), setups).unwrap().part().map_err(|error| error.to_string())
     };
     assert_eq!(end(FromBackend::Finished), Ok(()));
     let full = end(FromBackend::Failed("the disk is full".to_owned()));
@@ -188,6 +263,6 @@ fn a_run_with_traces_is_over_when_all_of_them_are_whole() {
 #[test]
 fn another_protocol_is_refused_at_the_hello() {
     let script = Script([(0, hello(PROTOCOL_VERSION + 1))].into());
-    let error = Session::start(Box::new(script), setups(2), SHORT).map(drop).unwrap_err();
+    let error = start(Box::new(script), setups(2)).map(drop).unwrap_err();
     assert!(error.to_string().contains("from the same build"), "{error}");
 }

@@ -15,7 +15,7 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(250);
 
 /// How long a back-end outlives the signal that ends the job. The launcher sends it to all ranks when one dies; one that
 /// stays a little can then be distinguished from the one that died first.
-const STAY: Duration = Duration::from_millis(700);
+pub const STAY: Duration = Duration::from_millis(700);
 
 /// How long the front-end looks for a dead back-end after that signal. Short: the launcher sends the signal because it
 /// saw the death, and may itself be about to go.
@@ -60,10 +60,15 @@ pub fn guard_frontend(roster: Arc<Mutex<Roster>>) -> Result<(), String> {
     })
 }
 
-/// In a back-end: stays a moment when the launcher ends the job, and ends when the front-end's process is gone, also
-/// in the middle of a frame. `is_parting` cancels this.
-pub fn guard_backend(frontend: Peer, is_parting: Arc<AtomicBool>) -> Result<(), String> {
-    on_termination(|| {
+/// In a back-end: stays a moment when the launcher ends the job, which makes `is_ended` true, and ends when the front-end's
+/// process is gone, also in the middle of a frame. `is_parting` cancels this.
+pub fn guard_backend(
+    frontend: Peer,
+    is_parting: Arc<AtomicBool>,
+    is_ended: Arc<AtomicBool>,
+) -> Result<(), String> {
+    on_termination(move || {
+        is_ended.store(true, Ordering::SeqCst);
         sleep(STAY);
         exit(TERMINATED);
     })?;

@@ -28,6 +28,9 @@ const LAST_WORDS: Duration = Duration::from_secs(5);
 /// How long the messages' thread waits for the renderer before it looks at the link, while there is something to draw.
 const LOOK_INTERVAL: Duration = Duration::from_millis(1);
 
+/// How often a back-end with something to do says that it lives, while it has nothing else to say.
+const ALIVE_INTERVAL: Duration = Duration::from_millis(250);
+
 /// Serves one front-end until it says Quit. `make` opens the renderer, in the thread that draws, once the setup is known.
 /// Errors and panics of the renderer reach the front-end as one sentence.
 pub fn serve<M>(link: &mut dyn WorkerLink, make: M) -> Result<(), WorkerError>
@@ -39,8 +42,17 @@ where
         host: process::host(),
         process: std::process::id(),
     }))?;
+    let renderer = match RenderThread::start(make) {
+        Ok(renderer) => renderer,
+        Err(error) => {
+            return fail(
+                link,
+                format!("no thread could be started to draw with: {error}; start fewer back-ends"),
+            );
+        }
+    };
     let mut desk =
-        Desk { link, renderer: RenderThread::start(make), is_set_up: false, asked: 0, answered: 0 };
+        Desk { link, renderer, is_set_up: false, asked: 0, answered: 0, last_said: Instant::now() };
     loop {
         let Some(message) = desk.next()? else { continue };
         let command = match message {
@@ -74,6 +86,8 @@ struct Desk<'a> {
     asked: u64,
     /// Those of them that it owes nothing for any more.
     answered: u64,
+    /// When it last said anything.
+    last_said: Instant,
 }
 
 impl Desk<'_> {
@@ -90,9 +104,10 @@ impl Desk<'_> {
             Some(Reply::Failed(sentence)) => return self.fail(sentence).map(|()| None),
             Some(Reply::Message { message, answered }) => {
                 self.answered = answered;
-                self.link.send(message)?;
-                return Ok(None);
+                return self.say(message).map(|()| None);
             }
+            // The thread that draws may be in a piece of work that takes long.
+            None if self.last_said.elapsed() > ALIVE_INTERVAL => self.say(FromBackend::Alive)?,
             None => {}
         }
         match self.link.receive(Duration::ZERO) {
@@ -102,16 +117,26 @@ impl Desk<'_> {
         }
     }
 
-    /// Says why this back-end ends, and gives the front-end time to say so.
-    fn fail(&mut self, sentence: String) -> Result<(), WorkerError> {
-        self.link.send(FromBackend::Failed(sentence.clone()))?;
-        let since = Instant::now();
-        while let Some(left) = LAST_WORDS.checked_sub(since.elapsed()) {
-            match self.link.receive(left) {
-                Ok(FromFrontend::Quit) | Err(_) => break,
-                Ok(_) => {}
-            }
-        }
-        Err(WorkerError::Failed(sentence))
+    fn say(&mut self, message: FromBackend) -> Result<(), WorkerError> {
+        self.link.send(message)?;
+        self.last_said = Instant::now();
+        Ok(())
     }
+
+    fn fail(&mut self, sentence: String) -> Result<(), WorkerError> {
+        fail(self.link, sentence)
+    }
+}
+
+/// Says why this back-end ends, and gives the front-end time to say so.
+fn fail(link: &mut dyn WorkerLink, sentence: String) -> Result<(), WorkerError> {
+    link.send(FromBackend::Failed(sentence.clone()))?;
+    let since = Instant::now();
+    while let Some(left) = LAST_WORDS.checked_sub(since.elapsed()) {
+        match link.receive(left) {
+            Ok(FromFrontend::Quit) | Err(_) => break,
+            Ok(_) => {}
+        }
+    }
+    Err(WorkerError::Failed(sentence))
 }

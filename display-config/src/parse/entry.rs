@@ -3,6 +3,7 @@
 use super::raw::RawProjector;
 use super::source::Source;
 use crate::raster::is_strictly_convex;
+use crate::text::ListOf;
 use crate::{ConfigError, Homography, Projector, Raster};
 use glam::{DMat3, DVec2};
 use std::ops::Range;
@@ -65,12 +66,12 @@ fn placement(
 
 fn of_rectangle(
     source: &Source<'_>,
-    rectangle: &Spanned<[f64; 4]>,
+    rectangle: &Spanned<ListOf<f64, 4>>,
     pixels: DVec2,
 ) -> Result<Placement, ConfigError> {
     let (key, span) = ("screen_rect_m", rectangle.span());
-    source.all_finite(key, span.clone(), rectangle.get_ref())?;
-    let [left, bottom, width, height] = *rectangle.get_ref();
+    source.all_finite(key, span.clone(), &rectangle.get_ref().0)?;
+    let [left, bottom, width, height] = rectangle.get_ref().0;
     if width <= 0.0 || height <= 0.0 {
         let expected = "[left, bottom, width, height] with a width and a height above 0";
         return Err(source.out_of_range(key, span, width.min(height), expected));
@@ -79,20 +80,22 @@ fn of_rectangle(
     Ok((key, span, map))
 }
 
-fn of_rows(source: &Source<'_>, rows: &Spanned<[[f64; 3]; 3]>) -> Result<Placement, ConfigError> {
+fn of_rows(source: &Source<'_>, rows: &Spanned<ListOf<ListOf<f64, 3>, 3>>) -> Result<Placement, ConfigError> {
     let (key, span) = ("homography", rows.span());
-    source.all_finite(key, span.clone(), rows.get_ref().as_flattened())?;
-    Ok((key, span, Homography(DMat3::from_cols_array_2d(rows.get_ref()).transpose())))
+    let rows = rows.get_ref().0.map(|row| row.0);
+    source.all_finite(key, span.clone(), rows.as_flattened())?;
+    Ok((key, span, Homography(DMat3::from_cols_array_2d(&rows).transpose())))
 }
 
 fn of_corners(
     source: &Source<'_>,
-    corners: &Spanned<[[f64; 2]; 4]>,
+    corners: &Spanned<ListOf<ListOf<f64, 2>, 4>>,
     pixels: DVec2,
 ) -> Result<Placement, ConfigError> {
     let (key, span) = ("corners_m", corners.span());
-    source.all_finite(key, span.clone(), corners.get_ref().as_flattened())?;
-    let corners = corners.get_ref().map(DVec2::from_array);
+    let corners = corners.get_ref().0.map(|corner| corner.0);
+    source.all_finite(key, span.clone(), corners.as_flattened())?;
+    let corners = corners.map(DVec2::from_array);
     let map = if is_strictly_convex(corners) { Homography::of_corners(pixels, corners) } else { None };
     let map = map.ok_or_else(|| ConfigError::SingularRaster { place: source.place(key, span.clone()) })?;
     Ok((key, span, map))

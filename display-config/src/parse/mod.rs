@@ -5,6 +5,7 @@ mod line;
 mod raw;
 mod source;
 
+use crate::text::{brief_text, did_you_mean, read_text};
 use crate::{ConfigError, Display, Projector, presets};
 use glam::{DVec2, DVec3};
 use raw::{RawBackend, RawDisplay};
@@ -35,18 +36,18 @@ impl Display {
         if path.extension().is_none_or(|extension| extension != "toml") {
             let names: Vec<&str> = presets().iter().map(|(name, _)| *name).collect();
             return Err(ConfigError::UnknownPreset {
-                name: name_or_path.to_owned(),
+                name: brief_text(name_or_path).into_owned(),
+                suggestion: did_you_mean(name_or_path, names.iter().copied()),
                 presets: names.join(", "),
             });
         }
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| ConfigError::Read { path: path.to_owned(), cause })?;
+        let text = read_text(path).map_err(|cause| ConfigError::Read { path: path.to_owned(), cause })?;
         Self::from_toml(&text, name_or_path)
     }
 }
 
 /// Positive lengths, as messages ask for them.
-const A_LENGTH: &str = "a length in metres, above 0";
+const A_LENGTH: &str = "a length in metres, above 0 and at most 1000000";
 
 fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError> {
     let width_m = source.positive("screen_width_m", &raw.screen_width_m, A_LENGTH)?;
@@ -72,8 +73,7 @@ fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError
 
 fn observer(source: &Source<'_>, raw: &RawDisplay) -> Result<DVec3, ConfigError> {
     let (key, span) = ("observer_m", raw.observer_m.span());
-    source.all_finite(key, span.clone(), raw.observer_m.get_ref())?;
-    let observer = DVec3::from_array(*raw.observer_m.get_ref());
+    let observer = source.point(key, &raw.observer_m)?;
     if observer.z <= 0.0 {
         let expected = "an observer before the screen, with z (the third number) above 0";
         return Err(source.out_of_range(key, span, observer.z, expected));

@@ -1,5 +1,6 @@
 //! The keys of a display file, before any check of their values.
 
+use crate::text::ListOf;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -11,7 +12,7 @@ pub(super) struct RawDisplay {
     pub screen_height_m: Spanned<f64>,
     pub pixel_size_m: Spanned<f64>,
     pub angular_accuracy_deg: Spanned<f64>,
-    pub observer_m: Spanned<[f64; 3]>,
+    pub observer_m: Spanned<ListOf<f64, 3>>,
     pub eta: Spanned<f64>,
     /// Absent where a line generates the projectors.
     pub projector: Option<Spanned<Vec<Spanned<RawProjector>>>>,
@@ -30,15 +31,15 @@ pub(super) struct RawBackend {
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawProjector {
     pub name: Spanned<String>,
-    pub centre_m: Spanned<[f64; 3]>,
+    pub centre_m: Spanned<ListOf<f64, 3>>,
     pub width_px: Spanned<u32>,
     pub height_px: Spanned<u32>,
     /// Left, bottom, width, height.
-    pub screen_rect_m: Option<Spanned<[f64; 4]>>,
+    pub screen_rect_m: Option<Spanned<ListOf<f64, 4>>>,
     /// Pixels to screen metres, by rows.
-    pub homography: Option<Spanned<[[f64; 3]; 3]>>,
+    pub homography: Option<Spanned<ListOf<ListOf<f64, 3>, 3>>>,
     /// The screen points of the raster's corners, clockwise from its top left.
-    pub corners_m: Option<Spanned<[[f64; 2]; 4]>>,
+    pub corners_m: Option<Spanned<ListOf<ListOf<f64, 2>, 4>>>,
     pub backend: Spanned<u32>,
     /// Absent for an output of its own.
     pub output: Option<Spanned<RawOutput>>,
@@ -56,8 +57,8 @@ pub(super) struct RawOutput {
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawLine {
     pub count: Spanned<u32>,
-    pub from_m: Spanned<[f64; 3]>,
-    pub to_m: Spanned<[f64; 3]>,
+    pub from_m: Spanned<ListOf<f64, 3>>,
+    pub to_m: Spanned<ListOf<f64, 3>>,
     pub width_px: Spanned<u32>,
     pub height_px: Spanned<u32>,
     pub covers: Covers,

@@ -1,10 +1,15 @@
 //! The text of a display file, which knows the line of each value.
 
 use super::raw::RawDisplay;
+use crate::raster::{MOST_PIXELS, MOST_PIXELS_ALONG};
+use crate::text::{ListOf, brief_text, did_you_mean, with_suggestion};
 use crate::{ConfigError, Place};
 use glam::DVec3;
 use std::ops::Range;
 use toml::Spanned;
+
+/// Nothing of a display is longer, or farther away, metres.
+const FARTHEST_M: f64 = 1e6;
 
 pub(super) struct Source<'a> {
     pub text: &'a str,
@@ -18,14 +23,15 @@ impl Source<'_> {
         // Parsing without a schema separates text that is not TOML at all from text with the wrong keys.
         if let Err(error) = self.text.parse::<toml::Table>() {
             let line = self.line(error.span().map_or(0, |span| span.start));
-            let message = error.message().replace('\n', ", ");
+            let message = brief_text(&error.message().replace('\n', ", ")).into_owned();
             return Err(ConfigError::Syntax { file: self.file.to_owned(), line, message });
         }
         toml::from_str(self.text).map_err(|error| self.rephrase(&error))
     }
 
     pub fn place(&self, key: &str, span: Range<usize>) -> Place {
-        Place { file: self.file.to_owned(), line: self.line(span.start), key: key.to_owned() }
+        let key = brief_text(key).into_owned();
+        Place { file: self.file.to_owned(), line: self.line(span.start), key }
     }
 
     pub fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, ConfigError> {
@@ -44,7 +50,20 @@ impl Source<'_> {
         value: &Spanned<f64>,
         expected: &'static str,
     ) -> Result<f64, ConfigError> {
-        self.within(key, value, expected, |number| number > 0.0)
+        self.within(key, value, expected, |number| number > 0.0 && number <= FARTHEST_M)
+    }
+
+    /// A point of the display frame.
+    pub fn point(&self, key: &str, value: &Spanned<ListOf<f64, 3>>) -> Result<DVec3, ConfigError> {
+        let coordinates = value.get_ref().0;
+        self.all_finite(key, value.span(), &coordinates)?;
+        match coordinates.into_iter().find(|coordinate| coordinate.abs() > FARTHEST_M) {
+            Some(far) => {
+                let expected = "coordinates from -1000000 to 1000000 metres";
+                Err(self.out_of_range(key, value.span(), far, expected))
+            }
+            None => Ok(DVec3::from_array(coordinates)),
+        }
     }
 
     pub fn within(
@@ -76,9 +95,17 @@ impl Source<'_> {
         width_px: &Spanned<u32>,
         height_px: &Spanned<u32>,
     ) -> Result<(u32, u32), ConfigError> {
-        let expected = "a number of pixels, 1 or more";
-        let width = self.at_least_one("width_px", width_px, expected)?;
-        Ok((width, self.at_least_one("height_px", height_px, expected)?))
+        let expected = "a number of pixels from 1 to 16384";
+        let along = |key, pixels: &Spanned<u32>| match *pixels.get_ref() {
+            count if (1..=MOST_PIXELS_ALONG).contains(&count) => Ok(count),
+            count => Err(self.out_of_range(key, pixels.span(), f64::from(count), expected)),
+        };
+        let (width, height) = (along("width_px", width_px)?, along("height_px", height_px)?);
+        if u64::from(width) * u64::from(height) > u64::from(MOST_PIXELS) {
+            let place = self.place("height_px", height_px.span());
+            return Err(ConfigError::TooManyPixels { place, width, height });
+        }
+        Ok((width, height))
     }
 
     pub fn name(&self, key: &str, value: &Spanned<String>) -> Result<String, ConfigError> {
@@ -89,9 +116,8 @@ impl Source<'_> {
     }
 
     /// A projector's centre: finite, and not in the screen plane.
-    pub fn centre(&self, key: &str, value: &Spanned<[f64; 3]>) -> Result<DVec3, ConfigError> {
-        self.all_finite(key, value.span(), value.get_ref())?;
-        let centre = DVec3::from_array(*value.get_ref());
+    pub fn centre(&self, key: &str, value: &Spanned<ListOf<f64, 3>>) -> Result<DVec3, ConfigError> {
+        let centre = self.point(key, value)?;
         if centre.z == 0.0 {
             return Err(ConfigError::ProjectorInScreenPlane { place: self.place(key, value.span()) });
         }
@@ -118,13 +144,14 @@ impl Source<'_> {
         let message = error.message();
         if let Some((key, rest)) = quoted_after(message, "unknown field `") {
             let known = rest.trim_start_matches(", expected ").replacen("one of ", "", 1);
-            return ConfigError::UnknownKey { place: self.place(key, span), known };
+            let suggestion = did_you_mean(key, known.split('`').skip(1).step_by(2));
+            return ConfigError::UnknownKey { place: self.place(key, span), suggestion, known };
         }
         if let Some((key, _)) = quoted_after(message, "missing field `") {
             return ConfigError::MissingKey { place: self.place(key, span) };
         }
         let key = self.header_at(span.start).unwrap_or_else(|| self.key_before(span.start));
-        let message = message.replace('\n', ", ").replace("expected f64", "expected a number");
+        let message = with_suggestion(message).replace("expected f64", "expected a number");
         let message = message.replace("expected u32", "expected a whole number, 0 or more");
         ConfigError::WrongType { place: self.place(key, span), message }
     }

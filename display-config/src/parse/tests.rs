@@ -126,6 +126,7 @@ fn wrong_types_are_named_with_their_line_and_key() {
         ("width_px = 800", "width_px = -1", "two.toml, line 12: `width_px` cannot have this value"),
         ("width_px = 800", "width_px = 80.5", "two.toml, line 12: `width_px` cannot have this value"),
         ("[0.0, 0.0, 3.0]", "[0.0, 3.0]", "two.toml, line 6: `observer_m` cannot have this value"),
+        ("[0.0, 0.0, 3.0]", "[0.0, 0.0, 3.0, nan]", "two.toml, line 6: `observer_m` cannot have this value"),
         ("x_px = 0", "x_px = true", "two.toml, line 24: `x_px` cannot have this value"),
     ] {
         let message = message(from, to);
@@ -139,6 +140,75 @@ fn wrong_types_are_named_with_their_line_and_key() {
     assert!(lines.contains("line 9: `projector_line` cannot have this value"), "{lines}");
     let empty = Display::from_toml(&format!("{HEAD}projector = []"), "two.toml").unwrap_err().to_string();
     assert!(empty.starts_with("two.toml, line 8: `projector` is absent or empty"), "{empty}");
+}
+
+#[test]
+fn lists_have_as_many_numbers_as_their_keys_take() {
+    for (text, key) in [
+        (format!("{HEAD}{LINE}").replace("from_m = [", "from_m = [1, "), "from_m"),
+        (one_placed("screen_rect_m = [0.0, 0.0, 1.0, 1.0, 1.0]"), "screen_rect_m"),
+        (one_placed("homography = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"), "homography"),
+        (one_placed("homography = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 1]]"), "homography"),
+        (one_placed("corners_m = [[0, 1], [1, 1], [1, 0], [0, 0], [0, 1]]"), "corners_m"),
+        (one_placed("corners_m = [[0, 1, 2], [1, 1], [1, 0], [0, 0]]"), "corners_m"),
+    ] {
+        let error = Display::from_toml(&text, "two.toml").unwrap_err().to_string();
+        let place = format!("`{key}` cannot have this value (invalid length");
+        assert!(error.contains(&place), "{key}: {error}");
+    }
+}
+
+/// A display of one projector, placed like this.
+fn one_placed(placement: &str) -> String {
+    format!(
+        "{HEAD}[[projector]]\nname = 'a'\ncentre_m = [0, 0, -3]\nwidth_px = 8\nheight_px = 6\n{placement}\nbackend = 0\n"
+    )
+}
+
+#[test]
+fn rasters_that_no_machine_holds_are_refused() {
+    for (width, height, place) in [
+        (0, 8, "`width_px` is 0; give a number of pixels from 1 to 16384"),
+        (4_294_967_295_u32, 8, "`width_px` is 4294967295; give"),
+        (8, 16_385, "`height_px` is 16385; give"),
+        (
+            16_384,
+            16_384,
+            "`height_px` makes a picture of 16384 × 16384 pixels; give at most 67108864 of them",
+        ),
+    ] {
+        let pixels = |text: &str| {
+            let text = text.replace("width_px = 8\n", &format!("width_px = {width}\n"));
+            text.replace("height_px = 6\n", &format!("height_px = {height}\n"))
+        };
+        let text = pixels(&one_placed("screen_rect_m = [0, 0, 1, 1]"));
+        let error = Display::from_toml(&text, "two.toml").unwrap_err().to_string();
+        assert!(error.contains(place), "{error}");
+    }
+}
+
+#[test]
+fn what_is_nearly_known_is_suggested() {
+    let told = message("screen_width_m", "screen_width");
+    assert!(
+        told.contains("`screen_width` is not a key of this table (did you mean `screen_width_m`?); remove"),
+        "{told}"
+    );
+    let told = message_of(&format!("{HEAD}{LINE}"), "\"screen\"", "\"Screens\"");
+    assert!(told.contains("unknown variant `Screens` (did you mean `screen`?)"), "{told}");
+}
+
+#[test]
+fn long_keys_and_numbers_are_told_in_few_letters() {
+    let long = "x".repeat(200_000);
+    let told = message("eta = 1\n", &format!("eta = 1\n{long} = 1\n"));
+    assert!(told.len() < 1000, "{}", told.len());
+    let told = message("eta = 1\n", "eta = 1e300\n");
+    assert!(told.contains("`eta` is 1e300; give"), "{told}");
+    let told = message("[0.0, 0.0, 3.0]", "[0.0, -1e300, 3.0]");
+    assert!(told.contains("`observer_m` is -1e300; give coordinates"), "{told}");
+    let told = message("screen_width_m = 1.6", "screen_width_m = 1e300");
+    assert!(told.contains("`screen_width_m` is 1e300; give a length"), "{told}");
 }
 
 #[test]
@@ -287,7 +357,8 @@ fn names_that_are_no_display_say_what_is() {
     let unknown = Display::load("holo73").unwrap_err().to_string();
     assert_eq!(
         unknown,
-        "there is no preset display `holo73`; use one of holo72, desk8, or give the path of a .toml file"
+        "there is no preset display `holo73` (did you mean `holo72`?); use one of holo72, desk8, or give the path of a \
+         .toml file"
     );
     let absent = Display::load("no/such/display.toml").unwrap_err().to_string();
     assert!(absent.starts_with("cannot read the display file no/such/display.toml:"), "{absent}");

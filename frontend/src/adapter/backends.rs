@@ -1,14 +1,16 @@
 //! The back-ends of a run.
 
 use super::trace;
-use crate::FrontendError;
+use crate::{FrontendError, interrupt};
 use backend::open_renderer;
 use display_config::{Display, Wiring};
 use protocol::{
     AdapterWish, DeviceChoice, DeviceInfo, Draw, FilterChoice, RendererOptions, Setup, VolumeRef,
 };
 use std::path::PathBuf;
-use transport::{Launch, Limits, Link, Session, launch, threads};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use transport::{Launch, Limits, Link, Session, launch, threads, under_mpi};
 
 /// What back-ends draw with.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,38 +28,53 @@ pub struct BackendOptions {
 /// Back-ends that run and wait to be set up.
 pub struct Backends {
     link: Box<dyn Link>,
+    /// What each of them drives.
+    pub wiring: Wiring,
+    stop: Arc<AtomicBool>,
+}
+
+/// Back-ends that are set up.
+pub struct Drawing {
+    /// What draws frames with them.
+    pub source: Box<dyn Draw>,
+    /// What each of them draws with.
+    pub devices: Vec<DeviceInfo>,
+    /// True once somebody asks the program to end.
+    pub stop: Arc<AtomicBool>,
 }
 
 impl Backends {
-    /// Finds the back-ends that a launcher started, or starts `asked` of them (1 where it is None) in this process.
-    pub fn connect(asked: Option<u32>) -> Result<Self, FrontendError> {
-        let link = match launch().map_err(FrontendError::Backend)? {
-            Launch::OneProcess => Box::new(
-                threads::spawn(asked.unwrap_or(1) as usize, open_renderer)
-                    .map_err(|e| FrontendError::Backend(e.to_string()))?,
-            ),
-            Launch::Cluster => cluster_link()?,
-        };
-        Ok(Self { link })
-    }
-
-    /// What each of them drives.
+    /// Finds the back-ends that a launcher started, or starts `asked` of them (1 where it is None) in this process, and
+    /// shares the projectors of `display` among them.
     ///
     /// # Errors
     /// There are more than the display has projectors.
-    pub fn wiring(&self, display: &Display) -> Result<Wiring, FrontendError> {
-        display.wiring(self.link.backends()).map_err(|e| FrontendError::Display(e.to_string()))
+    pub fn connect(asked: Option<u32>, display: &Display) -> Result<Self, FrontendError> {
+        let wiring = |count| display.wiring(count).map_err(|e| FrontendError::Display(e.to_string()));
+        match launch().map_err(FrontendError::Backend)? {
+            Launch::OneProcess => {
+                let wiring = wiring(asked.unwrap_or(1) as usize)?;
+                let link = threads::spawn(wiring.shares.len(), open_renderer)
+                    .map_err(|e| FrontendError::Backend(e.to_string()))?;
+                Ok(Self { link: Box::new(link), wiring, stop: interrupt::stop_flag()? })
+            }
+            // There the signals are the launcher's, which tells every rank.
+            Launch::Cluster => {
+                let link = cluster_link()?;
+                let wiring = wiring(link.backends())?;
+                Ok(Self { link, wiring, stop: Arc::default() })
+            }
+        }
     }
 
-    /// Sets them up as they are wired, and gives what draws frames with them.
+    /// Sets them up as they are wired.
     pub fn start(
         self,
         options: &BackendOptions,
         volume: &VolumeRef,
         display: &Display,
-        wiring: &Wiring,
-    ) -> Result<(Box<dyn Draw>, Vec<DeviceInfo>), FrontendError> {
-        let setups = wiring.shares.iter().zip(0..).map(|(share, backend)| Setup {
+    ) -> Result<Drawing, FrontendError> {
+        let setups = self.wiring.shares.iter().zip(0..).map(|(share, backend)| Setup {
             options: RendererOptions {
                 display: display.clone(),
                 projectors: share.projectors.clone(),
@@ -70,12 +87,39 @@ impl Backends {
             volume: volume.clone(),
             trace: options.traces.as_deref().map(|folder| trace::path(folder, backend)),
         });
-        let setups = setups.collect();
-        let session = Session::start(self.link, setups, Limits::default());
-        let session = session.map_err(|e| FrontendError::Backend(e.to_string()))?;
+        let session = Session::start(self.link, setups.collect(), Limits::default(), Arc::clone(&self.stop));
+        let session = session
+            .map_err(|error| interrupt::or_stopped(FrontendError::Backend(error.to_string()), &self.stop))?;
         let devices = session.devices().to_vec();
-        Ok((Box::new(session), devices))
+        Ok(Drawing { source: Box::new(session), devices, stop: self.stop })
     }
+}
+
+impl Drawing {
+    /// Completes what back-ends write, once `work` has been done with them or was stopped.
+    ///
+    /// # Errors
+    /// That of the work, or what is written cannot be completed.
+    pub fn finish<T>(&mut self, work: Result<T, FrontendError>) -> Result<T, FrontendError> {
+        let work = work.map_err(|error| interrupt::or_stopped(error, &self.stop));
+        // Back-ends that failed cannot be asked for anything any more.
+        let finished = if let Err(FrontendError::Backend(_)) = work { Ok(()) } else { self.source.finish() };
+        match (work, finished) {
+            (Err(FrontendError::Stopped(why)), Err(error)) => {
+                Err(FrontendError::Stopped(format!("{why}; {error}")))
+            }
+            (Err(error), _) => Err(error),
+            (Ok(done), finished) => finished.map(|()| done).map_err(FrontendError::from),
+        }
+    }
+}
+
+/// Lets the back-ends go that a launcher started, if it did: for work that needs none.
+pub fn dismiss_backends() -> Result<(), FrontendError> {
+    if !under_mpi() || cfg!(not(feature = "mpi")) {
+        return Ok(());
+    }
+    Session::dismiss(cluster_link()?, Limits::default()).map_err(|e| FrontendError::Backend(e.to_string()))
 }
 
 #[cfg(feature = "mpi")]

@@ -10,12 +10,12 @@ mod store;
 mod trace;
 mod volume;
 
-pub use backends::{BackendOptions, Backends};
+pub use backends::{BackendOptions, Backends, Drawing, dismiss_backends};
 pub use display::{load_display, preset_displays};
 pub use export::{ExportSummary, export};
 pub use import::{ImportRequest, ImportSummary, RawRequest, Skipped, import};
 pub use levels::LevelSummary;
 pub use replay::{ReplayRow, Traces};
 pub use store::{StoreSummary, VerifySummary, store_summary, verify};
-pub use trace::prepare_traces;
-pub use volume::{open_volume, volume_facts};
+pub use trace::TraceFolder;
+pub use volume::{open_scene_volume, scene_facts};

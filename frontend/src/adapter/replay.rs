@@ -68,6 +68,12 @@ pub struct ReplayRow {
 impl Traces {
     /// Reads traces and opens their volumes, or the store `moved` instead of all of them.
     pub fn open(paths: &[PathBuf], moved: Option<&Path>) -> Result<Self, FrontendError> {
+        let files: Vec<_> = paths.iter().map(|path| path.canonicalize().ok()).collect();
+        let is_again = |place: usize| files[place].is_some() && files[..place].contains(&files[place]);
+        if let Some(again) = (0..files.len()).find(|&place| is_again(place)) {
+            let path = paths[again].display();
+            return Err(FrontendError::Trace(format!("{path} is given twice; give every trace once")));
+        }
         let traces = paths.iter().map(|path| Trace::open(path, moved)).collect::<Result<_, _>>()?;
         Ok(Self { traces })
     }

@@ -1,6 +1,7 @@
 //! The arguments of `lightloom accuracy`.
 
 use super::DeviceArg;
+use super::parse::whole;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -19,16 +20,16 @@ pub struct AccuracyArgs {
     #[arg(long, value_enum, default_value = "auto")]
     pub device: DeviceArg,
     /// Which frame of the scene.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0..=u32::MAX), allow_hyphen_values = true)]
     pub frame: u32,
     /// Projectors whose pictures are compared and timed; by default one at the side and one near the middle.
-    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = whole(0..=u32::MAX), allow_hyphen_values = true)]
     pub projectors: Vec<u32>,
     /// Compare every N-th pixel along x and y; by default as many as the reference traces in about half a minute.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=u32::MAX), allow_hyphen_values = true)]
     pub stride: Option<u32>,
     /// How often each setting is timed: an odd number.
-    #[arg(long, value_name = "N", default_value = "3", value_parser = odd)]
+    #[arg(long, value_name = "N", default_value = "3", value_parser = odd, allow_hyphen_values = true)]
     pub repetitions: u32,
     /// Try every combination of the settings, hundreds of them, not one at a time around the default.
     #[arg(long)]
@@ -37,7 +38,7 @@ pub struct AccuracyArgs {
     #[arg(long)]
     pub finest: bool,
     /// Brick cache.
-    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = whole(1..=1_u64 << 30), allow_hyphen_values = true)]
     pub cache_mib: u64,
     /// No progress, no table.
     #[arg(long)]

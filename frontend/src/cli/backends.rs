@@ -1,5 +1,6 @@
 //! The arguments that choose what draws the pictures.
 
+use super::parse::whole;
 use crate::adapter::BackendOptions;
 use clap::{Args, ValueEnum};
 use protocol::{DeviceChoice, FilterChoice};
@@ -9,7 +10,7 @@ use std::path::Path;
 #[derive(Clone, Debug, Args)]
 pub struct BackendArgs {
     /// How many back-ends share the projectors; 1 unless a launcher started more.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=u32::MAX), allow_hyphen_values = true)]
     pub backends: Option<u32>,
     /// Which device casts the rays.
     #[arg(long, value_enum, default_value = "auto")]
@@ -18,7 +19,7 @@ pub struct BackendArgs {
     #[arg(long, value_enum, default_value = "auto")]
     pub filter: FilterArg,
     /// Brick cache of each back-end.
-    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = whole(1..=1_u64 << 30), allow_hyphen_values = true)]
     pub cache_mib: u64,
 }
 

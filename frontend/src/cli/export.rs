@@ -1,6 +1,6 @@
 //! The arguments of `lightloom export`.
 
-use super::parse::{dims, three};
+use super::parse::{dims, three, whole};
 use bricks::volume::Element;
 use clap::Args;
 use glam::UVec3;
@@ -16,13 +16,13 @@ pub struct ExportArgs {
     #[arg(value_name = "OUT.nrrd|OUT.zarr")]
     pub output: PathBuf,
     /// Level of the store, 0 = finest; by default the finest, or all levels of an OME-Zarr image.
-    #[arg(long, value_name = "L")]
+    #[arg(long, value_name = "L", value_parser = whole(0..=u8::MAX), allow_hyphen_values = true)]
     pub level: Option<u8>,
     /// First voxel of the part to write, in voxels of the level.
-    #[arg(long, value_name = "X,Y,Z", value_parser = place)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
     pub low: Option<UVec3>,
     /// Voxels of the part to write; by default all that follow the first one.
-    #[arg(long, value_name = "X,Y,Z", value_parser = dims)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = dims, allow_hyphen_values = true)]
     pub size: Option<UVec3>,
     /// Type of the numbers, to which they are rounded: uint8, int16, float, …; by default the smallest that loses nothing.
     #[arg(long = "type", value_name = "TYPE", value_parser = element)]

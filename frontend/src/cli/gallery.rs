@@ -19,7 +19,7 @@ pub struct GalleryArgs {
     #[arg(long, value_name = "DISPLAY", default_value = "desk8")]
     pub display: String,
     /// Pixels of each projector, and so of each picture, overriding the display's.
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = picture_size)]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = picture_size, allow_hyphen_values = true)]
     pub size: Option<UVec2>,
     /// Quality, overriding the scene's.
     #[arg(long, value_enum)]

@@ -1,6 +1,6 @@
 //! The arguments of `lightloom import`.
 
-use super::parse::{dims, finite, spacing};
+use super::parse::{dims, finite, spacing, whole};
 use crate::adapter::{ImportRequest, RawRequest, Skipped};
 use bricks::store::{CodeBits, Codec};
 use bricks::volume::ByteOrder;
@@ -23,7 +23,7 @@ pub struct ImportArgs {
     #[arg(long, value_enum, default_value = "lz4")]
     pub codec: CodecArg,
     /// Memory that the import may use; a quarter of it is for the reader's decoded data.
-    #[arg(long = "memory", value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
+    #[arg(long = "memory", value_name = "MIB", default_value_t = 2048, value_parser = whole(1..=1_u64 << 30), allow_hyphen_values = true)]
     pub memory_mib: u64,
     /// Leave out bricks in which every value is below this one; they read back as their smallest value.
     #[arg(long, value_name = "VALUE", value_parser = finite, allow_hyphen_values = true, conflicts_with = "empty_for")]
@@ -82,16 +82,16 @@ pub struct PickArgs {
     #[arg(long, value_name = "SERIES")]
     pub series: Option<String>,
     /// Of a pyramid: the level, 0 = finest.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0..=u32::MAX), allow_hyphen_values = true)]
     pub level: Option<u32>,
     /// Of several channels or samples per voxel: which one, from 0.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0..=u32::MAX), allow_hyphen_values = true)]
     pub channel: Option<u32>,
     /// Of a time series: which point in time, from 0.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0..=u32::MAX), allow_hyphen_values = true)]
     pub time: Option<u32>,
     /// Edge lengths of a voxel in millimetres, overriding the file.
-    #[arg(long = "spacing-mm", value_name = "X,Y,Z", value_parser = spacing, conflicts_with = "raw_spacing_mm")]
+    #[arg(long = "spacing-mm", value_name = "X,Y,Z", value_parser = spacing, conflicts_with = "raw_spacing_mm", allow_hyphen_values = true)]
     pub voxel_mm: Option<DVec3>,
 }
 
@@ -99,7 +99,7 @@ pub struct PickArgs {
 #[derive(Clone, Debug, Args)]
 pub struct RawArgs {
     /// Voxels along x (fastest), y and z: the input is then read as raw voxels.
-    #[arg(long = "raw-dims", value_name = "X,Y,Z", value_parser = dims, requires = "element")]
+    #[arg(long = "raw-dims", value_name = "X,Y,Z", value_parser = dims, requires = "element", allow_hyphen_values = true)]
     pub dims: Option<UVec3>,
     /// Type of a voxel: uint8, int16, float, …
     #[arg(long = "raw-type", value_name = "TYPE", requires = "dims")]
@@ -108,10 +108,16 @@ pub struct RawArgs {
     #[arg(long = "raw-endian", value_enum, default_value = "little", requires = "dims")]
     pub endian: EndianArg,
     /// Edge lengths of a voxel, millimetres.
-    #[arg(long = "raw-spacing-mm", value_name = "X,Y,Z", value_parser = spacing, default_value = "1,1,1", requires = "dims")]
+    #[arg(long = "raw-spacing-mm", value_name = "X,Y,Z", value_parser = spacing, default_value = "1,1,1", requires = "dims", allow_hyphen_values = true)]
     pub raw_spacing_mm: DVec3,
     /// Bytes before the first voxel.
-    #[arg(long = "raw-skip", value_name = "BYTES", default_value_t = 0, requires = "dims")]
+    #[arg(
+        long = "raw-skip",
+        value_name = "BYTES",
+        default_value_t = 0, value_parser = whole(0..=u64::MAX),
+        requires = "dims",
+        allow_hyphen_values = true
+    )]
     pub skip_bytes: u64,
 }
 

@@ -27,7 +27,7 @@ pub struct LiveArgs {
     #[arg(long, value_name = "N", requires = "live", value_parser = upload, allow_hyphen_values = true)]
     pub upload_mib: Option<u64>,
     /// With --live: folder for the files backend-N.trace, which record what the rays of each back-end asked for in every
-    /// frame, for `lightloom replay`. Created if missing; traces of an earlier run are removed.
+    /// frame, for `lightloom replay`. Created if missing; they take the place of an earlier run's once this one ends or is stopped.
     #[arg(long, value_name = "DIR")]
     pub trace: Option<PathBuf>,
 }

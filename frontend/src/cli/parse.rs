@@ -1,11 +1,15 @@
 //! Values of the command line: points, sizes, lengths.
 
 use glam::{DVec3, UVec2, UVec3};
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
 
-/// Three finite numbers.
+/// Three numbers within a million.
 pub(super) fn point(text: &str) -> Result<DVec3, String> {
     let point = DVec3::from_array(three::<f64>(text)?);
-    if point.is_finite() { Ok(point) } else { Err("give three finite numbers".to_owned()) }
+    let is_near = point.is_finite() && point.abs().max_element() <= 1e6;
+    is_near.then_some(point).ok_or_else(|| "give three numbers from -1000000 to 1000000".to_owned())
 }
 
 /// Three lengths above 0.
@@ -21,11 +25,24 @@ pub(super) fn dims(text: &str) -> Result<UVec3, String> {
 }
 
 /// Three numbers with commas between them.
-pub(super) fn three<T: std::str::FromStr>(text: &str) -> Result<[T; 3], String> {
+pub(super) fn three<T: FromStr>(text: &str) -> Result<[T; 3], String> {
     let parts = text.split(',').map(|part| part.trim().parse::<T>().ok()).collect::<Option<Vec<T>>>();
     parts
         .and_then(|p| p.try_into().ok())
         .ok_or_else(|| "give three numbers with commas between them".to_owned())
+}
+
+/// A whole number within limits.
+pub(super) fn whole<T>(
+    range: RangeInclusive<T>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static
+where
+    T: FromStr + PartialOrd + Display + Clone + Send + Sync + 'static,
+{
+    move |text| {
+        let number = text.trim().parse().ok().filter(|number| range.contains(number));
+        number.ok_or_else(|| format!("give a whole number from {} to {}", range.start(), range.end()))
+    }
 }
 
 /// A number that is neither NaN nor infinite.

@@ -1,6 +1,7 @@
 //! The arguments of `lightloom replay`.
 
 use super::live::{FADE_S, UPLOAD_MIB, fade, upload};
+use super::parse::whole;
 use clap::{Args, ValueEnum};
 use renderer::working_set::{DiskModel, FetchOrder};
 use std::path::PathBuf;
@@ -12,16 +13,16 @@ pub struct ReplayArgs {
     #[arg(value_name = "TRACE", required = true)]
     pub traces: Vec<PathBuf>,
     /// Brick caches of a back-end.
-    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1024", value_parser = clap::value_parser!(u64).range(1..=1 << 30))]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1024", value_parser = whole(1..=1_u64 << 30), allow_hyphen_values = true)]
     pub cache_mib: Vec<u64>,
     /// Bricks that one frame of a back-end may upload.
-    #[arg(long, value_name = "N,…", value_delimiter = ',', default_values_t = [UPLOAD_MIB], value_parser = upload)]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_values_t = [UPLOAD_MIB], value_parser = upload, allow_hyphen_values = true)]
     pub upload_mib: Vec<u64>,
     /// Disks: MB (10⁶ bytes) per second, or inf, and milliseconds from the beginning of a read to its first byte.
-    #[arg(long, value_name = "MB_PER_S:LATENCY_MS,…", value_delimiter = ',', default_value = "2000:0.1", value_parser = disk)]
+    #[arg(long, value_name = "MB_PER_S:LATENCY_MS,…", value_delimiter = ',', default_value = "2000:0.1", value_parser = disk, allow_hyphen_values = true)]
     pub disk: Vec<DiskArg>,
     /// Reads that a back-end has under way at the same time.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole(1..=u16::MAX), allow_hyphen_values = true)]
     pub threads: u16,
     /// Seconds in which detail appears or disappears; 0 means at once.
     #[arg(long, value_name = "SECONDS,…", value_delimiter = ',', default_values_t = [FADE_S], value_parser = fade, allow_hyphen_values = true)]

@@ -31,7 +31,7 @@ pub struct SimulateArgs {
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
     /// Frames A to B − 1 of the scene instead of all.
-    #[arg(long, value_name = "A..B", value_parser = frame_range)]
+    #[arg(long, value_name = "A..B", value_parser = frame_range, allow_hyphen_values = true)]
     pub frames: Option<(u32, u32)>,
     /// How frames get their detail.
     #[command(flatten)]

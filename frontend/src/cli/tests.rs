@@ -19,6 +19,34 @@ fn the_command_line_is_consistent() {
     Cli::command().debug_assert();
 }
 
+/// Otherwise a number below 0 is taken for an option that nobody knows.
+#[test]
+fn every_number_may_begin_with_a_minus() {
+    let words =
+        ["DIR", "DISPLAY", "NAME", "NAME,…", "OUT.lloom", "SCENE.toml", "STORE.lloom", "SERIES", "TYPE"];
+    let mut numbers = 0;
+    for command in Cli::command().get_subcommands() {
+        for option in command.get_opts().filter(|option| option.get_possible_values().is_empty()) {
+            let names: Vec<_> =
+                option.get_value_names().into_iter().flatten().map(|name| name.as_str()).collect();
+            let is_word = words.contains(&names[0]) || !option.get_action().takes_values();
+            assert!(is_word || option.is_allow_hyphen_values_set(), "{}: {option}", command.get_name());
+            numbers += usize::from(!is_word);
+        }
+    }
+    assert!(numbers > 20, "{numbers}");
+    for (wrong, sentence) in [
+        (["--frames", "-1..2"], "give a rising range"),
+        (["--cache-mib", "-1"], "give a whole number from 1 to 1073741824"),
+        (["--backends", "-1"], "give a whole number from 1 to"),
+        (["--eye", "0,0,1e300"], "give three numbers from -1000000 to 1000000"),
+    ] {
+        let error = simulate(&wrong).unwrap_err();
+        assert_eq!(error.exit_code(), 2, "{wrong:?}");
+        assert!(error.to_string().contains(sentence), "{error}");
+    }
+}
+
 #[test]
 fn eyes_may_be_left_of_the_centre() {
     let args = simulate(&["--eye", "-0.3,0,3", "--eye=0.3, 0, 3", "--frames", "2..5"]).unwrap();
@@ -118,6 +146,9 @@ fn raw_voxels_need_size_and_type() {
     assert_eq!(exit_code(&["--raw-type", "int16"]), Err(2));
     assert_eq!(exit_code(&["--raw-dims", "2,3,4", "--raw-type", "int16", "--bits", "16"]), Ok(()));
     assert_eq!(exit_code(&["--raw-dims", "2,3,0", "--raw-type", "int16"]), Err(2));
+    let all = ["lightloom", "import", "a", "-o", "b", "--raw-type", "int16", "--raw-dims", "-1,2,3"];
+    let error = Cli::try_parse_from(all).unwrap_err().to_string();
+    assert!(error.contains("give three numbers") && !error.contains("unexpected"), "{error}");
 }
 
 #[test]

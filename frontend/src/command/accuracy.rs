@@ -37,7 +37,7 @@ fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), Fro
         return Err(AccuracyError::Frame { frame: args.frame, count }.into());
     }
     check_projectors(&display, &args.projectors)?;
-    let source = adapter::open_volume(&scene.volume_ref())?;
+    let source = adapter::open_scene_volume(scene)?;
     let facts = VolumeFacts::of(source.as_ref());
     let study = Study {
         frame: scene.frame(args.frame, &display, &facts)?,
@@ -60,7 +60,7 @@ fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), Fro
 fn tell(args: &AccuracyArgs, found: &AccuracyReport) -> Result<(), FrontendError> {
     found.notes().iter().for_each(|note| warn(note));
     if args.json {
-        say(&serde_json::to_string_pretty(found)?);
+        say(&serde_json::to_string_pretty(found)?)?;
     } else if !args.quiet {
         let truth = &found.truth;
         say(&format!(
@@ -70,7 +70,7 @@ fn tell(args: &AccuracyArgs, found: &AccuracyReport) -> Result<(), FrontendError
             truth.stride,
             found.projectors,
             args.out.join(report::HTML).display()
-        ));
+        ))?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use crate::{FrontendError, adapter};
 /// Lists the presets.
 pub(super) fn displays() -> Result<(), FrontendError> {
     for (name, about) in adapter::preset_displays()? {
-        say(&format!("{name:<12} {about}"));
+        say(&format!("{name:<12} {about}"))?;
     }
     Ok(())
 }

@@ -16,14 +16,14 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), FrontendError> {
         Progress::new(!args.quiet && !args.json),
     )?;
     if args.json {
-        say(&serde_json::to_string_pretty(&summary)?);
+        say(&serde_json::to_string_pretty(&summary)?)?;
         return Ok(());
     }
     if !args.quiet {
         if summary.has_lost_directions {
             warn("OME-Zarr cannot store directions, so the axes are the volume's own; NRRD stores them");
         }
-        say(&text(args, &summary));
+        say(&text(args, &summary))?;
     }
     Ok(())
 }

@@ -18,24 +18,23 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = adapter::load_display(&args.display)?;
     let display = args.size.map_or(display.clone(), |size| with_picture_size(display, size));
-    let facts = adapter::volume_facts(&scene.volume_ref())?;
+    let facts = adapter::scene_facts(&scene)?;
     let subject = Subject::new(&scene, &display, &facts)?;
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;
-    let backends = Backends::connect(args.drawing.backends)?;
-    let wiring = backends.wiring(&gallery.display)?;
-    wiring.warning().iter().for_each(|warning| warn(warning));
+    let backends = Backends::connect(args.drawing.backends, &gallery.display)?;
+    backends.wiring.warning().iter().for_each(|warning| warn(warning));
     let options = args.drawing.options(None);
-    let (mut source, devices) = backends.start(&options, &scene.volume_ref(), &gallery.display, &wiring)?;
+    let mut drawing = backends.start(&options, &scene.volume_ref(), &gallery.display)?;
     let mut progress = Progress::new(!args.quiet);
-    let exhibits = gallery.draw(source.as_mut(), &mut progress)?;
-    source.finish()?;
+    let exhibits = gallery.draw(drawing.source.as_mut(), &mut progress);
+    let exhibits = drawing.finish(exhibits)?;
     drop(progress);
-    let page = gallery.write_page(&exhibits, &devices)?;
+    let page = gallery.write_page(&exhibits, &drawing.devices)?;
     exhibits.iter().for_each(warn_of_missing);
     if !args.quiet {
         let time = units::milliseconds(1e3 * started.elapsed().as_secs_f64());
-        say(&format!("{} techniques, {time}: {}", exhibits.len(), page.display()));
+        say(&format!("{} techniques, {time}: {}", exhibits.len(), page.display()))?;
     }
     Ok(())
 }

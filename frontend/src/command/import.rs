@@ -12,9 +12,9 @@ use crate::report::units;
 pub(super) fn import(args: &ImportArgs) -> Result<(), FrontendError> {
     let summary = adapter::import(&args.request(), Progress::new(!args.quiet && !args.json))?;
     if args.json {
-        say(&serde_json::to_string_pretty(&summary)?);
+        say(&serde_json::to_string_pretty(&summary)?)?;
     } else if !args.quiet {
-        say(&text(args, &summary));
+        say(&text(args, &summary))?;
     }
     Ok(())
 }

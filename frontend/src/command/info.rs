@@ -11,9 +11,9 @@ use crate::report::units;
 pub(super) fn info(args: &InfoArgs) -> Result<(), FrontendError> {
     let summary = adapter::store_summary(&args.store)?;
     if args.json {
-        say(&serde_json::to_string_pretty(&summary)?);
+        say(&serde_json::to_string_pretty(&summary)?)?;
     } else {
-        say(&text(&summary));
+        say(&text(&summary))?;
     }
     Ok(())
 }

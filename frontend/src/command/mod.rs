@@ -12,11 +12,17 @@ mod simulate;
 mod table;
 mod verify;
 
-use crate::FrontendError;
-use crate::cli::Command;
+pub use say::print;
 
-/// Does what the command line asks for.
+use crate::cli::Command;
+use crate::{FrontendError, adapter};
+
+/// Does what the command line asks for. Back-ends that a launcher started and that have nothing to draw are let go
+/// before that.
 pub fn run(command: &Command) -> Result<(), FrontendError> {
+    if !matches!(command, Command::Simulate(_) | Command::Gallery(_)) {
+        adapter::dismiss_backends()?;
+    }
     match command {
         Command::Simulate(args) => simulate::simulate(args),
         Command::Gallery(args) => gallery::gallery(args),

@@ -5,6 +5,7 @@ use crate::FrontendError;
 use crate::adapter::{ReplayRow, Traces};
 use crate::cli::{DiskArg, FetchOrderArg, ReplayArgs};
 use clap::ValueEnum;
+use display_config::text::brief_number;
 use renderer::working_set::Policy;
 
 /// A policy as the command line names it.
@@ -23,17 +24,17 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<(), FrontendError> {
     let traces = Traces::open(&args.traces, args.volume.as_deref())?;
     let mut rows = Vec::new();
     if !args.json {
-        say(&heading());
+        say(&heading())?;
     }
     for policy in combinations(args) {
         let row = policy.row(&traces);
         if !args.json {
-            say(&line(&row));
+            say(&line(&row))?;
         }
         rows.push(row);
     }
     if args.json {
-        say(&serde_json::to_string_pretty(&rows)?);
+        say(&serde_json::to_string_pretty(&rows)?)?;
     }
     Ok(())
 }
@@ -119,7 +120,7 @@ fn line(row: &ReplayRow) -> String {
     aligned([
         row.cache_mib.to_string(),
         row.upload_mib.to_string(),
-        format!("{}:{}", row.disk_mb_per_s, row.disk_latency_ms),
+        format!("{}:{}", brief_number(row.disk_mb_per_s), brief_number(row.disk_latency_ms)),
         row.fade_s.to_string(),
         row.order.clone(),
         row.bricks_loaded.to_string(),

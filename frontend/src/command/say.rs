@@ -1,12 +1,20 @@
 //! What commands print.
 
-use std::io::Write;
+use crate::FrontendError;
+use std::io::{ErrorKind, Write};
 
-/// Prints on standard output. Unlike `println!` it does not panic where nobody reads it any more.
-pub(super) fn say(text: &str) {
+/// Prints on standard output. Whoever closed it does not want the rest, and that is no error.
+pub fn print(text: &str) -> Result<(), FrontendError> {
     let mut out = std::io::stdout().lock();
-    // Whoever closed standard output does not want the rest.
-    let _ = writeln!(out, "{text}").and_then(|()| out.flush());
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(FrontendError::StandardOutput(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a line on standard output.
+pub(super) fn say(text: &str) -> Result<(), FrontendError> {
+    print(&format!("{text}\n"))
 }
 
 /// Prints a warning on standard error.

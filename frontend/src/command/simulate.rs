@@ -2,14 +2,13 @@
 
 use super::say::{say, warn};
 use crate::FrontendError;
-use crate::adapter::{self, Backends};
+use crate::adapter::{self, Backends, TraceFolder};
 use crate::cli::SimulateArgs;
 use crate::progress::Progress;
 use crate::report::{self, BackendSummary, Report, units};
-use crate::scene::{Scene, VolumeFacts};
+use crate::scene::Scene;
 use crate::simulate::{Eye, Job};
-use display_config::Display;
-use protocol::FrameState;
+use std::ops::Range;
 use std::time::Instant;
 
 /// Renders, writes and reports. All that can be wrong with the arguments is found before any back-end starts.
@@ -22,43 +21,43 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = adapter::load_display(&args.display)?;
-    let facts = adapter::volume_facts(&scene.volume_ref())?;
+    let facts = adapter::scene_facts(&scene)?;
+    let frames = frames(args, &scene)?;
+    scene.check_frames(frames.clone(), &display, &facts)?;
     let job = Job {
-        frames: frames(args, &scene, &display, &facts)?,
+        frames,
+        pace: args.live.pace(),
+        debug: args.debug_view.map(Into::into),
         eyes: args.eyes.iter().map(|&eye| Eye::before(&display, eye)).collect::<Result<_, _>>()?,
+        scene,
+        facts,
         display,
         out: args.out.clone(),
         exr: args.exr,
     };
     Job::prepare_output(&args.out)?;
-    traces.map_or(Ok(()), adapter::prepare_traces)?;
-    let backends = Backends::connect(args.drawing.backends)?;
-    let wiring = backends.wiring(&job.display)?;
+    let trace_folder = traces.map(TraceFolder::prepare).transpose()?;
+    let backends = Backends::connect(args.drawing.backends, &job.display)?;
+    let wiring = backends.wiring.clone();
     wiring.warning().iter().for_each(|warning| warn(warning));
     let options = args.drawing.options(traces);
-    let (mut source, devices) = backends.start(&options, &scene.volume_ref(), &job.display, &wiring)?;
+    let mut drawing = backends.start(&options, &job.scene.volume_ref(), &job.display)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
-    let frames = job.run(source.as_mut(), &mut progress)?;
-    source.finish()?;
+    let drawn = job.run(drawing.source.as_mut(), &mut progress);
+    let drawn = drawing.finish(drawn);
     drop(progress);
-    let report = job.report(&scene, &facts, BackendSummary::all(&wiring, devices), frames, started.elapsed());
+    trace_folder.map_or(Ok(()), |folder| folder.settle(wiring.shares.len()))?;
+    let report = job.report(BackendSummary::all(&wiring, drawing.devices), drawn?, started.elapsed())?;
     report::write(&report, &args.out)?;
     tell(args, &report)
 }
 
-fn frames(
-    args: &SimulateArgs,
-    scene: &Scene,
-    display: &Display,
-    facts: &VolumeFacts,
-) -> Result<Vec<FrameState>, FrontendError> {
+fn frames(args: &SimulateArgs, scene: &Scene) -> Result<Range<u32>, FrontendError> {
     let (first, end) = args.frames.unwrap_or((0, scene.frame_count));
     if end > scene.frame_count {
         return Err(FrontendError::Frames { first, end, count: scene.frame_count });
     }
-    let (pace, debug) = (args.live.pace(), args.debug_view.map(Into::into));
-    let frame = |index| Ok(FrameState { pace, debug, ..scene.frame(index, display, facts)? });
-    (first..end).map(frame).collect()
+    Ok(first..end)
 }
 
 fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {
@@ -67,12 +66,12 @@ fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {
     }
     report.eye_warnings().for_each(|warning| warn(&warning));
     if args.json {
-        say(&serde_json::to_string_pretty(report)?);
+        say(&serde_json::to_string_pretty(report)?)?;
     } else if !args.quiet {
         let pictures: usize = report.frames.iter().map(|frame| frame.pictures.len()).sum();
         let rays = units::count(report.total.rays);
         let time = units::milliseconds(report.wall_ms);
-        say(&format!("{pictures} pictures, {rays} rays, {time}: {}", args.out.join(report::HTML).display()));
+        say(&format!("{pictures} pictures, {rays} rays, {time}: {}", args.out.join(report::HTML).display()))?;
     }
     Ok(())
 }

@@ -11,9 +11,9 @@ use crate::report::units;
 pub(super) fn verify(args: &VerifyArgs) -> Result<(), FrontendError> {
     let found = adapter::verify(&args.store, Progress::new(!args.quiet && !args.json))?;
     if args.json {
-        say(&serde_json::to_string_pretty(&found)?);
+        say(&serde_json::to_string_pretty(&found)?)?;
     } else if !args.quiet {
-        say(&text(&found));
+        say(&text(&found))?;
     }
     match found.is_whole {
         true => Ok(()),

@@ -36,10 +36,11 @@ impl Gallery {
             let off = (technique.off)(&self.subject);
             let mut on = off.clone();
             (technique.turn_on)(&self.subject, &mut on);
+            let [off_name, on_name] = technique.shots();
             exhibits.push(Exhibit {
                 technique,
-                off: darkroom.shot(source, off, &format!("{}-off", slug(technique.name)))?,
-                on: darkroom.shot(source, on, &format!("{}-on", slug(technique.name)))?,
+                off: darkroom.shot(source, off, &off_name)?,
+                on: darkroom.shot(source, on, &on_name)?,
             });
         }
         Ok(exhibits)
@@ -51,11 +52,6 @@ impl Gallery {
         write_text(&path, &page::page(self, exhibits, devices)?)?;
         Ok(path)
     }
-}
-
-/// A name as part of a file's name.
-fn slug(name: &str) -> String {
-    name.to_lowercase().replace(' ', "-").replace(',', "")
 }
 
 /// The display with projectors of so many pixels, which light the same parts of the screen.

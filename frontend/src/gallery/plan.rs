@@ -1,6 +1,6 @@
 //! What a gallery is made of.
 
-use super::Subject;
+use super::{Subject, TECHNIQUES};
 use crate::FrontendError;
 use crate::simulate::{Eye, Job};
 use display_config::Display;
@@ -34,16 +34,26 @@ impl Gallery {
         Ok(Self { name: name.to_owned(), subject, display, eyes, out: out.to_owned() })
     }
 
-    /// Makes the output folder, tries to write in it, and takes away the page of an earlier gallery: it would describe
-    /// other pictures.
+    /// Makes the output folder, tries to write in it, and takes away what an earlier gallery wrote: its page would describe
+    /// other pictures, and its pictures lie among those of this one.
     pub fn prepare_output(&self) -> Result<(), FrontendError> {
         Job::prepare_output(&self.out)?;
-        let path = self.out.join(HTML);
-        match std::fs::remove_file(&path) {
-            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                Err(OutputError::Write { path, source }.into())
+        let pictures =
+            TECHNIQUES.iter().flat_map(|technique| technique.shots()).flat_map(|shot| files(&shot));
+        for name in pictures.chain([HTML.to_owned()]) {
+            let path = self.out.join(name);
+            match std::fs::remove_file(&path) {
+                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(OutputError::Write { path, source }.into());
+                }
+                _ => {}
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
+}
+
+/// The pictures of a shot, one for each eye, from left to right.
+pub(super) fn files(shot: &str) -> [String; 3] {
+    EYES.map(|eye| format!("{shot}-{eye}.png"))
 }

@@ -1,6 +1,7 @@
 //! The pictures of one frame as the eyes see it.
 
-use super::{EYES, Gallery, Technique};
+use super::plan::files;
+use super::{Gallery, Technique};
 use crate::FrontendError;
 use crate::report::Totals;
 use crate::simulate::EyeViews;
@@ -75,12 +76,10 @@ impl<'a> Darkroom<'a> {
         })?;
         failure.map_or(Ok(()), Err)?;
         let wall = started.elapsed();
-        let mut files = Vec::with_capacity(EYES.len());
-        for (picture, eye) in views.finish(frame.index)?.iter().zip(EYES) {
-            let file = format!("{name}-{eye}.png");
-            write_png(&self.gallery.out.join(&file), picture.view()?)?;
-            files.push(file);
+        let files = files(name);
+        for (picture, file) in views.finish(frame.index)?.iter().zip(&files) {
+            write_png(&self.gallery.out.join(file), picture.view()?)?;
         }
-        Ok(Shot { files, wall, total: Totals::of(&reports) })
+        Ok(Shot { files: files.into(), wall, total: Totals::of(&reports) })
     }
 }

@@ -17,6 +17,14 @@ pub struct Technique {
     pub turn_on: fn(&Subject, &mut FrameState),
 }
 
+impl Technique {
+    /// What the files of its pictures begin with: without it, and with it.
+    pub(super) fn shots(&self) -> [String; 2] {
+        let slug = self.name.to_lowercase().replace(' ', "-").replace(',', "");
+        ["off", "on"].map(|state| format!("{slug}-{state}"))
+    }
+}
+
 /// All of them, in the order of the page.
 pub const TECHNIQUES: [Technique; 13] = [
     Technique {

@@ -107,8 +107,8 @@ pub struct Subject<'a> {
     pub facts: &'a VolumeFacts,
     /// The display.
     pub display: &'a Display,
-    /// The first frame, where there is one.
-    pub first_frame: Option<&'a FrameState>,
+    /// The first frame.
+    pub first_frame: &'a FrameState,
 }
 
 impl Report {
@@ -127,7 +127,7 @@ impl Report {
             scene: SceneSummary::new(subject.scene, subject.facts, subject.first_frame),
             display: DisplaySummary::new(subject.display, subject.first_frame),
             backends,
-            debug_view: subject.first_frame.and_then(|frame| frame.debug).map(DebugSummary::new),
+            debug_view: subject.first_frame.debug.map(DebugSummary::new),
             eyes,
             frames,
             total,
@@ -150,27 +150,22 @@ impl DebugSummary {
 }
 
 impl SceneSummary {
-    pub(super) fn new(scene: &Scene, facts: &VolumeFacts, frame: Option<&FrameState>) -> Self {
+    pub(super) fn new(scene: &Scene, facts: &VolumeFacts, frame: &FrameState) -> Self {
         let volume = match &scene.volume {
             VolumeSource::Store(path) => path.display().to_string(),
             VolumeSource::Procedural { name, .. } => format!("{PROCEDURAL_PREFIX}{name}"),
         };
-        let edges_m = frame.map_or([0.0; 3], |frame| {
-            let linear = frame.display_from_volume.matrix3;
-            let dims = facts.dims.as_dvec3().to_array();
-            [0, 1, 2].map(|axis| linear.col(axis).length() * dims[axis])
-        });
+        let linear = frame.display_from_volume.matrix3;
+        let dims = facts.dims.as_dvec3().to_array();
+        let edges_m = [0, 1, 2].map(|axis| linear.col(axis).length() * dims[axis]);
         let longest_m = edges_m.into_iter().fold(0.0, f64::max);
         Self { name: scene.name.clone(), volume, facts: *facts, longest_m, quality: scene.quality }
     }
 }
 
 impl DisplaySummary {
-    pub(super) fn new(display: &Display, frame: Option<&FrameState>) -> Self {
+    pub(super) fn new(display: &Display, frame: &FrameState) -> Self {
         let pixels = |p: &display_config::Projector| u64::from(p.raster.width) * u64::from(p.raster.height);
-        let (eta, observer) = frame.map_or((display.eta, display.observer_in_display), |frame| {
-            (frame.eta, frame.observer_in_display)
-        });
         Self {
             name: display.name.clone(),
             width_m: display.width_m,
@@ -179,8 +174,8 @@ impl DisplaySummary {
             pixels: display.projectors.iter().map(pixels).sum(),
             pixel_size_m: display.pixel_size_m,
             angular_accuracy_deg: display.angular_accuracy.to_degrees(),
-            eta,
-            observer_m: observer.to_array(),
+            eta: frame.eta,
+            observer_m: frame.observer_in_display.to_array(),
         }
     }
 }

@@ -84,6 +84,7 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
         tool: None,
         motion: Motion::default(),
         edits: Edits::default(),
+        source_place: None,
         frame_count: 1,
         rate_hz: 30.0,
         volume,

@@ -3,10 +3,11 @@
 use super::band::normalised_band;
 use super::volume::PROCEDURAL_VOXEL_M;
 use super::{Band, Edits, Look, Motion, Placement, SceneEnhancer, SceneError, VolumeFacts, VolumeSource};
-use display_config::Display;
+use display_config::{Display, Place};
 use glam::DVec3;
-use optics::{Enhancer, Light, Quality, Trapezoid, TrapezoidError};
+use optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
 use protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
+use std::ops::Range;
 
 /// A scene, read and checked. Everything that is the same in all frames is here; `motion`
 /// and `edits` hold the rest.
@@ -16,6 +17,8 @@ pub struct Scene {
     pub name: String,
     /// Which volume.
     pub volume: VolumeSource,
+    /// What names the volume; None where that is the command line.
+    pub source_place: Option<Place>,
     /// Edge lengths of a voxel, metres, in place of what the volume says of itself; its axes' directions stay.
     pub voxel_size_m: Option<DVec3>,
     /// Where the volume floats.
@@ -78,17 +81,41 @@ impl Scene {
             observer_in_display: self.motion.observer_m.at(time_s).unwrap_or(observer),
             eta: self.eta.unwrap_or(display.eta),
             display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
-            optics: self.look.edited(&self.edits, time_s).optics(
-                facts.value_range,
-                extent_m.max_element() * scale,
-                &self.chain_at(time_s),
-            )?,
+            optics: self.optics_at(time_s, facts.value_range, extent_m.max_element() * scale)?,
             light: self.light,
             quality: self.quality,
             tool: self.tool_at(time_s),
             pace: Pace::Complete,
             debug: None,
         })
+    }
+
+    /// Whether the look fits the volume in some frames: it changes at keyframes only, so that not every frame is made.
+    pub fn check_frames(
+        &self,
+        frames: Range<u32>,
+        display: &Display,
+        facts: &VolumeFacts,
+    ) -> Result<(), SceneError> {
+        self.frame(frames.start, display, facts)?;
+        let last_s = f64::from(frames.end.saturating_sub(1)) / self.rate_hz;
+        let longest_m =
+            (facts.dims.as_dvec3() * self.voxel_size_m.unwrap_or(facts.voxel_size_m())).max_element();
+        for time_s in self.edits.times().filter(|&time_s| time_s <= last_s) {
+            self.optics_at(time_s, facts.value_range, longest_m)?;
+        }
+        Ok(())
+    }
+
+    /// The look at a time for a volume of those values, whose longest edge is `longest_m` metres in the display.
+    fn optics_at(&self, time_s: f64, value_range: (f64, f64), longest_m: f64) -> Result<Optics, SceneError> {
+        let look = self.look.edited(&self.edits, time_s);
+        let optics = look.optics(value_range, longest_m, &self.chain_at(time_s));
+        optics.map_err(|reason| self.look_error(value_range, reason))
+    }
+
+    pub(super) fn look_error(&self, (low, high): (f64, f64), reason: String) -> SceneError {
+        SceneError::Look { scene: self.name.clone(), low, high, reason }
     }
 
     fn placement_at(&self, time_s: f64) -> Placement {
@@ -100,8 +127,7 @@ impl Scene {
 
     /// The bands over s of a domain, in the order of the file.
     pub fn bands_over(&self, domain: (f64, f64)) -> Result<Vec<Trapezoid>, SceneError> {
-        let failed =
-            |e: TrapezoidError| SceneError::Look { low: domain.0, high: domain.1, reason: e.to_string() };
+        let failed = |e: TrapezoidError| self.look_error(domain, e.to_string());
         self.bands.iter().map(|band| normalised_band(band.values, domain).map_err(failed)).collect()
     }
 

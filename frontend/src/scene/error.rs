@@ -1,13 +1,19 @@
 //! What can be wrong with a scene.
 
 use super::names::PROCEDURAL_NAMES;
+use display_config::Place;
+use display_config::text::{brief_number, brief_text, did_you_mean};
 use std::path::PathBuf;
 
 /// Why a scene cannot be read. Each is one sentence that says where, what, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The argument is not a scene.
-    #[error("`{argument}` is not a scene; give a .toml scene, a .lloom store, or procedural:NAME with one of {}", PROCEDURAL_NAMES.join(", "))]
+    #[error(
+        "`{}` is not a scene; give a .toml scene, a .lloom store, or procedural:NAME with one of {}",
+        brief_text(argument),
+        PROCEDURAL_NAMES.join(", ")
+    )]
     NotAScene {
         /// What was given.
         argument: String,
@@ -21,19 +27,34 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// The store is not there.
-    #[error("there is no volume {}; make it with `lightloom import IN -o {}`", path.display(), path.display())]
+    #[error(
+        "{}there is no volume {}; make it with `lightloom import IN -o {}`",
+        place.iter().map(|place| format!("{place}: ")).collect::<String>(),
+        path.display(),
+        path.display()
+    )]
     NoStore {
+        /// What names it; None where that is the command line.
+        place: Option<Place>,
         /// Where it was looked for.
         path: PathBuf,
     },
     /// An unknown procedural volume.
-    #[error("there is no procedural volume `{name}`; use one of {}", PROCEDURAL_NAMES.join(", "))]
+    #[error(
+        "there is no procedural volume `{}`{}; use one of {}",
+        brief_text(name),
+        did_you_mean(name, PROCEDURAL_NAMES),
+        PROCEDURAL_NAMES.join(", ")
+    )]
     UnknownProcedural {
         /// What was asked for.
         name: String,
     },
     /// A procedural volume of an impossible size.
-    #[error("`{size}` is not a size in voxels; give a whole number from 1 to {largest} after the @")]
+    #[error(
+        "`{}` is not a size in voxels; give a whole number from 1 to {largest} after the @",
+        brief_text(size)
+    )]
     ProceduralSize {
         /// What was asked for.
         size: String,
@@ -41,14 +62,10 @@ pub enum SceneError {
         largest: u32,
     },
     /// Something in the scene file is wrong.
-    #[error("{file}, line {line}: `{key}`: {message}")]
+    #[error("{place}: {message}")]
     InFile {
-        /// The scene file.
-        file: String,
-        /// The line, from 1.
-        line: usize,
-        /// The key with its table, for instance `optics.extinction`.
-        key: String,
+        /// The line and the key with its table, for instance `optics.extinction`.
+        place: Place,
         /// What is wrong, and what to do.
         message: String,
     },
@@ -61,9 +78,24 @@ pub enum SceneError {
         /// The scene file.
         path: PathBuf,
     },
+    /// What the scene's look shows cannot be told.
+    #[error("what {} shows cannot be told: {reason}", path.display())]
+    UnclearLook {
+        /// The scene file.
+        path: PathBuf,
+        /// What is wrong with its look.
+        reason: String,
+    },
     /// The look does not fit the volume.
-    #[error("the scene's look does not fit the volume, whose values run from {low} to {high}: {reason}")]
+    #[error(
+        "the look of the scene `{}` does not fit the volume, whose values run from {} to {}: {reason}",
+        brief_text(scene),
+        brief_number(*low),
+        brief_number(*high)
+    )]
     Look {
+        /// What people call the scene.
+        scene: String,
         /// Smallest data value of the volume.
         low: f64,
         /// Largest data value of the volume.

@@ -1,17 +1,27 @@
 //! A scene file as TOML has it, before it is checked.
 
 use super::{QualityPreset, VolumeAxis};
+use display_config::text::ListOf;
 use optics::{ExtinctionUnit, MimdaForm};
 use protocol::ToolKind;
 use serde::Deserialize;
+use std::ops::Range;
 use toml::Spanned;
+
+/// A key that is given, with the place of its value.
+pub(super) type Key = (&'static str, Range<usize>);
+
+/// The key, where it is given.
+pub(super) fn key<T>(name: &'static str, value: &Option<Spanned<T>>) -> Option<Key> {
+    value.as_ref().map(|value| (name, value.span()))
+}
 
 /// A number with its place in the file.
 pub(super) type Number = Spanned<f64>;
 /// A point or direction with its place in the file.
-pub(super) type Triple = Spanned<[f64; 3]>;
+pub(super) type Triple = Spanned<ListOf<f64, 3>>;
 /// A lower and an upper limit with their place in the file.
-pub(super) type Limits = Spanned<[f64; 2]>;
+pub(super) type Limits = Spanned<ListOf<f64, 2>>;
 /// Control points, each `[value, numbers…]`, with their places.
 pub(super) type Points = Spanned<Vec<Spanned<Vec<f64>>>>;
 
@@ -52,7 +62,7 @@ pub(super) struct VolumeTable {
 #[serde(untagged, expecting = "give a whole number of voxels, or three of them")]
 pub(super) enum Voxels {
     All(u32),
-    Each([u32; 3]),
+    Each(ListOf<u32, 3>),
 }
 
 /// A length along all axes, or along each.
@@ -60,7 +70,7 @@ pub(super) enum Voxels {
 #[serde(untagged, expecting = "give a number of metres, or three of them")]
 pub(super) enum Lengths {
     All(f64),
-    Each([f64; 3]),
+    Each(ListOf<f64, 3>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -71,8 +81,8 @@ pub(super) struct PlacementTable {
     pub longest_m: Option<Number>,
     pub scale: Option<Number>,
     pub up: Option<Spanned<VolumeAxis>>,
-    pub front: Option<VolumeAxis>,
-    pub right: Option<VolumeAxis>,
+    pub front: Option<Spanned<VolumeAxis>>,
+    pub right: Option<Spanned<VolumeAxis>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -120,7 +130,7 @@ pub(super) enum DetailKind {
 #[serde(deny_unknown_fields)]
 pub(super) struct BandTable {
     pub name: Spanned<String>,
-    pub corners: Spanned<[f64; 4]>,
+    pub corners: Spanned<ListOf<f64, 4>>,
 }
 
 /// The keys of all kinds of enhancers; which of them a kind has is checked later.

@@ -6,7 +6,7 @@ use optics::Optics;
 use std::path::Path;
 
 impl Scene {
-    /// The scene of a command-line argument: a TOML file, a `.lloom` store, or `procedural:NAME[@VOXELS]`.
+    /// The scene of a command-line argument: a TOML file, `procedural:NAME[@VOXELS]`, or a store, whatever its name.
     pub fn load(argument: &str) -> Result<Self, SceneError> {
         if let Some(name) = argument.strip_prefix(PROCEDURAL_PREFIX) {
             return Ok(builtin::procedural_scene(argument, VolumeSource::procedural(name)?));
@@ -14,8 +14,10 @@ impl Scene {
         let path = Path::new(argument);
         match path.extension().and_then(|e| e.to_str()) {
             Some("toml") => read::scene_from_file(path),
-            Some("lloom") if path.is_file() => Ok(builtin::store_scene(path)),
-            Some("lloom") => Err(SceneError::NoStore { path: path.to_owned() }),
+            Some("lloom") if !path.is_file() => {
+                Err(SceneError::NoStore { place: None, path: path.to_owned() })
+            }
+            _ if path.is_file() => Ok(builtin::store_scene(path)),
             _ => Err(SceneError::NotAScene { argument: argument.to_owned() }),
         }
     }
@@ -31,6 +33,7 @@ impl Scene {
             return Err(SceneError::RelativeLook { path: path.to_owned() });
         };
         let shown = |time_s| look.edited(&scene.edits, time_s).visibility(&scene.chain_at(time_s));
-        scene.edits.times().map(shown).collect()
+        let failed = |reason| SceneError::UnclearLook { path: path.to_owned(), reason };
+        scene.edits.times().map(|time_s| shown(time_s).map_err(failed)).collect()
     }
 }

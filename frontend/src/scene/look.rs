@@ -1,7 +1,7 @@
 //! What scalars look like, before the volume is known.
 
+use super::Edits;
 use super::enhancer::normalised_enhancer;
-use super::{Edits, SceneError};
 use glam::DVec3;
 use optics::{Curve, CurveError, CurveValue, Enhancer, ExtinctionUnit, Material, Mimda, Optics};
 
@@ -48,13 +48,13 @@ impl Look {
     }
 
     /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display. The bands of
-    /// `chain` are over data values.
+    /// `chain` are over data values. An error is a sentence's part.
     pub fn optics(
         &self,
         value_range: (f64, f64),
         longest_m: f64,
         chain: &[Enhancer],
-    ) -> Result<Optics, SceneError> {
+    ) -> Result<Optics, String> {
         let result = match self {
             Look::InDataUnits(look) => {
                 look.optics(look.domain.unwrap_or_else(|| interval(value_range)), chain)
@@ -63,7 +63,7 @@ impl Look {
                 relative(depth_across, colour, longest_m, interval(value_range), chain)
             }
         };
-        checked(result, value_range)
+        checked(result)
     }
 }
 
@@ -92,9 +92,8 @@ fn normalised_chain(chain: &[Enhancer], domain: (f64, f64)) -> Result<Vec<Enhanc
     chain.iter().map(normalised).collect()
 }
 
-fn checked(optics: Result<Optics, String>, (low, high): (f64, f64)) -> Result<Optics, SceneError> {
-    let optics = optics.and_then(|optics| optics.check().map_err(|e| e.to_string()).map(|()| optics));
-    optics.map_err(|reason| SceneError::Look { low, high, reason })
+fn checked(optics: Result<Optics, String>) -> Result<Optics, String> {
+    optics.and_then(|optics| optics.check().map_err(|e| e.to_string()).map(|()| optics))
 }
 
 impl DataLook {
@@ -117,8 +116,8 @@ impl DataLook {
     }
 
     /// Optics that show the same data values as this look does of any volume. Where the look has no domain, one that
-    /// reaches beyond all control points will do: outside them curves are constant.
-    pub(super) fn visibility(&self, chain: &[Enhancer]) -> Result<Optics, SceneError> {
+    /// reaches beyond all control points will do: outside them curves are constant. An error is a sentence's part.
+    pub(super) fn visibility(&self, chain: &[Enhancer]) -> Result<Optics, String> {
         let importance = self.mimda.iter().flat_map(|mimda| mimda.importance.points());
         let refraction = self.refraction.iter().flat_map(|index| index.points());
         let values = self.extinction.points().iter().chain(importance).chain(refraction).map(|point| point.0);
@@ -126,7 +125,7 @@ impl DataLook {
         let widen = |(a, b): (f64, f64), v| (a.min(v), b.max(v));
         let (low, high) = interval(values.chain(corners).fold((f64::INFINITY, f64::NEG_INFINITY), widen));
         let domain = self.domain.unwrap_or((low - (high - low), high + (high - low)));
-        checked(self.optics(domain, chain), domain)
+        checked(self.optics(domain, chain))
     }
 
     fn optics(&self, domain: (f64, f64), chain: &[Enhancer]) -> Result<Optics, String> {
@@ -161,9 +160,11 @@ fn normalised<V: CurveValue>(curve: &Curve<V>, (low, high): (f64, f64)) -> Resul
     Curve::new(curve.points().iter().map(|&(value, v)| ((value - low) / (high - low), v)).collect())
 }
 
-/// A value range as a rising interval: a volume of one value lies in the middle of a unit interval.
+/// A value range as a rising interval: a volume of one value lies in the middle of a unit interval, or of one so wide that
+/// f32 tells its ends apart.
 fn interval((low, high): (f64, f64)) -> (f64, f64) {
-    if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
+    let half = (low.abs() * 16.0 * f64::from(f32::EPSILON)).max(0.5);
+    if low < high { (low, high) } else { (low - half, low + half) }
 }
 
 #[cfg(test)]
@@ -205,7 +206,11 @@ mod tests {
     fn a_constant_volume_and_a_broken_one() {
         let domain = look(None).optics((7.0, 7.0), 0.7, &[]).unwrap().domain;
         assert_eq!(domain, (6.5, 7.5));
-        let error = look(None).optics((0.0, f64::INFINITY), 0.7, &[]).unwrap_err().to_string();
+        for value in [1e16, -1e30, 9_223_372_036_854_775_808.0, f64::from(f32::MAX)] {
+            let optics = look(None).optics((value, value), 0.7, &[]).unwrap();
+            assert_eq!(optics.normalise(value), 0.5, "{value}");
+        }
+        let error = look(None).optics((0.0, f64::INFINITY), 0.7, &[]).unwrap_err();
         assert!(error.contains("domain") || error.contains("finite"), "{error}");
     }
 }

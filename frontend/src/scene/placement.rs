@@ -23,9 +23,9 @@ pub struct Placement {
     pub centre_m: DVec3,
     /// Its turn about the centre, after the axes were laid out.
     pub rotation: DQuat,
-    /// Which way it stands; None as the volume itself says: a patient upright and facing the viewers, and any other
-    /// volume with the axes of its file's space to the right, up and to the viewers.
-    pub axes: Option<VolumeAxes>,
+    /// Which way it stands. What they leave open is as the volume itself says: a patient upright and facing the viewers, and
+    /// any other volume with the axes of its file's space to the right, up and to the viewers.
+    pub axes: VolumeAxes,
     /// Its size.
     pub size: Size,
 }
@@ -34,7 +34,7 @@ impl Default for Placement {
     /// In the middle of the screen, half of it in front, three quarters as high as the screen.
     fn default() -> Self {
         let size = Size::ScreenShare(0.75);
-        Self { centre_m: DVec3::ZERO, rotation: DQuat::IDENTITY, axes: None, size }
+        Self { centre_m: DVec3::ZERO, rotation: DQuat::IDENTITY, axes: VolumeAxes::default(), size }
     }
 }
 
@@ -53,11 +53,11 @@ impl Placement {
     /// Volume frame (voxels of `voxel_m` in the display) to display frame; the volume's centre goes to `centre_m`. Of
     /// `frame`, the directions count, mirrored and sheared ones as they are, where the scene does not name axes.
     pub fn display_from_volume(&self, dims: UVec3, voxel_m: DVec3, frame: &VolumeFrame) -> DAffine3 {
-        let stand = match (self.axes, frame.space) {
-            (Some(axes), _) => axes.display_from_volume(),
-            (None, Space::Patient) => upright_from_patient() * frame.directions(),
-            (None, Space::Unknown) => frame.directions(),
+        let own = match frame.space {
+            Space::Patient => upright_from_patient() * frame.directions(),
+            Space::Unknown => frame.directions(),
         };
+        let stand = if self.axes.is_open() { own } else { self.axes.display_from_volume(own) };
         let linear = DMat3::from_quat(self.rotation) * stand * DMat3::from_diagonal(voxel_m);
         let centre_in_volume = 0.5 * dims.as_dvec3();
         DAffine3::from_mat3_translation(linear, self.centre_m - linear * centre_in_volume)

@@ -228,7 +228,8 @@ fn impossible_values_are_refused() {
     for (rest, place) in [
         ("[placement]\nlongest_m=1\nscale=2\n", "line 5: `placement.scale`"),
         ("[placement]\ncentre_m=[0,0,0]\n", "line 3: `placement`"),
-        ("[placement]\nscale=1\nup='+z'\n", "line 5: `placement.up`"),
+        ("[placement]\nscale=1\nup='+z'\nfront='-z'\n", "line 5: `placement.up`"),
+        ("[placement]\nscale=1\nfront='+x'\nright='+x'\n", "line 5: `placement.front`"),
         ("[placement]\nscale=-1\n", "line 4: `placement.scale`"),
         ("[display]\neta=1.5\n", "line 4: `display.eta`"),
         ("[display]\nobserver_m=[0,0,-3]\n", "line 4: `display.observer_m`"),
@@ -238,9 +239,114 @@ fn impossible_values_are_refused() {
         ("[[keyframe]]\ntime_s=1\n[[keyframe]]\ntime_s=1\n", "line 6: `keyframe.time_s`"),
         ("[[keyframe]]\ntime_s=1\ntool_tip_m=[0,0,1]\n", "line 5: `keyframe.tool_tip_m`"),
         ("[quality]\nstep_voxels=0\n", "line 4: `quality.step_voxels`"),
+        ("[frames]\nrate_hz=1e-300\n", "line 4: `frames.rate_hz`"),
         ("this is not toml\n", "line 3"),
     ] {
         let said = refusal(&format!("{volume}{rest}"));
         assert!(said.contains(place), "{said}");
     }
+}
+
+/// What the renderer would refuse is told with its line, before there is a renderer.
+#[test]
+fn numbers_beyond_the_renderer_are_refused_with_line_and_key() {
+    let plain = "extinction = [[0, 1]]\ncolour = [[0, 1, 1, 1]]\n";
+    let light = "[light]\nambient=0.5\n";
+    for (rest, place) in [
+        (
+            "extinction = [\n[0, 1],\n[5, 1e25],\n]\ncolour = [[0, 1, 1, 1]]\n".to_owned(),
+            "line 7: `optics.extinction`",
+        ),
+        ("extinction = [[0, 1]]\ncolour = [[0, 1, 2e6, 1]]\n".to_owned(), "line 6: `optics.colour`"),
+        (
+            format!("{plain}refraction = [[0, 1], [1, 1e300]]\n"),
+            "line 7: `optics.refraction`: refraction control point 1 is 1e300;",
+        ),
+        (format!("{plain}materials = [[0, 1, 1, 1, 2e6]]\n{light}"), "line 7: `optics.materials`"),
+        (format!("{plain}[light]\nambient=1e30\n"), "line 8: `light.ambient`: ambient is 1e30; it must be"),
+        (format!("{plain}[light]\ngradient_half=1e-13\n"), "line 8: `light.gradient_half`"),
+        (
+            format!("{plain}[light]\ndetail='unsharp'\ndetail_strength=2e6\n"),
+            "line 9: `light.detail_strength`",
+        ),
+        (format!("{plain}[quality]\nlod_scale=2e6\n"), "line 8: `quality.lod_scale`"),
+        (format!("{plain}[[enhancer]]\nkind='probe'\nradius_m=2e6\n"), "line 9: `enhancer.radius_m`"),
+        (format!("{plain}[[enhancer]]\nkind='probe'\nedges=[0, 1e-60]\n"), "line 9: `enhancer.edges`"),
+        (format!("{plain}[[enhancer]]\nkind='clip-plane'\nboost=2e6\n"), "line 9: `enhancer.boost`"),
+        (
+            format!("{plain}[[enhancer]]\nkind='clip-plane'\npoint_m=[0, 2e6, 0]\n"),
+            "line 9: `enhancer.point_m`",
+        ),
+        (format!("{plain}[placement]\nscale=1\ncentre_m=[0, 0, -1e300]\n"), "line 9: `placement.centre_m`"),
+        (format!("{plain}[[keyframe]]\ntime_s=0\nextinction=[[0, 1e25]]\n"), "line 9: `keyframe.extinction`"),
+    ] {
+        let said = refusal(&format!("{OPTICS}{rest}"));
+        assert!(said.contains(place), "{said}");
+        assert!(said.len() < 300, "{said}");
+    }
+}
+
+#[test]
+fn lists_have_as_many_numbers_as_their_keys_take() {
+    let volume = "[volume]\nsource = 'a.lloom'\n";
+    for (rest, place) in [
+        ("[placement]\nscale=1\ncentre_m=[0, 0, 0, nan]\n", "line 5: `placement.centre_m`"),
+        ("[placement]\nscale=1\nrotation_deg=[0, 0, 0, 'a']\n", "line 5: `placement.rotation_deg`"),
+        ("[[band]]\nname='a'\ncorners=[0.1, 0.2, 0.3, 0.4, 0.5]\n", "line 5: `band.corners`"),
+        ("[display]\nobserver_m=[0, 0, 1, 1]\n", "line 4: `display.observer_m`"),
+        ("[light]\ntoward=[0, 0, 1, 1]\n", "line 4: `light.toward`"),
+        ("[[enhancer]]\nkind='probe'\nfacing=[0, 1, 2]\n", "line 5: `enhancer.facing`"),
+        ("[tool]\nkind='pointer'\ntip_m=[0, 0, 1, 1]\n", "line 5: `tool.tip_m`"),
+        ("[[keyframe]]\ntime_s=0\ntool_axis=[0, 0, 1, 1]\n", "line 5: `keyframe.tool_axis`"),
+    ] {
+        let said = refusal(&format!("{volume}{rest}"));
+        assert!(said.contains(place), "{said}");
+    }
+    for list in ["size = [8, 8, 8, 8]", "voxel_size_m = [1, 1, 1, 1]", "voxel_size_m = [1, 1]"] {
+        let said = refusal(&format!("[volume]\nsource = 'procedural:shells'\n{list}\n"));
+        assert!(said.contains("line 3: `volume."), "{said}");
+    }
+    let domain = format!("{OPTICS}domain = [0, 1, 2]\nextinction = [[0, 1]]\ncolour = [[0, 1, 1, 1]]\n");
+    assert!(refusal(&domain).contains("line 5: `optics.domain`: invalid length 3"));
+}
+
+#[test]
+fn what_is_nearly_known_is_suggested() {
+    let volume = "[volume]\nsource = 'a.lloom'\n";
+    let band = "[[band]]\nname = 'bone'\ncorners = [0, 1, 2, 3]\n[[enhancer]]\nkind = 'band-picker'\nband = 'bones'\n";
+    for (text, suggestion) in [
+        ("[volume]\nsource = 'procedural:shell'\n".to_owned(), "`shell` (did you mean `shells`?)"),
+        ("[volume]\nsorce = 'a.lloom'\n".to_owned(), "`sorce` (did you mean `source`?)"),
+        (format!("{volume}[placement]\nscale=1\nup='+Z'\n"), "`+Z` (did you mean `+z`?)"),
+        (format!("{volume}[placment]\nscale=1\n"), "`placment` (did you mean `placement`?)"),
+        (format!("{volume}[quality]\npreset='finest'\n"), "`finest` (did you mean `fine`?)"),
+        (format!("{volume}[[enhancer]]\nkind='clipplane'\n"), "`clipplane` (did you mean `clip-plane`?)"),
+        (format!("{volume}{band}"), "`bones` (did you mean `bone`?)"),
+    ] {
+        let said = refusal(&text);
+        assert!(said.contains(suggestion), "{said}");
+    }
+    assert!(!refusal(&format!("{volume}[[enhancer]]\nkind='lens'\n")).contains("did you mean"));
+}
+
+#[test]
+fn a_volume_that_is_not_there_is_told_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |source: &str| {
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, format!("[volume]\n\nsource = '{source}'\n")).unwrap();
+        Scene::load(&path.to_string_lossy()).unwrap_err().to_string()
+    };
+    assert!(said("nope.lloom").contains("scene.toml, line 3: `volume.source`: there is no volume "));
+    assert!(said("").contains("scene.toml, line 3: `volume.source`: it is empty"));
+    assert!(said(".").contains("scene.toml, line 3: `volume.source`: there is no volume "));
+}
+
+#[test]
+fn a_store_is_a_scene_whatever_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("head");
+    std::fs::write(&path, "").unwrap();
+    let scene = Scene::load(&path.to_string_lossy()).unwrap();
+    assert_eq!((scene.name.as_str(), scene.volume), ("head", VolumeSource::Store(path)));
 }

@@ -1,6 +1,8 @@
 //! The text of a scene file, and where in it something is.
 
 use super::SceneError;
+use display_config::Place;
+use display_config::text::{brief_text, with_suggestion};
 use std::ops::Range;
 
 /// A scene file's text, with the name that messages call it by.
@@ -12,19 +14,22 @@ pub(super) struct SceneText {
 impl SceneText {
     /// An error about what lies at a byte range of the text.
     pub fn wrong(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+        SceneError::InFile { place: self.place(span), message: message.into() }
+    }
+
+    /// Where a byte range of the text begins.
+    pub fn place(&self, span: Range<usize>) -> Place {
         let start = span.start.min(self.text.len());
-        SceneError::InFile {
+        Place {
             file: self.file.clone(),
             line: self.text[..start].matches('\n').count() + 1,
-            key: self.key_at(start),
-            message: message.into(),
+            key: brief_text(&self.key_at(start)).into_owned(),
         }
     }
 
-    /// An error of the TOML reader; its first line is enough, since the place is named beside it.
+    /// An error of the TOML reader.
     pub fn not_readable(&self, error: &toml::de::Error) -> SceneError {
-        let message = error.message().lines().next().unwrap_or("this is not TOML").to_owned();
-        self.wrong(error.span().unwrap_or(0..0), message)
+        self.wrong(error.span().unwrap_or(0..0), with_suggestion(error.message()))
     }
 
     /// The key whose value holds a place: the last `key =` at or before its line, after the last table header.

@@ -1,6 +1,7 @@
 //! One frame of a run.
 
 use super::Job;
+use super::earlier::frame_folder;
 use super::pictures::FramePictures;
 use crate::FrontendError;
 use crate::report::{CONTACT_SHEET, FrameSummary};
@@ -26,7 +27,7 @@ impl Job {
         show: &mut dyn FnMut(f64),
     ) -> Result<FrameSummary, FrontendError> {
         let started = Instant::now();
-        let folder = PathBuf::from(format!("frame-{:04}", frame.index));
+        let folder = PathBuf::from(frame_folder(frame.index));
         let path = self.out.join(&folder);
         std::fs::create_dir_all(&path).map_err(|source| OutputError::Write { path: path.clone(), source })?;
         let pictures = FramePictures::new(self, &path);

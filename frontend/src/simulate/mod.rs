@@ -1,5 +1,6 @@
 //! A run: frames are drawn, their pictures become files, and a report says how it went.
 
+mod earlier;
 mod eyes;
 mod frame;
 mod pictures;
@@ -9,21 +10,31 @@ pub(crate) use eyes::EyeViews;
 
 use crate::FrontendError;
 use crate::progress::Progress;
-use crate::report::{self, BackendSummary, EyeSummary, FrameSummary, Report, Subject, write_legend};
+use crate::report::{BackendSummary, EyeSummary, FrameSummary, Report, Subject, write_legend};
 use crate::scene::{Scene, VolumeFacts};
 use display_config::Display;
+use earlier::remove_earlier_run;
 use optics::DebugView;
-use protocol::{Draw, FrameState};
-use renderer::output::{OutputError, can_write_into};
+use protocol::{Draw, FrameState, Pace};
+use renderer::output::can_write_into;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// All that a run needs besides the thing that draws.
 pub struct Job {
+    /// The scene.
+    pub scene: Scene,
+    /// What is known of its volume.
+    pub facts: VolumeFacts,
     /// The display.
     pub display: Display,
-    /// The frames, in order.
-    pub frames: Vec<FrameState>,
+    /// Which frames of the scene. Each is made when it is drawn, since a long run of them takes much memory.
+    pub frames: Range<u32>,
+    /// How they get their detail.
+    pub pace: Pace,
+    /// What they show of the working set instead of the pictures.
+    pub debug: Option<DebugView>,
     /// The eyes whose views are wanted.
     pub eyes: Vec<Eye>,
     /// The output folder.
@@ -39,56 +50,42 @@ impl Job {
     }
 
     /// Draws all frames. Pictures are written as soon as they are final; after a failure, those written are complete.
-    /// Reports of an earlier run are removed first: they would describe other pictures.
+    /// Reports and pictures of an earlier run are removed first: they would lie among those of this one.
     pub fn run(
         &self,
         source: &mut dyn Draw,
         progress: &mut Progress,
     ) -> Result<Vec<FrameSummary>, FrontendError> {
-        self.forget_earlier_run()?;
-        if let Some(view) = self.debug_view() {
+        remove_earlier_run(&self.out)?;
+        if let Some(view) = self.debug {
             write_legend(view, &self.out)?;
         }
-        let mut summaries = Vec::with_capacity(self.frames.len());
-        for (place, frame) in self.frames.iter().enumerate() {
+        let mut summaries = Vec::new();
+        for (place, index) in self.frames.clone().enumerate() {
             let mut show = |part: f64| {
                 let whole = (place as f64 + part) / self.frames.len() as f64;
                 progress.set(whole, &format!("frame {} of {}", place + 1, self.frames.len()));
             };
-            summaries.push(self.draw(source, frame, place == 0, &mut show)?);
+            summaries.push(self.draw(source, &self.frame(index)?, place == 0, &mut show)?);
         }
         Ok(summaries)
     }
 
-    /// What is shown in place of the pictures, the same in all frames.
-    fn debug_view(&self) -> Option<DebugView> {
-        self.frames.first()?.debug
-    }
-
-    fn forget_earlier_run(&self) -> Result<(), OutputError> {
-        for name in report::FILES {
-            let path = self.out.join(name);
-            match std::fs::remove_file(&path) {
-                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(OutputError::Write { path, source });
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+    fn frame(&self, index: u32) -> Result<FrameState, FrontendError> {
+        let frame = self.scene.frame(index, &self.display, &self.facts)?;
+        Ok(FrameState { pace: self.pace, debug: self.debug, ..frame })
     }
 
     /// The report of its run.
     pub fn report(
         &self,
-        scene: &Scene,
-        facts: &VolumeFacts,
         backends: Vec<BackendSummary>,
         frames: Vec<FrameSummary>,
         wall: Duration,
-    ) -> Report {
-        let subject = Subject { scene, facts, display: &self.display, first_frame: self.frames.first() };
-        Report::new(&subject, self.eye_summaries(), backends, frames, wall)
+    ) -> Result<Report, FrontendError> {
+        let first_frame = &self.frame(self.frames.start)?;
+        let subject = Subject { scene: &self.scene, facts: &self.facts, display: &self.display, first_frame };
+        Ok(Report::new(&subject, self.eye_summaries(), backends, frames, wall))
     }
 
     /// What the report says of the eyes.

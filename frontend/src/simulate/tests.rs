@@ -118,14 +118,22 @@ impl Draw for Gradients {
     }
 }
 
-fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 + Copy) -> (Scene, Job) {
+fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 + Copy) -> Job {
     let (scene, display) = (Scene::load("procedural:shells@64").unwrap(), display(projectors));
     let all = move |_| (0..projectors as usize).map(move |p| (p, weights(p)));
     let plan = EyePlan::new(display.canonical_raster(), projectors as usize, all);
     let warning = Some("the eye at x = 2 m is outside the viewing zone".to_owned());
-    let frames = (0..frames).map(|i| scene.frame(i, &display, &facts()).unwrap()).collect();
-    let eyes = vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }];
-    (scene, Job { display, frames, eyes, out: out.to_owned(), exr: true })
+    Job {
+        scene,
+        facts: facts(),
+        display,
+        frames: 0..frames,
+        pace: Pace::Complete,
+        debug: None,
+        eyes: vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }],
+        out: out.to_owned(),
+        exr: true,
+    }
 }
 
 fn files(folder: &Path) -> Vec<String> {
@@ -142,9 +150,9 @@ fn source(projectors: u32) -> Gradients {
 #[test]
 fn all_files_appear_and_the_report_adds_up() {
     let folder = tempfile::tempdir().unwrap();
-    let (scene, job) = job(folder.path(), 4, 2, |p| if p == 0 { 1.0 } else { 0.0 });
+    let job = job(folder.path(), 4, 2, |p| if p == 0 { 1.0 } else { 0.0 });
     Job::prepare_output(folder.path()).unwrap();
-    let (json, html) = reports(&scene, &job, folder.path());
+    let (json, html) = reports(&job, folder.path());
     assert_eq!(
         files(folder.path()),
         ["contact-sheet.png", "frame-0000", "frame-0001", "report.html", "report.json"]
@@ -170,13 +178,13 @@ fn all_files_appear_and_the_report_adds_up() {
 }
 
 /// Runs a job and reads its reports: JSON and HTML.
-fn reports(scene: &Scene, job: &Job, folder: &Path) -> (serde_json::Value, String) {
+fn reports(job: &Job, folder: &Path) -> (serde_json::Value, String) {
     let frames = job.run(&mut source(4), &mut Progress::new(false)).unwrap();
     let [adapter, reason, filter] = ["fake", "a test", "exact"].map(str::to_owned);
     let device = DeviceInfo { adapter, reason, filter, cache_bytes: 1 << 20 };
     let wiring = job.display.wiring(2).unwrap();
     let backends = BackendSummary::all(&wiring, vec![device; 2]);
-    let report = job.report(scene, &facts(), backends, frames, Duration::from_secs(1));
+    let report = job.report(backends, frames, Duration::from_secs(1)).unwrap();
     report::write(&report, folder).unwrap();
     let read = |name| std::fs::read_to_string(folder.join(name)).unwrap();
     (serde_json::from_str(&read(report::JSON)).unwrap(), read(report::HTML))
@@ -185,11 +193,11 @@ fn reports(scene: &Scene, job: &Job, folder: &Path) -> (serde_json::Value, Strin
 #[test]
 fn the_report_tells_what_live_frames_did_to_the_working_set() {
     let folder = tempfile::tempdir().unwrap();
-    let (scene, mut job) = job(folder.path(), 4, 2, |_| 0.25);
-    let (json, html) = reports(&scene, &job, folder.path());
+    let mut job = job(folder.path(), 4, 2, |_| 0.25);
+    let (json, html) = reports(&job, folder.path());
     assert!(json["frames"][0]["total"]["upkeep"].is_null() && !html.contains("Working set of live frames"));
-    job.frames.iter_mut().for_each(|f| f.pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.4 });
-    let (json, html) = reports(&scene, &job, folder.path());
+    job.pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.4 };
+    let (json, html) = reports(&job, folder.path());
     let upkeep = &json["frames"][1]["total"]["upkeep"];
     assert_eq!((&upkeep["nodes"], &upkeep["splits"]), (&147.into(), &8.into()));
     // Both back-ends have cast as many rays: the largest is the first's, the mean that of 0.5 and 1.5.
@@ -202,28 +210,28 @@ fn the_report_tells_what_live_frames_did_to_the_working_set() {
 #[test]
 fn a_debug_view_comes_with_its_key() {
     let folder = tempfile::tempdir().unwrap();
-    let (scene, mut job) = job(folder.path(), 4, 1, |_| 0.25);
+    let mut job = job(folder.path(), 4, 1, |_| 0.25);
     let without = |(json, html): (serde_json::Value, String)| {
         assert!(json["debug_view"].is_null() && !html.contains("Instead of the pictures"));
         assert!(!folder.path().join(LEGEND).exists());
     };
-    without(reports(&scene, &job, folder.path()));
-    job.frames.iter_mut().for_each(|frame| frame.debug = Some(DebugView::Samples));
-    let (json, html) = reports(&scene, &job, folder.path());
+    without(reports(&job, folder.path()));
+    job.debug = Some(DebugView::Samples);
+    let (json, html) = reports(&job, folder.path());
     assert_eq!(json["debug_view"]["view"], "samples");
     assert_eq!(json["debug_view"]["scale"], serde_json::json!([0.0, 1024.0]));
     assert_eq!(json["debug_view"]["legend"], LEGEND);
     assert!(html.contains("samples that a ray took") && html.contains("0, 1, 4, 16, 64, 256, 1024+"));
     image::open(folder.path().join(LEGEND)).unwrap();
     // The key of an earlier run would explain other pictures.
-    job.frames.iter_mut().for_each(|frame| frame.debug = None);
-    without(reports(&scene, &job, folder.path()));
+    job.debug = None;
+    without(reports(&job, folder.path()));
 }
 
 #[test]
 fn an_eye_sees_the_weighted_mean_of_the_projectors() {
     let folder = tempfile::tempdir().unwrap();
-    let (_, job) = job(folder.path(), 4, 1, |p| 0.25 * f64::from(p == 1) + 0.75 * f64::from(p == 3));
+    let job = job(folder.path(), 4, 1, |p| 0.25 * f64::from(p == 1) + 0.75 * f64::from(p == 3));
     job.run(&mut source(4), &mut Progress::new(false)).unwrap();
     let seen = image::open(folder.path().join("frame-0000/eye-0.png")).unwrap().to_rgb8();
     let blue = renderer::output::srgb_code((0.25 + 0.75 * 3.0) / 8.0);
@@ -241,7 +249,7 @@ fn an_eye_sees_the_weighted_mean_of_the_projectors() {
 fn two_runs_write_the_same_bytes() {
     let read = || {
         let folder = tempfile::tempdir().unwrap();
-        let (_, job) = job(folder.path(), 9, 1, |p| (p as f64 + 0.3) / 43.2);
+        let job = job(folder.path(), 9, 1, |p| (p as f64 + 0.3) / 43.2);
         job.run(&mut source(9), &mut Progress::new(false)).unwrap();
         ["contact-sheet.png", "frame-0000/eye-0.exr"]
             .map(|name| std::fs::read(folder.path().join(name)).unwrap())
@@ -253,7 +261,7 @@ fn two_runs_write_the_same_bytes() {
 fn a_failure_midway_leaves_whole_pictures_and_no_report() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(report::HTML), "of an earlier run").unwrap();
-    let (_, job) = job(folder.path(), 4, 1, |_| 0.25);
+    let job = job(folder.path(), 4, 1, |_| 0.25);
     Job::prepare_output(folder.path()).unwrap();
     let mut source = Gradients { fails_before: Some(1), ..source(4) };
     let error = job.run(&mut source, &mut Progress::new(false)).unwrap_err().to_string();
@@ -267,9 +275,30 @@ fn a_failure_midway_leaves_whole_pictures_and_no_report() {
 }
 
 #[test]
+fn a_shorter_run_leaves_no_pictures_of_a_longer_one() {
+    let folder = tempfile::tempdir().unwrap();
+    job(folder.path(), 4, 3, |_| 0.25).run(&mut source(4), &mut Progress::new(false)).unwrap();
+    assert_eq!(files(&folder.path().join("frame-0000")).len(), 1 + 2 * (4 + 1));
+    let shorter = Job { exr: false, eyes: Vec::new(), ..job(folder.path(), 2, 1, |_| 0.5) };
+    shorter.run(&mut source(2), &mut Progress::new(false)).unwrap();
+    assert_eq!(files(folder.path()), ["contact-sheet.png", "frame-0000"]);
+    assert_eq!(files(&folder.path().join("frame-0000")), ["projector-00.png", "projector-01.png"]);
+}
+
+/// All four billion of them at once would take all memory before the first is drawn.
+#[test]
+fn frames_are_made_one_after_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = job(folder.path(), 4, u32::MAX, |_| 0.25);
+    let mut source = Gradients { fails_before: Some(0), ..source(4) };
+    let error = all.run(&mut source, &mut Progress::new(false)).unwrap_err().to_string();
+    assert_eq!(error, "back-end 0 died");
+}
+
+#[test]
 fn a_missing_picture_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
-    let (_, job) = job(folder.path(), 4, 1, |_| 0.25);
+    let job = job(folder.path(), 4, 1, |_| 0.25);
     let mut source = Gradients { skips: Some(2), ..source(4) };
     let error = job.run(&mut source, &mut Progress::new(false)).unwrap_err().to_string();
     assert!(error.contains("[2]"), "{error}");

@@ -2,9 +2,9 @@
 
 /// A number that is out of its bounds.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{name} is {value}; it must be {expected}")]
+#[error("{name} is {value:?}; it must be {expected}")]
 pub struct OutOfBounds {
-    /// Which number.
+    /// Which number: its key in scene files.
     pub name: &'static str,
     /// What it is.
     pub value: f64,

@@ -45,7 +45,7 @@ impl Light {
             ("ambient", self.ambient),
             ("diffuse", self.diffuse),
             ("specular", self.specular),
-            ("strength of detail", strength),
+            ("detail_strength", strength),
         ];
         for (name, value) in factors {
             held((0.0..=1e6).contains(&value), name, value, "a number from 0 to a million")?;

@@ -69,13 +69,13 @@ pub struct Optics {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OpticsError {
     /// The domain is not an interval.
-    #[error("the transfer function's domain [{0}, {1}] is not a rising interval of finite numbers")]
+    #[error("the transfer function's domain [{0:?}, {1:?}] is not a rising interval of finite numbers")]
     Domain(f64, f64),
     /// γ is outside [0, 1].
-    #[error("gamma is {0}; it must lie in [0, 1]")]
+    #[error("gamma is {0:?}; it must lie in [0, 1]")]
     Gamma(f64),
     /// An importance is above 1.
-    #[error("importance control point {index} is {value}; importances lie in [0, 1]")]
+    #[error("importance control point {index} is {value:?}; importances lie in [0, 1]")]
     Importance {
         /// Which control point, from 0.
         index: usize,
@@ -83,7 +83,7 @@ pub enum OpticsError {
         value: f64,
     },
     /// A refraction index is out of reach.
-    #[error("refraction control point {index} is {value}; refraction indices lie in [0.001, 1000]")]
+    #[error("refraction control point {index} is {value:?}; refraction indices lie in [0.001, 1000]")]
     Refraction {
         /// Which control point, from 0.
         index: usize,
@@ -101,7 +101,7 @@ pub enum OpticsError {
         largest: f64,
     },
     /// A material's highlight has an exponent below 1.
-    #[error("material control point {index} has a shininess of {value}; it must be at least 1")]
+    #[error("material control point {index} has a shininess of {value:?}; it must be at least 1")]
     Shininess {
         /// Which control point, from 0.
         index: usize,

@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 /// The knobs that trade time for error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
-    /// Longest integration step, in voxels of the node being sampled; above 0.
+    /// Integration step, in voxels of the node being sampled, where the optical depth of such a step is not small; above 0.
+    /// In thinner media steps grow, up to one voxel; where the error calls for it, they are split.
     pub step_voxels: f64,
-    /// Estimated error of colour and opacity above which a step is split into parts; above 0,
-    /// infinite for steps of one length.
+    /// Estimated error of colour and opacity above which a step is split into parts; above 0, and 1 or more for steps of
+    /// one length.
     pub tolerance: f64,
     /// A ray stops when less than this opacity can still be added; 0 never stops early.
     pub termination: f64,

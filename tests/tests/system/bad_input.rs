@@ -251,7 +251,7 @@ fn a_cache_of_nothing() {
     let bench = Bench::new();
     let display = small_display(bench.folder.path());
     let arguments = ["procedural:shells@16", "--display", &display, "--cache-mib", "0"];
-    bench.simulate_refused(&arguments, &["--cache-mib", "0 is not in 1.."]);
+    bench.simulate_refused(&arguments, &["--cache-mib", "give a whole number from 1 to"]);
 }
 
 #[test]

@@ -7,13 +7,16 @@
 
 mod accuracy;
 mod bad_input;
+mod careless;
 mod export;
+mod idle_backends;
 mod import;
 mod live;
 mod lost_backend;
 mod pipeline_cache;
 mod replay;
 mod same_bytes;
+mod stopped;
 mod store_commands;
 mod whole_store;
 mod wiring;

@@ -7,12 +7,14 @@ use display_config::Display;
 use protocol::{FrameState, VolumeRef};
 use std::path::PathBuf;
 
-/// It begins with the first live frame and gets its name at the end.
+/// It begins with the first live frame and gets its name at the end, also where a run is stopped.
 #[derive(Debug, Default)]
 pub(super) struct Recording {
     /// Where, and of what; None if no trace is wanted.
     wanted: Option<(PathBuf, TraceHeader)>,
     writer: Option<TraceWriter>,
+    /// Whether the trace tells of any frame.
+    has_frames: bool,
 }
 
 impl Recording {
@@ -24,7 +26,7 @@ impl Recording {
             }
             procedural => procedural.clone(),
         };
-        Self { wanted: Some((path, TraceHeader::new(volume, shape, display))), writer: None }
+        Self { wanted: Some((path, TraceHeader::new(volume, shape, display))), ..Self::default() }
     }
 
     /// The rays of a live frame are about to be cast.
@@ -43,13 +45,15 @@ impl Recording {
     ) -> Result<(), RenderError> {
         if let Some(writer) = &mut self.writer {
             writer.frame(frame, sampled)?;
+            self.has_frames = true;
         }
         Ok(())
     }
 
-    /// Gives the trace its name.
+    /// Gives the trace its name. One that tells of no frame takes no other's place.
     pub(super) fn finish(&mut self) -> Result<(), RenderError> {
         self.wanted = None;
-        Ok(self.writer.take().map_or(Ok(()), TraceWriter::finish)?)
+        let writer = self.writer.take().filter(|_| self.has_frames);
+        Ok(writer.map_or(Ok(()), TraceWriter::finish)?)
     }
 }

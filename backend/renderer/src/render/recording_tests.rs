@@ -156,3 +156,19 @@ fn complete_frames_are_not_recorded() {
     renderer.finish().unwrap();
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
+
+/// A run that is stopped in its first frame has nothing to tell; the trace of an earlier run has.
+#[test]
+fn a_trace_of_no_frame_takes_no_other_s_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.trace");
+    std::fs::write(&path, "earlier").unwrap();
+    let mut renderer = recorder(path.clone());
+    renderer.restart(&live(0)).unwrap();
+    let asked = std::sync::atomic::AtomicU32::new(0);
+    let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) > 0;
+    assert!(renderer.advance(&stop).unwrap().report.is_none());
+    renderer.finish().unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "earlier");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}

@@ -51,8 +51,8 @@ impl AccuracyReport {
         Self {
             version: env!("CARGO_PKG_VERSION"),
             command_line: command_line(),
-            scene: SceneSummary::new(scene, facts, Some(&study.frame)),
-            display: DisplaySummary::new(&study.display, Some(&study.frame)),
+            scene: SceneSummary::new(scene, facts, &study.frame),
+            display: DisplaySummary::new(&study.display, &study.frame),
             device: outcome.device,
             frame: study.frame.index,
             projectors: study.projectors.clone(),

@@ -1,14 +1,14 @@
 //! The bands and enhancers in a scene file.
 
 use crate::scene::error::Checked;
-use crate::scene::file::{BandTable, EnhancerTable, Limits, Number, Triple};
+use crate::scene::file::{BandTable, EnhancerTable, Key, Limits, Number, Triple, key};
 use crate::scene::text::SceneText;
 use crate::scene::{Anchor, Band, SceneEnhancer};
 use ::optics::{
     BandPicker, ClipPlane, Enhancer, EnhancerKind, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
 };
+use display_config::text::{brief_text, did_you_mean};
 use glam::DVec3;
-use std::ops::Range;
 use toml::Spanned;
 
 /// Cosines of the angles to an axis: none of an effect beyond 37°, all of it within 11°.
@@ -30,14 +30,9 @@ const TOWARD: f64 = 0.1;
 /// Keys that a tool overrides for an enhancer that it carries.
 const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];
 
-type Key = (&'static str, Range<usize>);
-
 impl EnhancerTable {
     /// The keys that are given, with their places; `kind` and `carried` aside.
     fn given(&self) -> impl Iterator<Item = Key> {
-        fn key<T>(name: &'static str, value: &Option<Spanned<T>>) -> Option<Key> {
-            value.as_ref().map(|value| (name, value.span()))
-        }
         let keys = [
             key("band", &self.band),
             key("point_m", &self.point_m),
@@ -72,7 +67,7 @@ impl SceneText {
                 let message = format!("another band is already called `{name}`; give each band its own name");
                 return Err(self.wrong(table.name.span(), message));
             }
-            let values = Trapezoid::new(*table.corners.get_ref());
+            let values = Trapezoid::new(table.corners.get_ref().0);
             let values = values.map_err(|error| self.wrong(table.corners.span(), error.to_string()))?;
             bands.push(Band { name: name.clone(), values });
         }
@@ -84,8 +79,11 @@ impl SceneText {
         let found = bands.iter().find(|band| band.name == *name.get_ref());
         let names: Vec<&str> = bands.iter().map(|band| band.name.as_str()).collect();
         let known = if names.is_empty() { "add a [[band]]".to_owned() } else { names.join(", ") };
-        let message =
-            || format!("there is no band `{}`; use one of the scene's bands: {known}", name.get_ref());
+        let message = || {
+            let suggestion = did_you_mean(name.get_ref(), names.iter().copied());
+            let name = brief_text(name.get_ref());
+            format!("there is no band `{name}`{suggestion}; use one of the scene's bands: {known}")
+        };
         found.map(|band| band.values).ok_or_else(|| self.wrong(name.span(), message()))
     }
 
@@ -147,6 +145,7 @@ impl SceneText {
             EnhancerKind::BandPicker => Enhancer::BandPicker(self.band_picker(table, bands)?),
             EnhancerKind::LayerOpacity => Enhancer::LayerOpacity(self.layer_opacity(table, bands)?),
         };
+        self.within_bounds(numbers.check(), table.given(), table.kind.span())?;
         Ok(SceneEnhancer { numbers, anchor })
     }
 

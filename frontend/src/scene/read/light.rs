@@ -1,7 +1,7 @@
 //! The light and the quality in a scene file.
 
 use crate::scene::error::Checked;
-use crate::scene::file::{DetailKind, LightTable, QualityTable};
+use crate::scene::file::{DetailKind, LightTable, QualityTable, key};
 use crate::scene::text::SceneText;
 use ::optics::{Detail, Light, Quality};
 
@@ -18,7 +18,7 @@ impl SceneText {
     pub(super) fn light(&self, table: &LightTable) -> Checked<Light> {
         let default = Light::default();
         let toward = table.toward.as_ref().map(|t| self.direction(t)).transpose()?;
-        Ok(Light {
+        let light = Light {
             toward_light_in_display: toward.unwrap_or(default.toward_light_in_display),
             ambient: self.within_or(&table.ambient, default.ambient, AT_LEAST_ZERO)?,
             diffuse: self.within_or(&table.diffuse, default.diffuse, AT_LEAST_ZERO)?,
@@ -26,7 +26,17 @@ impl SceneText {
             shininess: self.within_or(&table.shininess, default.shininess, 1.0..=f64::MAX)?,
             gradient_half: self.within_or(&table.gradient_half, default.gradient_half, ABOVE_ZERO)?,
             detail: self.detail(table)?,
-        })
+        };
+        let keys = [
+            key("ambient", &table.ambient),
+            key("diffuse", &table.diffuse),
+            key("specular", &table.specular),
+            key("shininess", &table.shininess),
+            key("gradient_half", &table.gradient_half),
+            key("detail_strength", &table.detail_strength),
+        ];
+        self.within_bounds(light.check(), keys.into_iter().flatten(), 0..0)?;
+        Ok(light)
     }
 
     fn detail(&self, table: &LightTable) -> Checked<Detail> {
@@ -49,7 +59,7 @@ impl SceneText {
     pub(super) fn quality(&self, table: &QualityTable) -> Checked<Quality> {
         let preset = table.preset.map_or(Quality::default(), |preset| preset.quality());
         let (shortest, longest) = Quality::STEPS_VOXELS;
-        Ok(Quality {
+        let quality = Quality {
             step_voxels: self.within_or(&table.step_voxels, preset.step_voxels, shortest..=longest)?,
             tolerance: self.within_or(
                 &table.tolerance,
@@ -61,6 +71,8 @@ impl SceneText {
             quadrilinear: table.quadrilinear.unwrap_or(preset.quadrilinear),
             deviation: table.deviation.unwrap_or(preset.deviation),
             blended: table.blended.unwrap_or(preset.blended),
-        })
+        };
+        self.within_bounds(quality.check(), key("lod_scale", &table.lod_scale), 0..0)?;
+        Ok(quality)
     }
 }

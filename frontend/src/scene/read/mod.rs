@@ -12,16 +12,22 @@ use super::file::{DisplayTable, FramesTable, SceneFile, ToolTable};
 use super::text::SceneText;
 use super::{Look, Scene, SceneEnhancer, SceneError, VolumeSource, builtin};
 use ::optics::Enhancer;
+use display_config::text::read_text;
 use glam::DVec3;
 use motion::Changeable;
 use protocol::Tool;
 use std::path::Path;
 
+/// Frames per second: times of frames stay numbers.
+const RATES_HZ: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
 /// Reads a scene file; its volume must be there.
 pub(super) fn scene_from_file(path: &Path) -> Checked<Scene> {
     let scene = scene_without_volume(path)?;
     match &scene.volume {
-        VolumeSource::Store(store) if !store.is_file() => Err(SceneError::NoStore { path: store.clone() }),
+        VolumeSource::Store(store) if !store.is_file() => {
+            Err(SceneError::NoStore { place: scene.source_place, path: store.clone() })
+        }
         _ => Ok(scene),
     }
 }
@@ -29,8 +35,7 @@ pub(super) fn scene_from_file(path: &Path) -> Checked<Scene> {
 /// Reads a scene file, whether its volume is there or not.
 pub(super) fn scene_without_volume(path: &Path) -> Checked<Scene> {
     let read = |source| SceneError::Read { path: path.to_owned(), source };
-    let text =
-        SceneText { file: path.display().to_string(), text: std::fs::read_to_string(path).map_err(read)? };
+    let text = SceneText { file: path.display().to_string(), text: read_text(path).map_err(read)? };
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     scene_from_text(&text, &name, path.parent().unwrap_or(Path::new("")))
 }
@@ -61,6 +66,7 @@ pub(super) fn scene_from_text(text: &SceneText, name: &str, folder: &Path) -> Ch
         bands,
         enhancers,
         light: file.light.as_ref().map(|light| text.light(light)).transpose()?,
+        source_place: Some(text.place(file.volume.source.span())),
         quality: text.quality(&file.quality)?,
         eta: file.display.eta.as_ref().map(|eta| text.within(eta, 0.0..=1.0)).transpose()?,
         observer_m: text.observer(&file.display)?,
@@ -68,7 +74,11 @@ pub(super) fn scene_from_text(text: &SceneText, name: &str, folder: &Path) -> Ch
         motion,
         edits,
         frame_count: text.frame_count(&file.frames)?,
-        rate_hz: file.frames.rate_hz.as_ref().map_or(Ok(still.rate_hz), |rate| text.above_zero(rate))?,
+        rate_hz: file
+            .frames
+            .rate_hz
+            .as_ref()
+            .map_or(Ok(still.rate_hz), |rate| text.within(rate, RATES_HZ))?,
         volume: still.volume,
     })
 }

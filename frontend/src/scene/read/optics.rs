@@ -4,7 +4,7 @@ use crate::scene::error::Checked;
 use crate::scene::file::{MimdaTable, OpticsTable, Points, SceneFile};
 use crate::scene::look::DataLook;
 use crate::scene::text::SceneText;
-use ::optics::{Curve, CurveError, CurveValue, Material, Mimda, MimdaForm};
+use ::optics::{Curve, CurveError, CurveValue, Material, Mimda, MimdaForm, Optics, OpticsError};
 use glam::DVec3;
 use toml::Spanned;
 
@@ -48,12 +48,16 @@ impl SceneText {
 
     /// Extinction over data values.
     pub(super) fn extinction(&self, points: &Points) -> Checked<Curve<f64>> {
-        self.curve(points, |[extinction]| extinction)
+        let curve = self.curve(points, |[extinction]| extinction)?;
+        self.check_curve(points, |optics| optics.extinction.clone_from(&curve))?;
+        Ok(curve)
     }
 
     /// Linear red, green and blue over data values.
     pub(super) fn colour(&self, points: &Points) -> Checked<Curve<DVec3>> {
-        self.curve(points, DVec3::from_array)
+        let curve = self.curve(points, DVec3::from_array)?;
+        self.check_curve(points, |optics| optics.colour.clone_from(&curve))?;
+        Ok(curve)
     }
 
     /// Importance over data values.
@@ -65,7 +69,9 @@ impl SceneText {
     /// Refraction index over data values.
     pub(super) fn refraction(&self, points: &Points) -> Checked<Curve<f64>> {
         self.refuse(points, |rest| rest[0] <= 0.0, "a refraction index is not above 0; that of air is 1")?;
-        self.curve(points, |[index]| index)
+        let curve = self.curve(points, |[index]| index)?;
+        self.check_curve(points, |optics| optics.refraction = Some(curve.clone()))?;
+        Ok(curve)
     }
 
     fn materials(&self, points: &Points, has_light: bool) -> Checked<Curve<Material>> {
@@ -74,12 +80,31 @@ impl SceneText {
         }
         let is_too_dull = |rest: &[f64]| rest.get(3).is_some_and(|shininess| *shininess < 1.0);
         self.refuse(points, is_too_dull, "a shininess is below 1; give at least 1 as the last number")?;
-        self.curve(points, |[ambient, diffuse, specular, shininess]| Material {
+        let material = |[ambient, diffuse, specular, shininess]: [f64; 4]| Material {
             ambient,
             diffuse,
             specular,
             shininess,
-        })
+        };
+        let curve = self.curve(points, material)?;
+        self.check_curve(points, |optics| optics.materials = Some(curve.clone()))?;
+        Ok(curve)
+    }
+
+    /// Refuses the control point that the renderer would refuse, whatever volume the curve meets.
+    fn check_curve(&self, points: &Points, put: impl FnOnce(&mut Optics)) -> Checked<()> {
+        let mut optics = Optics::grey(Curve::constant(1.0));
+        put(&mut optics);
+        let Err(error) = optics.check() else { return Ok(()) };
+        let index = match error {
+            OpticsError::TooLarge { index, .. }
+            | OpticsError::Refraction { index, .. }
+            | OpticsError::Shininess { index, .. }
+            | OpticsError::Importance { index, .. } => Some(index),
+            _ => None,
+        };
+        let point = index.and_then(|index| points.get_ref().get(index));
+        Err(self.wrong(point.map_or(points.span(), Spanned::span), error.to_string()))
     }
 
     /// Refuses the first control point whose numbers after the data value are wrong; those are at least one.

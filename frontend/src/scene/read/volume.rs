@@ -6,7 +6,7 @@ use crate::scene::names::PROCEDURAL_PREFIX;
 use crate::scene::placement::rotation_from_deg;
 use crate::scene::text::SceneText;
 use crate::scene::volume::LARGEST_EDGE;
-use crate::scene::{Placement, Size, VolumeAxes, VolumeAxis, VolumeSource};
+use crate::scene::{Placement, Size, VolumeAxes, VolumeSource};
 use glam::{DVec3, UVec3};
 use std::ops::Range;
 use std::path::Path;
@@ -15,12 +15,19 @@ use toml::Spanned;
 /// Of a volume, metres or times its own: sizes that f32 distinguishes from nothing and from everything.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
+/// Of a voxel, metres.
+const EDGES_M: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
+
 impl SceneText {
     pub(super) fn volume(&self, table: &VolumeTable, folder: &Path) -> Checked<VolumeSource> {
         let source = table.source.get_ref();
         let Some(name) = source.strip_prefix(PROCEDURAL_PREFIX) else {
             return match &table.size {
                 Some(size) => Err(self.wrong(size.span(), "a store has its own size; remove this line")),
+                None if source.trim().is_empty() => {
+                    let message = format!("it is empty; give a .lloom store or {PROCEDURAL_PREFIX}NAME");
+                    Err(self.wrong(table.source.span(), message))
+                }
                 None => Ok(VolumeSource::Store(folder.join(source))),
             };
         };
@@ -31,7 +38,7 @@ impl SceneText {
         };
         let dims = match *size.get_ref() {
             Voxels::All(edge) => UVec3::splat(edge),
-            Voxels::Each(edges) => UVec3::from_array(edges),
+            Voxels::Each(edges) => UVec3::from_array(edges.0),
         };
         if dims.min_element() < 1 || dims.max_element() > LARGEST_EDGE {
             return Err(self.wrong(size.span(), format!("give sizes from 1 to {LARGEST_EDGE} voxels")));
@@ -42,10 +49,11 @@ impl SceneText {
     pub(super) fn voxel_size(&self, lengths: &Spanned<Lengths>) -> Checked<DVec3> {
         let size = match *lengths.get_ref() {
             Lengths::All(edge) => DVec3::splat(edge),
-            Lengths::Each(edges) => DVec3::from_array(edges),
+            Lengths::Each(edges) => DVec3::from_array(edges.0),
         };
-        let usable = size.is_finite() && size.min_element() > 0.0;
-        usable.then_some(size).ok_or_else(|| self.wrong(lengths.span(), "give finite lengths above 0"))
+        let is_usable = size.to_array().iter().all(|edge| EDGES_M.contains(edge));
+        let message = "give lengths from 1e-12 to 1e6 metres";
+        is_usable.then_some(size).ok_or_else(|| self.wrong(lengths.span(), message))
     }
 
     pub(super) fn placement(&self, table: &Spanned<PlacementTable>) -> Checked<Placement> {
@@ -64,15 +72,12 @@ impl SceneText {
         Ok(Placement { centre_m, rotation: rotation_from_deg(deg), axes, size })
     }
 
-    /// Which way the volume stands; None if the file leaves it to the volume.
-    fn axes(&self, place: &PlacementTable, table: Range<usize>) -> Checked<Option<VolumeAxes>> {
-        if place.up.is_none() && place.front.is_none() && place.right.is_none() {
-            return Ok(None);
-        }
-        let up = place.up.as_ref().map_or(VolumeAxis::PlusY, |up| *up.get_ref());
-        let span = place.up.as_ref().map_or(table, Spanned::span);
-        let axes = VolumeAxes::new(up, place.front.unwrap_or(VolumeAxis::PlusZ), place.right);
+    /// Which way the volume stands, as far as the file says.
+    fn axes(&self, place: &PlacementTable, table: Range<usize>) -> Checked<VolumeAxes> {
+        let given = [&place.up, &place.front, &place.right];
+        let [up, front, right] = given.map(|axis| axis.as_ref().map(|axis| *axis.get_ref()));
+        let span = given.iter().find_map(|axis| axis.as_ref()).map_or(table, Spanned::span);
         let message = "up, front and right must be three different axes of the volume";
-        axes.map(Some).ok_or_else(|| self.wrong(span, message))
+        VolumeAxes::new(up, front, right).ok_or_else(|| self.wrong(span, message))
     }
 }

@@ -31,8 +31,8 @@ impl Law for BandPicker {
     const NEEDS_BAND: bool = true;
 
     fn check(&self) -> Checked {
-        is_unit("the length of the axis", self.axis_in_display)?;
-        is_ramp(&self.facing)?;
+        is_unit("axis", self.axis_in_display)?;
+        is_ramp("facing", &self.facing)?;
         is_share("strength", self.strength)
     }
 

@@ -19,14 +19,14 @@ pub(super) fn is_unit(name: &'static str, vector: DVec3) -> Checked {
     held((vector.length() - 1.0).abs() < 1e-5, name, vector.length(), "1")
 }
 
-pub(super) fn is_ramp(ramp: &Ramp) -> Checked {
+pub(super) fn is_ramp(name: &'static str, ramp: &Ramp) -> Checked {
     let is_good =
         ramp.low.abs() <= LARGEST && ramp.high.abs() <= LARGEST && (ramp.low as f32) < ramp.high as f32;
     held(
         is_good,
-        "a ramp's lower limit",
-        ramp.low,
-        "below its upper limit in single precision, and within a million",
+        name,
+        if ramp.low.abs() <= LARGEST { ramp.high } else { ramp.low },
+        "two limits of at most a million, the first below the second in single precision",
     )
 }
 

@@ -35,10 +35,10 @@ impl Law for ClipPlane {
         &["point_m", "normal", "context", "thickness_m", "boost", "strength"];
 
     fn check(&self) -> Checked {
-        is_point("a coordinate of the point", self.point_in_display)?;
-        is_unit("the length of the normal", self.normal_in_display)?;
-        is_ramp(&self.context)?;
-        is_at_least_zero("thickness", self.thickness_m)?;
+        is_point("point_m", self.point_in_display)?;
+        is_unit("normal", self.normal_in_display)?;
+        is_ramp("context", &self.context)?;
+        is_at_least_zero("thickness_m", self.thickness_m)?;
         is_at_least_zero("boost", self.boost)?;
         is_share("strength", self.strength)
     }

@@ -27,8 +27,8 @@ impl Law for LayerOpacity {
     const NEEDS_BAND: bool = true;
 
     fn check(&self) -> Checked {
-        is_unit("the length of the axis", self.axis_in_display)?;
-        is_ramp(&self.facing)?;
+        is_unit("axis", self.axis_in_display)?;
+        is_ramp("facing", &self.facing)?;
         is_at_least_zero("away", self.away)?;
         is_at_least_zero("toward", self.toward)
     }

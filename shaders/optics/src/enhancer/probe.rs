@@ -44,12 +44,12 @@ impl Law for Probe {
     const NEEDS_GRADIENT: bool = true;
 
     fn check(&self) -> Checked {
-        is_point("a coordinate of the centre", self.centre_in_display)?;
-        is_above_zero("radius", self.radius_m)?;
-        is_unit("the length of the axis", self.axis_in_display)?;
-        is_ramp(&self.facing)?;
+        is_point("centre_m", self.centre_in_display)?;
+        is_above_zero("radius_m", self.radius_m)?;
+        is_unit("axis", self.axis_in_display)?;
+        is_ramp("facing", &self.facing)?;
         is_above_zero("gradient_most", self.gradient_most)?;
-        is_ramp(&self.edges)?;
+        is_ramp("edges", &self.edges)?;
         is_share("strength", self.strength)
     }
 

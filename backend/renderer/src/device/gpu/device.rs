@@ -1,6 +1,7 @@
 //! A back-end's share of the GPU: its atlas, buffers and kernels.
 
 use super::atlas::Atlas;
+use super::batch::BatchSize;
 use super::context::Context;
 use super::feedback::FrameFeedback;
 use super::kernels::Kernels;
@@ -17,16 +18,7 @@ use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey, Way};
 use shaders::tables::Tables;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-/// Tiles of the first batch of a cast: few, because nobody knows yet how long they take.
-const FIRST_BATCH_TILES: usize = 256;
-/// About as long as a batch may take: whoever asks a cast to leave off waits for no longer. Drivers also give up on what
-/// takes seconds.
-const BATCH: Duration = Duration::from_millis(8);
-/// Tiles of every batch on a driver in software: it deals them out to its threads beforehand, which then wait for each
-/// other, so that small batches leave threads idle.
-const SOFTWARE_BATCH_TILES: usize = 2048;
+use std::time::Instant;
 
 /// Workgroups along x of a dispatch: a tile each.
 const GROUPS_ACROSS: u32 = 32768;
@@ -59,8 +51,7 @@ pub struct GpuDevice {
     pixels_back: Readback,
     /// Places of the index.
     places: usize,
-    /// Tiles that take about as long as a batch may.
-    batch_tiles: usize,
+    batch: BatchSize,
 }
 
 impl GpuDevice {
@@ -114,7 +105,7 @@ impl GpuDevice {
             feedback_back: Readback::new(),
             pixels_back: Readback::new(),
             places: 0,
-            batch_tiles: if context.is_software { SOFTWARE_BATCH_TILES } else { FIRST_BATCH_TILES },
+            batch: BatchSize::new(context.is_software),
             context,
         })
     }
@@ -211,16 +202,14 @@ impl GpuDevice {
         let context = Arc::clone(&self.context);
         let mut done = 0;
         while done < view.tiles.len() && !(job.stop)() {
-            let end = view.tiles.len().min(done + self.batch_tiles);
+            let end = view.tiles.len().min(done + self.batch.tiles());
             let batch = ViewJob { tiles: view.tiles[done..end].into(), ..view.clone() };
             let started = Instant::now();
             self.views[view.picture].prepare(&context, &batch);
             let mut encoder = new_encoder(&context);
             self.dispatch(&mut encoder, pipeline, key, job, &batch);
             context.run(encoder)?;
-            if end - done == self.batch_tiles && !context.is_software {
-                self.batch_tiles = next_batch(self.batch_tiles, started.elapsed());
-            }
+            self.batch.learn(end - done, started.elapsed());
             done = end;
         }
         Ok(done)
@@ -386,15 +375,6 @@ impl GpuDevice {
 
 fn new_encoder(context: &Context) -> wgpu::CommandEncoder {
     context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
-}
-
-/// The tiles of the next batch, after one that took so long.
-fn next_batch(tiles: usize, took: Duration) -> usize {
-    match took {
-        _ if took > 2 * BATCH => (tiles / 2).max(1),
-        _ if 2 * took < BATCH => 2 * tiles,
-        _ => tiles,
-    }
 }
 
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {

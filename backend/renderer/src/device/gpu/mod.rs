@@ -2,6 +2,7 @@
 
 mod adapters;
 mod atlas;
+mod batch;
 mod cache_file;
 mod context;
 mod device;

@@ -8,7 +8,7 @@ use optics::Optics;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Lines};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct TraceReader {
     path: PathBuf,
-    lines: Lines<BufReader<File>>,
+    file: BufReader<File>,
     /// Of the line read last, from 1.
     line: usize,
     header: TraceHeader,
@@ -24,6 +24,11 @@ pub struct TraceReader {
     optics: Option<Arc<Optics>>,
     last_time_s: f64,
 }
+
+/// Bytes of the first line, at most: it tells of a volume and a display in few words.
+const MOST_OF_HEADER: u64 = 1 << 20;
+/// Bytes of a frame's line, at most: it tells of tens of millions of nodes.
+const MOST_OF_FRAME: u64 = 1 << 30;
 
 /// What a first line says of itself, whatever else is on it.
 #[derive(Deserialize)]
@@ -39,15 +44,13 @@ impl TraceReader {
     /// The file cannot be read, or does not begin as a trace of this version.
     pub fn open(path: &Path) -> Result<Self, TraceError> {
         let file = File::open(path).map_err(|e| TraceError::read(path, e))?;
-        let mut lines = BufReader::new(file).lines();
-        let text = match lines.next() {
-            Some(line) => line.map_err(|e| TraceError::read(path, e))?,
-            None => String::new(),
-        };
+        let mut file = BufReader::new(file);
+        let first = next_line(&mut file, MOST_OF_HEADER).map_err(|e| TraceError::read(path, e))?;
+        let text = first.unwrap_or_default();
         let header = header(&text).map_err(|why| TraceError::Line { path: path.to_owned(), line: 1, why })?;
         Ok(Self {
             path: path.to_owned(),
-            lines,
+            file,
             line: 1,
             shape: header.shape(),
             header,
@@ -99,7 +102,7 @@ impl Iterator for TraceReader {
     type Item = Result<TracedFrame, TraceError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let text = self.lines.next()?;
+        let text = next_line(&mut self.file, MOST_OF_FRAME).transpose()?;
         self.line += 1;
         Some(match text {
             Err(error) => Err(TraceError::read(&self.path, error)),
@@ -110,6 +113,20 @@ impl Iterator for TraceReader {
             }),
         })
     }
+}
+
+/// The next line, without its end; None at the end of the file. What is no trace may have no line's end at all.
+fn next_line(file: &mut BufReader<File>, most: u64) -> io::Result<Option<String>> {
+    let mut line = Vec::new();
+    file.by_ref().take(most + 1).read_until(b'\n', &mut line)?;
+    if line.len() as u64 > most {
+        return Err(io::Error::new(ErrorKind::InvalidData, "a line of it is too long for a trace"));
+    }
+    if line.is_empty() {
+        return Ok(None);
+    }
+    line.pop_if(|byte| *byte == b'\n');
+    String::from_utf8(line).map(Some).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is no text"))
 }
 
 fn header(text: &str) -> Result<TraceHeader, String> {

@@ -1,0 +1,91 @@
+//! How many tiles of a cast are handed to the driver at a time.
+
+use std::time::Duration;
+
+/// Tiles of the first batch: few, because nobody knows yet how long they take.
+const FIRST: usize = 256;
+
+/// A number of tiles that take about as long as a batch may, learnt from batch to batch. Whoever asks a cast to leave off
+/// waits for no longer, and drivers give up on what takes seconds.
+#[derive(Debug)]
+pub(super) struct BatchSize {
+    tiles: usize,
+    aim: Duration,
+    most: usize,
+}
+
+impl BatchSize {
+    /// Before anything has been cast. On a driver in software batches take longer: it deals tiles out to its threads
+    /// beforehand, which then wait for each other, so that small batches leave threads idle.
+    pub fn new(is_software: bool) -> Self {
+        let (aim, most) = match is_software {
+            true => (Duration::from_secs(1), 2048),
+            false => (Duration::from_millis(8), 16_384),
+        };
+        Self { tiles: FIRST, aim, most }
+    }
+
+    /// Tiles of the next batch.
+    pub fn tiles(&self) -> usize {
+        self.tiles
+    }
+
+    /// A batch of so many tiles took so long. Small ones, at the end of a cast, tell nothing.
+    pub fn learn(&mut self, tiles: usize, took: Duration) {
+        if took > 2 * self.aim {
+            let share = self.aim.as_secs_f64() / took.as_secs_f64();
+            self.tiles = ((tiles as f64 * share) as usize).clamp(1, self.tiles);
+        } else if tiles == self.tiles && 2 * took < self.aim {
+            self.tiles = (2 * tiles).min(self.most);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sizes and times of the batches of a cast whose tiles each take so long.
+    fn batches(size: &mut BatchSize, tiles: usize, each: Duration) -> Vec<(usize, Duration)> {
+        let mut left = tiles;
+        std::iter::from_fn(|| {
+            let batch = left.min(size.tiles());
+            left -= batch;
+            let took = each * batch as u32;
+            size.learn(batch, took);
+            (batch > 0).then_some((batch, took))
+        })
+        .collect()
+    }
+
+    #[test]
+    fn batches_grow_to_their_aim_and_no_further() {
+        for (is_software, each, largest) in [
+            (false, Duration::from_micros(10), 512),
+            (false, Duration::from_nanos(1), 16_384),
+            (true, Duration::from_micros(1), 2048),
+            (true, Duration::from_millis(1), 512),
+        ] {
+            let mut size = BatchSize::new(is_software);
+            let batches = batches(&mut size, 1 << 17, each);
+            assert_eq!(batches.iter().map(|batch| batch.0).max(), Some(largest), "{each:?}");
+            assert_eq!(batches.iter().map(|batch| batch.0).sum::<usize>(), 1 << 17);
+        }
+    }
+
+    #[test]
+    fn tiles_that_take_a_hundred_times_as_long_cost_one_long_batch() {
+        let mut size = BatchSize::new(true);
+        batches(&mut size, 1 << 14, Duration::from_micros(50));
+        let slow = batches(&mut size, 1 << 12, Duration::from_millis(8));
+        let long = slow.iter().filter(|(_, took)| *took > Duration::from_secs(2)).count();
+        assert_eq!((long, slow[1].0), (1, 125), "{slow:?}");
+    }
+
+    #[test]
+    fn one_tile_is_always_cast() {
+        let mut size = BatchSize::new(false);
+        assert!(batches(&mut size, 1 << 10, Duration::from_secs(1)).iter().all(|(tiles, _)| *tiles >= 1));
+        assert_eq!(size.tiles(), 1);
+    }
+}
