@@ -29,7 +29,7 @@ impl Engine {
             bricks_loaded: work.account.bricks_loaded,
             bytes_loaded: work.account.bytes_loaded,
             working_set_union: 0,
-            working_set_sum: 0,
+            working_set_sum: None,
             complete: shortfall.is_empty(),
             shortfall,
             damaged_bricks: damage.missed(),
@@ -56,6 +56,8 @@ impl Engine {
             ))
         } else if *fading > 0 {
             Some(format!("the detail of {fading} nodes is coming or going"))
+        } else if self.easing.is_behind() {
+            Some("the picture is on its way to the detail that has come".to_owned())
         } else {
             (!is_known).then(|| "it is not known yet what rays of this frame lack".to_owned())
         }

@@ -28,8 +28,8 @@ pub(super) fn mark_beside(cut: &mut Cut, memory: Option<Memory>, order: &[u32]) 
         let Some(finest) = met.map(|(_, node)| node.key.depth).max() else { return };
         for (place, node) in inside().filter(|&(place, _)| holds[place as usize]) {
             match node.key.depth.cmp(&finest) {
-                std::cmp::Ordering::Less => found.push((place, Beside::Finer)),
-                std::cmp::Ordering::Equal => found.push((place, Beside::AsFine)),
+                std::cmp::Ordering::Less if node.is_visible => found.push((place, Beside::Finer)),
+                std::cmp::Ordering::Less | std::cmp::Ordering::Equal => found.push((place, Beside::AsFine)),
                 std::cmp::Ordering::Greater => {}
             }
         }

@@ -43,9 +43,9 @@ pub enum Beside {
     /// Rays meet none of them that is as fine, or they meet the leaf.
     #[default]
     Nothing,
-    /// Rays meet one that is as fine, and none that is finer.
+    /// Rays meet one that is as fine, and none that blends down to it.
     AsFine,
-    /// Rays meet one that is finer, and blends down to it.
+    /// Rays meet one that is finer, and that blends down to it, as it shows something.
     Finer,
 }
 
