@@ -1,16 +1,23 @@
-//! The time of a whole update of the working set on one core: feedback, priorities, restriction, weights.
+//! The time of a whole update of the working set on one core: feedback, priorities, restriction, weights, index, and what
+//! the device is given.
 //!
 //! `cargo bench -p lightloom-tests --bench working_set`; LIGHTLOOM_BENCH_ROUNDS=n measures n frames of each size (60). The
 //! volume is a box of solid values that moves to and fro in front of the screen; rays meet every leaf, a tenth of the leaves
-//! changes its depth in a second, and every brick comes at once.
+//! changes its depth in a second, and every brick comes at once. Every size is measured with room for all bricks, and with
+//! room for three quarters of them, for which families then have to make way. A device's memory stands in for the device:
+//! bricks that come and the index are copied, and what rays found is read from a table as it is downloaded.
 
 use bricks::LodRule;
 use bricks::{NodeKey, NodeSummary, OctreeShape};
 use glam::{DAffine3, DVec3, UVec3};
+use layout::{FeedbackEntry, code_from_deficit, deficit_from_code};
 use lightloom_tests::results::{Program, Results};
 use optics::{Curve, Optics};
-use renderer::working_set::{Feedback, IndexRules, Moment, Showing, Supply, WorkingSet, corner_weights};
-use std::time::Instant;
+use renderer::working_set::{
+    Arrival, Feedback, IndexRules, Moment, SAMPLE_BYTES, Showing, Supply, WorkingSet, build_index,
+    corner_weights,
+};
+use std::time::{Duration, Instant};
 
 /// Finest voxels along an edge: eight levels.
 const EDGE: u32 = 28 << 7;
@@ -33,10 +40,19 @@ fn rule(lod_scale: f64, z: f64) -> LodRule {
     }
 }
 
-/// Stands for a disk that has everything at once; it notes when it was asked and when it had delivered.
+/// The share of the bricks that a small cache has room for.
+const ROOM: f64 = 0.75;
+/// Room for any number of bricks.
+const AMPLE: u32 = 1 << 20;
+
+/// Stands for a disk that has everything at once, and for the way to the device; it notes when it was asked and when it had
+/// delivered, and how long bricks took on the way.
 struct Disk {
     asked: Instant,
     delivered: Instant,
+    uploading: Duration,
+    brick: Vec<u16>,
+    slot: Vec<u16>,
 }
 
 impl Supply for Disk {
@@ -46,36 +62,94 @@ impl Supply for Disk {
 
     fn deliver(&mut self, set: &mut WorkingSet) {
         for key in set.wanted().to_vec() {
-            set.arrived(key, 0.0, 1.0);
+            if let Arrival::Slot(_) = set.arrived(key, 0.0, 1.0) {
+                let started = Instant::now();
+                self.slot.copy_from_slice(&self.brick);
+                std::hint::black_box(&mut self.slot);
+                self.uploading += started.elapsed();
+            }
         }
         self.delivered = Instant::now();
     }
 }
 
-/// One frame; milliseconds of choosing, showing and weighing, without what stands for rays and disk.
-fn frame(set: &mut WorkingSet, shape: &OctreeShape, rule: &LodRule, optics: &Optics, now_s: f64) -> [f64; 3] {
+/// The parts of a frame.
+const PARTS: usize = 6;
+
+/// One frame; milliseconds of taking in what rays found, of choosing, of showing, of weighing, of the index and of bricks.
+fn frame(
+    set: &mut WorkingSet,
+    shape: &OctreeShape,
+    rule: &LodRule,
+    optics: &Optics,
+    now_s: f64,
+) -> [f64; PARTS] {
     let summary = |_: NodeKey| NodeSummary { min: 0.4, max: 0.6 };
-    let rules =
-        IndexRules { shape, lod: rule, optics, is_quadrilinear: false, blank_slot: None, deviations: &[] };
+    let rules = IndexRules {
+        shape,
+        lod: rule,
+        optics,
+        is_quadrilinear: false,
+        blank_slot: Some(AMPLE),
+        deviations: &[],
+    };
     let moment =
         Moment { rules, summary: &summary, now_s, is_still: false, fade_s: 0.3, most_in_flight: 1 << 20 };
-    let leaf = |place: &u32| {
-        let node = set.cut().node(*place);
-        node.shown_child().is_none() && shape.contains(node.key)
-    };
-    let met: Vec<Feedback> = set
-        .cut()
-        .walk_shown()
-        .filter(leaf)
-        .map(|place| Feedback::met(set.cut().node(place).key, place % 97))
-        .collect();
+    let table: Vec<FeedbackEntry> = rays_found(set, shape);
+    let keys: Vec<NodeKey> = set.cut().nodes().iter().map(|node| node.key).collect();
     let started = Instant::now();
-    let mut disk = Disk { asked: started, delivered: started };
+    let downloaded = std::hint::black_box(table.clone());
+    let found = |(&key, entry): (&NodeKey, &FeedbackEntry)| {
+        let deficit = f64::from(deficit_from_code(entry.deficit_code)?);
+        Some(Feedback { key, rays: entry.rays, deficit })
+    };
+    let met: Vec<Feedback> = keys.iter().zip(&downloaded).filter_map(found).collect();
+    let learning = started.elapsed();
+    let started = Instant::now();
+    let samples = SAMPLE_BYTES as usize / 2;
+    let mut disk = Disk {
+        asked: started,
+        delivered: started,
+        uploading: Duration::ZERO,
+        brick: vec![1; samples],
+        slot: vec![0; samples],
+    };
+    let started = Instant::now();
     set.step(&moment, &met, Showing::InTime { before: None }, &mut disk);
     let (chosen, shown) = (disk.asked - started, disk.delivered.elapsed());
     let started = Instant::now();
-    std::hint::black_box(corner_weights(set.cut(), &rules, &summary, |_| false));
-    [chosen, shown, started.elapsed()].map(|spent| spent.as_secs_f64() * 1e3)
+    let weights = corner_weights(set.cut(), &rules, &summary, |_| false);
+    let weighing = started.elapsed();
+    let started = Instant::now();
+    let index = build_index(set.cut(), &weights, &rules);
+    std::hint::black_box(index.clone());
+    let indexing = started.elapsed();
+    [learning, chosen, shown, weighing, indexing, disk.uploading].map(|spent| spent.as_secs_f64() * 1e3)
+}
+
+/// A table in which rays met every leaf.
+fn rays_found(set: &WorkingSet, shape: &OctreeShape) -> Vec<FeedbackEntry> {
+    let mut table = vec![FeedbackEntry::default(); set.cut().nodes().len()];
+    for place in set.cut().shown_leaves().filter(|&place| shape.contains(set.cut().node(place).key)) {
+        let deficit_code = code_from_deficit(set.cut().node(place).deficit as f32);
+        table[place as usize] = FeedbackEntry { deficit_code, rays: 1 + place % 97 };
+    }
+    table
+}
+
+/// A working set at rest.
+fn at_rest(slots: u32, scale: f64, shape: &OctreeShape, optics: &Optics, most: usize) -> WorkingSet {
+    let mut set = WorkingSet::new(NodeSummary { min: 0.4, max: 0.6 }, slots);
+    let mut before = 0;
+    for n in 0..200 {
+        frame(&mut set, shape, &rule(scale, 0.7), optics, f64::from(n) * 0.1);
+        let now = set.cut().walk().count();
+        if (now == before && n > 12) || now > most {
+            break;
+        }
+        before = now;
+    }
+    set
 }
 
 /// The scale of detail with which about so many nodes are resident, and a working set at rest with it.
@@ -83,22 +157,44 @@ fn settled(shape: &OctreeShape, optics: &Optics, nodes: usize) -> (f64, WorkingS
     let (mut low, mut high) = (0.01, 10.0);
     loop {
         let scale = f64::sqrt(low * high);
-        let mut set = WorkingSet::new(NodeSummary { min: 0.4, max: 0.6 }, 1 << 20);
-        let mut before = 0;
-        for n in 0..200 {
-            frame(&mut set, shape, &rule(scale, 0.7), optics, f64::from(n) * 0.1);
-            let now = set.cut().walk().count();
-            if (now == before && n > 12) || now > 2 * nodes {
-                break;
-            }
-            before = now;
-        }
+        let set = at_rest(AMPLE, scale, shape, optics, 2 * nodes);
         let found = set.cut().walk().count();
         if found.abs_diff(nodes) * 8 < nodes || high / low < 1.0001 {
             return (scale, set);
         }
         if found > nodes { low = scale } else { high = scale }
     }
+}
+
+/// The row of a working set whose volume moves to and fro.
+fn measured(
+    room: &str,
+    mut set: WorkingSet,
+    rounds: u32,
+    scale: f64,
+    shape: &OctreeShape,
+    optics: &Optics,
+) -> String {
+    let (mut times, mut nodes, mut changes) = (Vec::new(), 0, 0);
+    for n in 0..rounds {
+        let z = 0.7 + 0.05 * (f64::from(n) * 0.1).sin();
+        let now_s = 100.0 + f64::from(n) / 60.0;
+        times.push(frame(&mut set, shape, &rule(scale, z), optics, now_s));
+        nodes += set.cut().walk().count();
+        changes += set.splits + set.collapses();
+    }
+    let nodes = nodes as f64 / f64::from(rounds);
+    let median = |part: usize| quantile(times.iter().map(|parts: &[f64; PARTS]| parts[part]), 0.5);
+    let parts: Vec<String> = (0..PARTS).map(|part| format!("{:.3}", median(part))).collect();
+    let all = |share| quantile(times.iter().map(|parts| parts.iter().sum()), share);
+    format!(
+        "| {nodes:.0} | {room} | {:.1} | {} | {:.3} | {:.3} | {:.1} |",
+        changes as f64 / f64::from(rounds),
+        parts.join(" | "),
+        all(0.5),
+        all(0.9),
+        1e6 * all(0.5) / (nodes * nodes.log2())
+    )
 }
 
 fn main() -> Result<(), String> {
@@ -108,30 +204,15 @@ fn main() -> Result<(), String> {
     let (shape, optics) = (OctreeShape::new(UVec3::splat(EDGE)), optics());
     results.line(format!("One update on one core, the median and the 90th percentile of {rounds} frames\n"));
     results.line(
-        "| nodes | families that came or went a frame | choosing, ms | showing, ms | weights, ms | all, ms | 90 %, ms | ns per n log2 n |",
+        "| nodes | room for | came or went a frame: families | feedback, ms | choosing | showing | weights | index | bricks | all | 90 % | ns per n log2 n |",
     );
-    results.line("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    results.line("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for size in SIZES {
-        let (scale, mut set) = settled(&shape, &optics, size);
-        let (mut times, mut nodes, mut changes) = (Vec::new(), 0, 0);
-        for n in 0..rounds {
-            let z = 0.7 + 0.05 * (f64::from(n) * 0.1).sin();
-            let now_s = 100.0 + f64::from(n) / 60.0;
-            times.push(frame(&mut set, &shape, &rule(scale, z), &optics, now_s));
-            nodes += set.cut().walk().count();
-            changes += set.splits + set.collapses();
-        }
-        let nodes = nodes as f64 / f64::from(rounds);
-        let [choosing, showing, weighing] =
-            [0, 1, 2].map(|part| quantile(times.iter().map(|parts: &[f64; 3]| parts[part]), 0.5));
-        let all = |share| quantile(times.iter().map(|parts| parts.iter().sum()), share);
-        results.line(format!(
-            "| {nodes:.0} | {:.1} | {choosing:.3} | {showing:.3} | {weighing:.3} | {:.3} | {:.3} | {:.1} |",
-            changes as f64 / f64::from(rounds),
-            all(0.5),
-            all(0.9),
-            1e6 * all(0.5) / (nodes * nodes.log2())
-        ));
+        let (scale, set) = settled(&shape, &optics, size);
+        let slots = (set.slots().used() as f64 * ROOM) as u32;
+        results.line(measured("all", set, rounds, scale, &shape, &optics));
+        let small = at_rest(slots, scale, &shape, &optics, usize::MAX);
+        results.line(measured(&format!("{:.0} %", 100.0 * ROOM), small, rounds, scale, &shape, &optics));
     }
     results.finish()
 }

@@ -235,7 +235,7 @@ fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) -> Result<
         };
         let (mean, largest) = of(&|n| n.0.working_set_union);
         let (held, most_held) = of(&|n| n.0.bricks_resident);
-        let (sum, _) = of(&|n| n.0.working_set_sum);
+        let (sum, _) = of(&|n| n.0.working_set_sum.expect("a complete frame counts its views"));
         let (ideal, _) = of(&|n| n.1 as u64);
         results.line(format!(
             "| {opacity} | {mean:.0} | {largest} | {:.2} | {:.2} | {held:.0} | {most_held} | {ideal:.0} |",

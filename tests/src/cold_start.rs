@@ -33,9 +33,6 @@ pub fn cold_start(
     for index in 0..most {
         let time_s = f64::from(index) / FRAMES_PER_SECOND;
         let (images, report) = draw_with(renderer, &FrameState { index, time_s, ..frame.clone() });
-        if report.bricks_resident == 0 {
-            continue;
-        }
         let image = images.into_iter().next().expect("one projector is drawn");
         if let Some(last) = &last {
             let changes = steps(last, &image);
@@ -45,6 +42,10 @@ pub fn cold_start(
             found.step = found.step.max(Spread::of(changes));
         }
         last = Some(image);
+        // The coarsest brick itself appears out of the dark.
+        if report.bricks_resident == 0 {
+            continue;
+        }
         found.frames += 1;
         if report.complete {
             found.rest_s = Some(f64::from(found.frames - 1) / FRAMES_PER_SECOND);

@@ -120,3 +120,93 @@ impl MeasuredRule {
         (nearest, back.abs().max(front.abs()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DQuat, UVec3};
+    use proptest::prelude::*;
+    use std::collections::HashSet;
+
+    /// The inner nodes of the cut that a rule asks for.
+    fn inner_nodes(rule: &MeasuredRule, shape: &OctreeShape) -> HashSet<NodeKey> {
+        let splits = |key: &NodeKey| key.depth < shape.finest_depth() && rule.deficit(shape, *key) > 0.0;
+        let (mut inner, mut open) = (HashSet::new(), vec![NodeKey::ROOT]);
+        while let Some(key) = open.pop() {
+            if splits(&key) {
+                inner.insert(key);
+                open.extend((0..8).map(|octant| key.child(octant)).filter(|&child| shape.contains(child)));
+            }
+        }
+        inner
+    }
+
+    /// The rule without a limit: what the display resolves, and no more.
+    fn unlimited(rule: &LodRule) -> MeasuredRule {
+        MeasuredRule { slope: rule.lod_scale * rule.resolution().slope(), ..rule.measured() }
+    }
+
+    /// Splits leaves that touch what is two levels finer, until there are none.
+    fn restricted(mut inner: HashSet<NodeKey>, shape: &OctreeShape) -> HashSet<NodeKey> {
+        loop {
+            let mut forced = HashSet::new();
+            for key in inner.iter().filter(|key| key.depth > 0) {
+                for offset in (0..27).map(|i| glam::IVec3::new(i % 3, i / 3 % 3, i / 9) - 1) {
+                    let cell = key.cell.as_ivec3() + offset;
+                    let touching = NodeKey { depth: key.depth, cell: cell.max(glam::IVec3::ZERO).as_uvec3() };
+                    if cell.min_element() >= 0 && shape.contains(touching) {
+                        forced.extend(touching.parent().filter(|parent| !inner.contains(parent)));
+                    }
+                }
+            }
+            if forced.is_empty() {
+                return inner;
+            }
+            inner.extend(forced);
+        }
+    }
+
+    prop_compose! {
+        /// A rule that asks for anything from the finest level to the root within a volume.
+        fn rules()(
+            turn in prop::array::uniform4(-1.0..1.0_f64), z in -0.6..0.6_f64, stretch in 0.3..1.0_f64,
+            pixel in 0.3..4.0_f64, slope in 0.0..1.0_f64,
+        ) -> LodRule {
+            let turn = DQuat::from_array(turn);
+            let turn = if turn.length() > 0.1 { turn.normalize() } else { DQuat::IDENTITY };
+            let place = DAffine3::from_translation(DVec3::new(0.0, 0.0, z)) * DAffine3::from_quat(turn);
+            LodRule {
+                display_from_volume: place * DAffine3::from_scale(1e-3 * DVec3::new(1.0, 1.0, stretch)),
+                pixel_size_m: 1e-3 * pixel,
+                angular_accuracy: slope,
+                lod_scale: 1.0,
+            }
+        }
+    }
+
+    proptest! {
+        /// No two touching leaves are more than one level apart, and nothing is coarser than the display resolves.
+        #[test]
+        fn the_cut_is_restricted(rule in rules(), dims in prop::array::uniform3(1..330_u32)) {
+            let shape = OctreeShape::new(UVec3::from_array(dims));
+            let inner = inner_nodes(&rule.measured(), &shape);
+            prop_assert_eq!(&restricted(inner.clone(), &shape), &inner);
+            prop_assert!(inner_nodes(&unlimited(&rule), &shape).is_subset(&inner));
+        }
+    }
+
+    /// The canary.
+    #[test]
+    fn without_a_limit_to_the_slope_the_cut_is_not_restricted() {
+        let place = DAffine3::from_translation(DVec3::new(0.0, 0.0, -0.09));
+        let rule = LodRule {
+            display_from_volume: place * DAffine3::from_scale(DVec3::splat(1e-3)),
+            pixel_size_m: 1e-3,
+            angular_accuracy: 0.5,
+            lod_scale: 1.0,
+        };
+        let shape = OctreeShape::new(UVec3::splat(28 * 16));
+        let inner = inner_nodes(&unlimited(&rule), &shape);
+        assert!(restricted(inner.clone(), &shape).len() > inner.len());
+    }
+}

@@ -112,7 +112,7 @@ fn report(frame: u32, backend: u32) -> FrameReport {
         bricks_loaded: 5,
         bytes_loaded: 6,
         working_set_union: 7,
-        working_set_sum: 8,
+        working_set_sum: Some(8),
         complete: true,
         shortfall: String::new(),
         upkeep: None,

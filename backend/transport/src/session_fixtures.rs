@@ -41,7 +41,7 @@ pub(crate) fn report(frame: u32, backend: u32) -> FrameReport {
         bricks_loaded: 0,
         bytes_loaded: 0,
         working_set_union: 0,
-        working_set_sum: 0,
+        working_set_sum: None,
         complete: true,
         shortfall: String::new(),
         upkeep: None,

@@ -74,7 +74,7 @@ fn account(frame: u32) -> FrameReport {
         bricks_loaded: 1,
         bytes_loaded: 1,
         working_set_union: 1,
-        working_set_sum: 1,
+        working_set_sum: Some(1),
         complete: false,
         shortfall: "the cache is full <b>".into(),
         upkeep: None,

@@ -61,8 +61,8 @@ pub struct Totals {
     pub bytes_loaded: u64,
     /// Distinct bricks per back-end, added up over back-ends.
     pub working_set_union: u64,
-    /// Distinct bricks per view, added up over views.
-    pub working_set_sum: u64,
+    /// Distinct bricks per view, added up over views; None where a frame was live, whose views count together.
+    pub working_set_sum: Option<u64>,
     /// Time per stage, added up over back-ends.
     pub stages: Stages,
     /// Bricks that cannot be read and were missed, added up over back-ends and frames.
@@ -81,7 +81,8 @@ pub struct Totals {
 impl Totals {
     /// The sum of some reports; complete where all are.
     pub fn of<'a>(reports: impl IntoIterator<Item = &'a FrameReport>) -> Self {
-        reports.into_iter().fold(Self { complete: true, ..Self::default() }, Self::plus)
+        let none = Self { complete: true, working_set_sum: Some(0), ..Self::default() };
+        reports.into_iter().fold(none, Self::plus)
     }
 
     fn plus(mut self, report: &FrameReport) -> Self {
@@ -92,7 +93,7 @@ impl Totals {
         self.bricks_loaded += report.bricks_loaded;
         self.bytes_loaded += report.bytes_loaded;
         self.working_set_union += report.working_set_union;
-        self.working_set_sum += report.working_set_sum;
+        self.working_set_sum = self.working_set_sum.zip(report.working_set_sum).map(|(a, b)| a + b);
         self.stages = stages_sum(self.stages, report.stages);
         self.damaged_bricks += report.damaged_bricks;
         for sentence in &report.damaged {

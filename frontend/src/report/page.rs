@@ -233,7 +233,7 @@ fn row(name: String, ms: f64, total: &Totals) -> Vec<String> {
         bricks(total.bricks_loaded),
         units::bytes(total.bytes_loaded),
         bricks(total.working_set_union),
-        bricks(total.working_set_sum),
+        total.working_set_sum.map_or_else(|| "not counted".to_owned(), bricks),
     ]
 }
 

@@ -70,7 +70,7 @@ fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
         bricks_loaded: 27,
         bytes_loaded: 27 << 15,
         working_set_union: 20,
-        working_set_sum: 60,
+        working_set_sum: Some(60),
         complete: backend == 0,
         shortfall: if backend == 0 { String::new() } else { "the cache is full <b>".into() },
         upkeep: None,
@@ -96,6 +96,12 @@ fn upkeep_of(frame: &FrameState, report: &FrameReport) -> Option<Upkeep> {
     (frame.pace != Pace::Complete).then_some(live)
 }
 
+/// What a live frame tells besides what it has in common with others, and what it does not.
+fn told(frame: &FrameState, report: FrameReport) -> FrameReport {
+    let working_set_sum = report.working_set_sum.filter(|_| frame.pace == Pace::Complete);
+    FrameReport { upkeep: upkeep_of(frame, &report), working_set_sum, ..report }
+}
+
 impl Draw for Gradients {
     fn draw(
         &mut self,
@@ -114,7 +120,7 @@ impl Draw for Gradients {
         let half = self.projectors / 2;
         let shares = [(0..half).collect(), (half..self.projectors).collect()];
         let reports = shares.into_iter().zip(0..).map(|(share, b)| account(frame.index, b, share));
-        Ok(reports.map(|report| FrameReport { upkeep: upkeep_of(frame, &report), ..report }).collect())
+        Ok(reports.map(|report| told(frame, report)).collect())
     }
 }
 
@@ -195,6 +201,8 @@ fn the_report_tells_what_live_frames_did_to_the_working_set() {
     let folder = tempfile::tempdir().unwrap();
     let mut job = job(folder.path(), 4, 2, |_| 0.25);
     let (json, html) = reports(&job, folder.path());
+    assert_eq!(json["frames"][0]["total"]["working_set_sum"], 120);
+    assert!(!html.contains("not counted"));
     assert!(json["frames"][0]["total"]["upkeep"].is_null() && !html.contains("Working set of live frames"));
     job.pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.4 };
     let (json, html) = reports(&job, folder.path());
@@ -203,6 +211,9 @@ fn the_report_tells_what_live_frames_did_to_the_working_set() {
     // Both back-ends have cast as many rays: the largest is the first's, the mean that of 0.5 and 1.5.
     assert_eq!((&upkeep["largest_deficit"], &upkeep["mean_deficit"]), (&2.5.into(), &1.0.into()));
     assert_eq!(upkeep["update_ms"], 0.5);
+    // The views of a live frame share one table of feedback.
+    assert!(json["frames"][0]["total"]["working_set_sum"].is_null());
+    assert!(json["total"]["working_set_sum"].is_null() && html.contains("<td>not counted</td>"));
     assert!(json["total"]["upkeep"].is_null(), "nodes do not add up over time");
     assert!(html.contains("Working set of live frames") && html.contains("<td>2.50 levels</td>"));
 }

@@ -4,6 +4,7 @@ use bricks::procedural::ProceduralVolume;
 use bricks::{BrickSource, NodeKey};
 use display_config::Display;
 use glam::{DQuat, UVec3};
+use lightloom_tests::cold_start::cold_start;
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::faulty_source::{FOR_EVER, Fault, FaultySource};
 use lightloom_tests::remembered::Remembered;
@@ -18,6 +19,8 @@ use std::time::Duration;
 const PROJECTORS: [u32; 2] = [35, 36];
 /// Voxels along an edge.
 const EDGE: u32 = 700;
+/// What a pixel of a still view may change by in a frame.
+const MOST_STEP: f64 = 12.0 / 255.0;
 /// A view that has not come to rest by then does not.
 const MOST_FRAMES: u32 = 4000;
 
@@ -50,14 +53,17 @@ fn live(frame: &FrameState, index: u32) -> FrameState {
 
 /// Draws live frames until one says that nothing is missing.
 fn come_to_rest(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorImage>, FrameReport) {
+    let mut lacks = String::new();
     for index in 0..MOST_FRAMES {
         let (images, report) = draw_with(renderer, &live(frame, index));
+        assert_eq!(report.working_set_sum, None, "the views of a live frame count together");
         if report.complete {
             return (images, report);
         }
+        lacks = report.shortfall;
         std::thread::sleep(Duration::from_millis(1));
     }
-    panic!("not at rest after {MOST_FRAMES} frames");
+    panic!("not at rest after {MOST_FRAMES} frames: {lacks}");
 }
 
 fn assert_same(live: &[ProjectorImage], complete: &[ProjectorImage], what: &str) {
@@ -99,6 +105,28 @@ fn a_still_view_comes_to_rest_at_the_complete_picture_to_the_bit() {
     }
     // The canary: blending does something here.
     assert!(pictures[0].iter().zip(&pictures[2]).any(|(a, b)| a.rgba != b.rgba), "no borders are to be seen");
+}
+
+#[test]
+fn a_cold_start_changes_no_pixel_by_much() {
+    let _turn = draw::turn();
+    let display = display();
+    let scene = scene(&display);
+    let start = |fade_s| {
+        let pace = Pace::Live { upload_bytes: 4 << 20, fade_s };
+        let mut cold = draw::renderer(
+            &display,
+            &scene.source,
+            &PROJECTORS[..1],
+            With { cache_bytes: 256 << 20, ..With::device(DeviceChoice::Cpu) },
+        );
+        cold_start(&mut cold.0, &FrameState { pace, ..scene.frame.clone() }, MOST_FRAMES, |_| true)
+    };
+    let eased = start(0.4);
+    assert!(eased.rest_s.is_some(), "it comes to rest");
+    assert!(eased.step.max <= MOST_STEP + 1e-6, "{}", eased.step);
+    // The canary: without fades it does.
+    assert!(start(0.0).step.max > 4.0 * MOST_STEP);
 }
 
 #[test]

@@ -207,7 +207,7 @@ impl Complete {
         FrameReport {
             bricks_wanted: resident + self.without_room.len() as u64,
             working_set_union: self.union.len() as u64,
-            working_set_sum: self.sum,
+            working_set_sum: Some(self.sum),
             ..report
         }
     }

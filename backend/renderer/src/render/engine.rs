@@ -1,6 +1,7 @@
 //! What frames are drawn with: the device, the working set, and what stands between them.
 
 use super::RenderError;
+use super::easing::Easing;
 use super::live_memory::Live;
 use super::recording::Recording;
 use super::shelf::Shelf;
@@ -21,6 +22,7 @@ pub(super) struct Engine {
     pub(super) shelf: Shelf,
     pub(super) tables: TableCache,
     pub(super) live: Live,
+    pub(super) easing: Easing,
     pub(super) recording: Recording,
 }
 
@@ -49,6 +51,7 @@ impl Engine {
             stock: Stock::new(source, loader),
             tables: TableCache::default(),
             live: Live::default(),
+            easing: Easing::default(),
             recording: Recording::default(),
         };
         Ok((engine, info))

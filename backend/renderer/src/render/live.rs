@@ -65,7 +65,7 @@ impl LiveFrame {
             summary: &summary,
             now_s: live.now_s(&work.frame),
             is_still,
-            fade_s,
+            fade_s: Moment::fade_of(fade_s, is_still),
             most_in_flight: most_in_flight(upload_bytes),
         };
         let refined_before = work.account.stages.refine_ms;
@@ -88,6 +88,7 @@ impl LiveFrame {
         engine.device.end_feedback(FeedbackTag { keys: keys_of(engine.set.cut()), frame });
         work.account.done = work.account.total;
         work.finals.extend(&work.setting.projectors);
+        work.eases = self.is_still && self.fade_s > 0.0 && work.frame.quality.blended;
         let report = self.report(work, engine, upkeep);
         engine.live.last = Some(as_seen(&work.frame));
         report
@@ -109,7 +110,7 @@ impl LiveFrame {
         let shortfall = engine.live_shortfall(short, is_known, &upkeep);
         let bricks_wanted = engine.set.slots().used() + upkeep.in_flight;
         let report = engine.frame_report(work, shortfall, Some(upkeep));
-        FrameReport { bricks_wanted, working_set_union: sampled, working_set_sum: sampled, ..report }
+        FrameReport { bricks_wanted, working_set_union: sampled, ..report }
     }
 }
 
@@ -141,6 +142,7 @@ impl Engine {
     pub(super) fn leave_live(&mut self) -> Result<(), RenderError> {
         self.take_last_feedback()?;
         self.stock.loader.want(&[], &[]);
+        self.easing.forget();
         self.live = Live { ahead_s: self.live.ahead_s, ..Live::default() };
         Ok(())
     }

@@ -13,6 +13,7 @@ mod course;
 mod damage;
 #[cfg(test)]
 mod damage_tests;
+mod easing;
 mod engine;
 mod error;
 mod feedback;

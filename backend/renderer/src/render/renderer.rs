@@ -11,7 +11,7 @@ use super::work::Work;
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
-    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, ProjectorImage, Render, RenderEvent,
+    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
     RendererOptions, StopAsked, VolumeRef,
 };
 use std::path::PathBuf;
@@ -125,8 +125,12 @@ impl Renderer {
             self.course.as_mut().map(|course| std::mem::take(&mut course.work.finals)).unwrap_or_default();
         for projector in finals {
             let started = std::time::Instant::now();
-            let image = self.picture(projector)?;
+            let mut image = self.picture(projector)?;
             if let Some(Course { work, .. }) = &mut self.course {
+                if let (Some(image), Pace::Live { .. }) = (&mut image, work.frame.pace) {
+                    let Engine { easing, live, .. } = &mut self.engine;
+                    easing.show(image, live.now_s(&work.frame), work.eases);
+                }
                 work.account.stages.readback_ms += super::account::milliseconds(started);
             }
             image.into_iter().for_each(&mut *sink);

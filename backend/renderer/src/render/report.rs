@@ -29,7 +29,7 @@ impl Engine {
             bricks_loaded: work.account.bricks_loaded,
             bytes_loaded: work.account.bytes_loaded,
             working_set_union: 0,
-            working_set_sum: 0,
+            working_set_sum: None,
             complete: shortfall.is_empty(),
             shortfall,
             damaged_bricks: damage.missed(),
@@ -43,15 +43,21 @@ impl Engine {
     /// Why a live frame is not complete, by what rays of the frame before found, if it showed the same.
     pub(super) fn live_shortfall(&self, short: usize, is_known: bool, upkeep: &Upkeep) -> Option<String> {
         let Upkeep { in_flight, fading, .. } = upkeep;
-        let root = self.set.cut().node(0);
+        let (root, beside) = (self.set.cut().node(0), self.set.short_beside());
         if root.brick.is_none() && root.is_visible {
             Some("the volume's coarsest brick has not come yet".to_owned())
         } else if short > 0 {
             Some(format!(
                 "{short} nodes are shown coarser than the display resolves, {in_flight} bricks are on their way"
             ))
+        } else if beside > 0 {
+            Some(format!(
+                "{beside} nodes that no ray meets are too coarse for those beside them, {in_flight} bricks are on their way"
+            ))
         } else if *fading > 0 {
             Some(format!("the detail of {fading} nodes is coming or going"))
+        } else if self.easing.is_behind() {
+            Some("the picture is on its way to the detail that has come".to_owned())
         } else {
             (!is_known).then(|| "it is not known yet what rays of this frame lack".to_owned())
         }

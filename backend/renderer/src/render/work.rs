@@ -48,6 +48,8 @@ pub(super) struct Work {
     pub(super) missing: Vec<Vec<u32>>,
     /// Projectors whose pictures are final and have not been presented.
     pub(super) finals: Vec<u32>,
+    /// Whether these are shown by and by.
+    pub(super) eases: bool,
 }
 
 impl Work {
@@ -60,6 +62,7 @@ impl Work {
             found: Vec::new(),
             missing: Vec::new(),
             finals: Vec::new(),
+            eases: false,
         }
     }
 

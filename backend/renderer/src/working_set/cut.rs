@@ -24,8 +24,8 @@ pub struct CutNode {
     pub deficit: f64,
     /// Its share of its own samples, its parent having the rest: t of the spatiotemporal blend.
     pub shown: f32,
-    /// As a leaf: how far it lets finer neighbours show themselves at shared corners. 0 if they must blend down to
-    /// it, 1 if no viewer sees a border.
+    /// As a leaf: how far it lets finer neighbours show themselves at shared corners. 0 if they blend down to it, 1 if
+    /// it shows nothing.
     pub permits: f32,
     /// What becomes of its children.
     pub family: Family,
@@ -33,6 +33,20 @@ pub struct CutNode {
     pub is_leaving: bool,
     /// What rays reported of it.
     pub met: Meeting,
+    /// Where it is a leaf that no ray meets: how it stands to what rays meet around it.
+    pub beside: Beside,
+}
+
+/// How a leaf that no ray meets stands to those around it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Beside {
+    /// Rays meet none of them that is as fine, or they meet the leaf.
+    #[default]
+    Nothing,
+    /// Rays meet one that is as fine, and none that blends down to it.
+    AsFine,
+    /// Rays meet one that is finer, and that blends down to it, as it shows something.
+    Finer,
 }
 
 /// The eight children of a node, as rays meet them.
@@ -96,6 +110,7 @@ impl CutNode {
             family: Family::Hidden,
             is_leaving: false,
             met: Meeting::NEVER,
+            beside: Beside::Nothing,
         }
     }
 

@@ -1,6 +1,6 @@
 //! What a working set holds: the cut, the slots of its bricks, what cannot be read, and since when rays count.
 
-use super::{Cut, Family, Feedback, Meeting, Memory, Moment, Retry, SlotPool};
+use super::{Beside, Cut, Family, Feedback, Meeting, Memory, Moment, Retry, SlotPool};
 use bricks::NodeKey;
 use std::collections::HashMap;
 
@@ -83,6 +83,16 @@ impl Holdings {
     pub(super) fn has_met(&self, place: u32) -> bool {
         let node = self.cut.node(place);
         node.is_visible && self.memory().has_met(node)
+    }
+
+    /// Whether rays met a node, or what blends down to it.
+    pub(super) fn is_near_rays(&self, place: u32) -> bool {
+        self.cut.node(place).beside == Beside::Finer || self.has_met(place)
+    }
+
+    /// Whether rays of all views count, as in live frames.
+    pub(super) fn shares_views(&self) -> bool {
+        self.view_since_s.is_none()
     }
 
     /// Whether a node is a leaf that rays meet.

@@ -1,5 +1,6 @@
 //! Which bricks are resident: the cut through the octree, the index rays traverse, the loader.
 
+mod beside;
 #[cfg(test)]
 mod continuity_tests;
 mod cut;
@@ -31,7 +32,7 @@ mod trace;
 mod vertices;
 mod weights;
 
-pub use cut::{Cut, CutNode, Family, Meeting, ResidentBrick};
+pub use cut::{Beside, Cut, CutNode, Family, Meeting, ResidentBrick};
 pub use feedback::Feedback;
 pub use in_flight::most_in_flight;
 pub use index::{IndexRules, build_index};

@@ -3,6 +3,10 @@
 use super::IndexRules;
 use bricks::{NodeKey, NodeSummary};
 
+/// How many times as fast detail appears and goes while nothing else changes: then pictures are eased as well, see
+/// `render::easing`, and shares need not be what keeps them from changing fast.
+const HURRY: f64 = 4.0;
+
 /// What is asked of an update besides what rays found.
 #[derive(Clone, Copy)]
 pub struct Moment<'a> {
@@ -18,4 +22,11 @@ pub struct Moment<'a> {
     pub fade_s: f64,
     /// Bricks that may be asked for and not be there yet.
     pub most_in_flight: usize,
+}
+
+impl Moment<'_> {
+    /// The time of a fade in a still view or a moving one, where `fade_s` was asked for.
+    pub fn fade_of(fade_s: f64, is_still: bool) -> f64 {
+        if is_still { fade_s / HURRY } else { fade_s }
+    }
 }

@@ -67,7 +67,8 @@ pub fn settle(cut: &mut Cut) -> bool {
         let is_shown = cut.wants_children(place);
         let node = cut.node_mut(place);
         node.family = if is_shown { Family::Shown } else { Family::Hidden };
-        node.permits = permitted(node.is_visible, node.deficit, false);
+        // Complete frames weigh corners by the rule of detail: nothing blends down to what is short.
+        node.permits = permitted(node.is_visible, node.deficit, true);
         if let Some(first) = node.first_child {
             (first..first + 8).for_each(|child| cut.node_mut(child).shown = f32::from(u8::from(is_shown)));
         }
@@ -101,7 +102,7 @@ pub fn advance(
         let wants = cut.wants_children(place);
         let node = cut.node(place);
         let is_seen = tick.memory.may_see(node);
-        let is_ready = node.permits == 0.0 || !is_seen;
+        let is_ready = node.permits == 0.0;
         let family = match node.family {
             Family::Hidden if wants && is_ready && cut.may_show(shape, place) => {
                 cut.begin_family(place, is_seen, tick.now_s);
@@ -113,29 +114,27 @@ pub fn advance(
         };
         cut.node_mut(place).family = family;
         cut.move_family(place, tick.step);
-        let lost = is_lost(cut.node(place).key);
+        let is_lost = is_lost(cut.node(place).key);
         let node = cut.node_mut(place);
-        // Whose family has just ended is seen as that was.
-        let is_seen = tick.memory.may_see(node);
         if node.shown_child().is_none() {
-            let target = permitted(node.is_visible, node.deficit, is_seen && !lost);
+            let target = permitted(node.is_visible, node.deficit, is_lost);
             node.permits += (target - node.permits).clamp(-tick.step, tick.step);
         }
         has_changed |= cut.appearance(place) != before;
     }
     let is_moving = |place: &u32| {
         let node = cut.node(*place);
-        let is_met = tick.memory.has_met(node) && !is_lost(node.key);
-        let target = permitted(node.is_visible, node.deficit, is_met);
+        let target = permitted(node.is_visible, node.deficit, is_lost(node.key));
         node.permits != target || node.shown < 1.0
     };
     Advanced { moving: cut.shown_leaves().filter(is_moving).count() as u64, has_changed }
 }
 
-/// How far a leaf lets finer neighbours show themselves in the end. Where it is as fine as the display resolves, they
-/// blend down to it; where it is not, it will be split as soon as a ray meets it, and until then no border shows.
-fn permitted(is_visible: bool, deficit: f64, is_seen: bool) -> f32 {
-    if is_visible && (deficit <= 0.0 || is_seen) { 0.0 } else { 1.0 }
+/// How far a leaf lets finer neighbours show themselves in the end: not at all, met by rays or not, for what comes into
+/// sight would show a border until its own detail is there. What shows nothing does so at every level, and has no borders;
+/// where detail is lost, a picture at rest is the one that complete frames draw.
+fn permitted(is_visible: bool, deficit: f64, is_lost: bool) -> f32 {
+    if is_visible && (deficit <= 0.0 || !is_lost) { 0.0 } else { 1.0 }
 }
 
 impl Cut {
@@ -158,14 +157,12 @@ impl Cut {
         node.is_visible && node.brick.is_none()
     }
 
-    /// Children begin as their parent: seen, with no share of their own; unseen, with what finer neighbours found there.
+    /// Children begin as their parent, with no share of their own.
     fn begin_family(&mut self, place: u32, is_seen: bool, now_s: f64) {
-        let node = self.node(place);
-        let permits = node.permits;
-        let first = node.first_child.expect("only what has children can show them");
+        let first = self.node(place).first_child.expect("only what has children can show them");
         for child in first..first + 8 {
             let child = self.node_mut(child);
-            (child.shown, child.permits) = (permits, permits);
+            (child.shown, child.permits) = (0.0, 0.0);
             child.met.since_s = if is_seen { now_s } else { f64::NEG_INFINITY };
         }
     }

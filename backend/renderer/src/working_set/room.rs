@@ -1,7 +1,7 @@
 //! Room in the cache for what is more needed than what is there.
 
 use super::holdings::Holdings;
-use super::{Family, Moment, neighbours};
+use super::{Beside, CutNode, Family, Moment, neighbours};
 use bricks::NodeKey;
 use std::collections::{BTreeMap, HashSet};
 
@@ -167,7 +167,13 @@ impl<'a> Room<'a> {
             }
             self.free += bricks;
             let parent = set.cut.node(place).parent;
+            let was_shown = set.cut.node(place).family != Family::Hidden;
             set.collapse(place);
+            let node = set.cut.node_mut(place);
+            if was_shown && node.is_visible {
+                // Nobody sees what blends down to it.
+                node.permits = 0.0;
+            }
             if let Some(parent) = parent.filter(|&parent| self.is_victim(set, parent)) {
                 victims.insert(self.rank(set, parent), parent);
             }
@@ -176,12 +182,13 @@ impl<'a> Room<'a> {
         self.victims = Some(victims);
     }
 
-    /// Whether anybody would see a family go.
+    /// Whether anybody would see a family go, or what blends down to it in its place.
     fn is_seen(&self, set: &Holdings, place: u32) -> bool {
         let node = set.cut.node(place);
         let Some(first) = node.first_child.filter(|_| node.family != Family::Hidden) else { return false };
         let memory = set.memory();
-        (first..first + 8).any(|child| memory.may_see(set.cut.node(child)))
+        let shows = |child: &CutNode| memory.may_see(child) || child.beside != Beside::Nothing;
+        (first..first + 8).any(|child| shows(set.cut.node(child)))
     }
 
     /// Slots that a family holds or has reserved.
@@ -215,6 +222,8 @@ impl<'a> Room<'a> {
     }
 }
 
+/// What nobody sees makes room for what rays find too coarse. What lies beside what rays meet has a priority and an urgency
+/// of 0: it makes room for that, too, and takes it from what is farther off alone.
 fn is_less_needed(priority: f64, urgency: f64) -> bool {
-    priority <= 0.0 || priority + MARGIN < urgency
+    (priority <= 0.0 && urgency > 0.0) || priority + MARGIN < urgency
 }

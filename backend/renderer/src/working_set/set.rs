@@ -3,12 +3,13 @@
 //! Pure: it knows no device, no file and no clock of its own. Each frame is one [`WorkingSet::step`]: it takes in what rays
 //! met, asks a [`Supply`] for bricks, most needed first, takes in what has come, and moves what rays meet.
 
+use super::beside::{self, mark_beside};
 use super::holdings::Holdings;
 use super::presence::{Tick, advance, refresh, refresh_deficits, settle};
 use super::room::Room;
 use super::{
-    Cut, CutNode, Family, Feedback, HORIZON, MOST_AHEAD, Moment, Motion, ResidentBrick, SlotPool, prefetch,
-    priorities,
+    Beside, Cut, CutNode, Family, Feedback, HORIZON, MOST_AHEAD, Moment, Motion, ResidentBrick, SlotPool,
+    prefetch, priorities,
 };
 use bricks::LodRule;
 use bricks::is_shown;
@@ -164,10 +165,13 @@ impl WorkingSet {
             self.held.revision += 1;
         }
         self.held.note(met);
+        // Complete frames weigh corners by the rule of detail, whatever is resident.
+        let memory = self.held.shares_views().then(|| self.held.memory());
+        mark_beside(&mut self.held.cut, memory, &order);
         self.drop_unwanted(moment, &order);
         order.clear();
         order.extend(self.held.cut.walk());
-        let met = |place| self.held.is_met(place).then(|| self.held.cut.node(place).deficit);
+        let met = |place| self.needed(place);
         let priority = priorities(&self.held.cut, &order, met);
         self.split_all(moment, &order, &priority);
         self.wanted = self.missing(&priority);
@@ -268,6 +272,17 @@ impl WorkingSet {
         self.moving > 0 || self.held.cut.shown_leaves().any(is_short)
     }
 
+    /// Leaves that no ray meets and that are too coarse for finer ones beside them, which rays meet and which blend down
+    /// to them.
+    pub fn short_beside(&self) -> usize {
+        let cut = &self.held.cut;
+        let is_short = |&place: &u32| {
+            let node = cut.node(place);
+            node.beside == Beside::Finer && node.deficit > 0.0 && !self.held.is_lost(node.key)
+        };
+        cut.shown_leaves().filter(is_short).count()
+    }
+
     /// Bricks that slots are kept for.
     pub fn reserved(&self) -> usize {
         self.held.reserved()
@@ -280,13 +295,22 @@ impl WorkingSet {
             let node = self.held.cut.node(place);
             let Some(first) = node.first_child else { continue };
             let lacks = (first..first + 8).any(|child| self.held.cut.lacks(child));
-            let is_wanted = node.deficit > 0.0 && memory.has_met(node) && !self.held.is_lost(node.key);
+            let is_near = node.beside == Beside::Finer || memory.has_met(node);
+            let is_wanted = node.deficit > 0.0 && is_near && !self.held.is_lost(node.key);
             let is_leaving = node.is_leaving && node.family == Family::Hidden;
             if ((lacks && !is_wanted) || is_leaving) && self.held.cut.may_collapse(moment.rules.shape, place)
             {
                 self.held.collapse(place);
             }
         }
+    }
+
+    /// What a place adds to priorities: of a leaf that rays met, its deficit; of one beside it, so much that its family is
+    /// as urgent as it was to have it.
+    fn needed(&self, place: u32) -> Option<f64> {
+        let node = self.held.cut.node(place);
+        let of_beside = || (node.beside != Beside::Nothing).then_some(beside::URGENCY - 1.0);
+        if self.held.is_met(place) { Some(node.deficit) } else { of_beside() }
     }
 
     /// Splits all that rays found too coarse, as far as there is room.
@@ -296,7 +320,7 @@ impl WorkingSet {
             .iter()
             .copied()
             .filter(is_candidate)
-            .map(|place| self.wish(place, priority[place as usize], self.held.cut.node(place).met.rays))
+            .map(|place| self.wish_to_split(place, priority[place as usize]))
             .collect();
         candidates.sort_by(Wish::most_needed_first);
         let mut room = Room::new(&self.held, moment, priority);
@@ -322,8 +346,15 @@ impl WorkingSet {
             && node.is_visible
             && node.brick.is_some()
             && node.deficit > 0.0
-            && self.held.is_met(place)
+            && self.held.is_near_rays(place)
             && !self.held.is_lost(node.key)
+    }
+
+    fn wish_to_split(&self, place: u32, priority: f64) -> Wish {
+        if self.held.is_met(place) {
+            return self.wish(place, priority, self.held.cut.node(place).met.rays);
+        }
+        self.wish(place, beside::URGENCY, 0)
     }
 
     fn split(&mut self, moment: &Moment, place: u32) {

@@ -59,10 +59,15 @@ fn assert_restricted(cut: &Cut, shape: &OctreeShape, of_shown: bool) {
     }
 }
 
-/// The weights by depth and corner; the same for all leaves that share a corner.
-fn weights_by_corner(cut: &Cut, shape: &OctreeShape) -> BTreeMap<(u8, [u32; 3]), f32> {
+/// Weights by depth and corner.
+type Corners = BTreeMap<(u8, [u32; 3]), f32>;
+
+/// The weights by depth and corner; the same for all leaves that share a corner. First those of all leaves, then those of
+/// leaves alone that rays met and that show something.
+fn weights_by_corner(cut: &Cut, shape: &OctreeShape, met: &[Feedback]) -> [Corners; 2] {
     let weights = live_weights(cut);
-    let mut found = BTreeMap::new();
+    let met: HashSet<NodeKey> = met.iter().map(|met| met.key).collect();
+    let [mut found, mut of_met] = [Corners::new(), Corners::new()];
     for place in leaves(cut, shape, true) {
         let key = cut.node(place).key;
         for (corner, &weight) in weights[place as usize].iter().enumerate() {
@@ -70,9 +75,12 @@ fn weights_by_corner(cut: &Cut, shape: &OctreeShape) -> BTreeMap<(u8, [u32; 3]),
             let at = key.cell + UVec3::new(corner as u32 & 1, corner as u32 >> 1 & 1, corner as u32 >> 2);
             let other = *found.entry((key.depth, at.to_array())).or_insert(weight);
             assert_eq!(weight, other, "corner {at} of depth {}", key.depth);
+            if met.contains(&key) && cut.node(place).is_visible {
+                of_met.insert((key.depth, at.to_array()), weight);
+            }
         }
     }
-    found
+    [found, of_met]
 }
 
 fn assert_sound(set: &WorkingSet, slots: u32) {
@@ -141,7 +149,7 @@ impl Life {
             (random.below(4) < share).then(|| Feedback::met(self.set.cut().node(place).key, rays))
         };
         let met: Vec<Feedback> = leaves.into_iter().filter_map(&mut meet).collect();
-        let before = weights_by_corner(self.set.cut(), &self.world.shape);
+        let [before, _] = weights_by_corner(self.set.cut(), &self.world.shape, &[]);
         self.set.update(&moment, &met);
         let wanted = self.set.wanted().to_vec();
         // More may be due than there is room for where a transfer function changed or a lost brick is tried again; then
@@ -162,10 +170,10 @@ impl Life {
         }
         self.set.show(&moment);
         let step = if fade_s == 0.0 { 1.0 } else { (dt_s / fade_s).min(1.0) } as f32;
-        self.check(&before, step);
+        self.check(&before, &met, step);
     }
 
-    fn check(&self, before: &BTreeMap<(u8, [u32; 3]), f32>, step: f32) {
+    fn check(&self, before: &Corners, met: &[Feedback], step: f32) {
         assert_sound(&self.set, self.slots);
         for place in self.set.cut().walk().filter(|&place| self.set.cut().node(place).is_leaving) {
             let node = self.set.cut().node(place);
@@ -174,7 +182,8 @@ impl Life {
         }
         assert_restricted(self.set.cut(), &self.world.shape, false);
         assert_restricted(self.set.cut(), &self.world.shape, true);
-        for (corner, weight) in weights_by_corner(self.set.cut(), &self.world.shape) {
+        let [_, seen] = weights_by_corner(self.set.cut(), &self.world.shape, met);
+        for (corner, weight) in seen {
             if let Some(earlier) = before.get(&corner) {
                 assert!(
                     (weight - earlier).abs() <= step + 1e-6,

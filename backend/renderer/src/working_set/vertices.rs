@@ -32,6 +32,8 @@ enum Half {
 struct Dual<'a, F> {
     /// Of each place: the first of the children that rays meet, or [`BEYOND`].
     first_child: Vec<u32>,
+    /// Of each place: whether it or anything below it is looked for; None if all is.
+    holds: Option<&'a [bool]>,
     /// The parts that each kind of part is made of.
     parts: [Vec<Inner>; 8],
     visit: &'a mut F,
@@ -40,9 +42,19 @@ struct Dual<'a, F> {
 /// Shows every vertex of the leaves that rays meet, once: the dual traversal of an octree. Takes time in proportion to
 /// the nodes.
 pub fn visit_vertices(cut: &Cut, visit: &mut impl FnMut(&Around)) {
+    visit_all(cut, None, visit);
+}
+
+/// The same, but only vertices around which a place is that `holds` what is looked for, as all places above it do.
+pub(super) fn visit_vertices_beside(cut: &Cut, holds: &[bool], visit: &mut impl FnMut(&Around)) {
+    visit_all(cut, Some(holds), visit);
+}
+
+fn visit_all(cut: &Cut, holds: Option<&[bool]>, visit: &mut impl FnMut(&Around)) {
     let first_child = |node: &CutNode| node.shown_child().unwrap_or(BEYOND);
     let mut dual = Dual {
         first_child: cut.nodes().iter().map(first_child).collect(),
+        holds,
         parts: std::array::from_fn(parts_of),
         visit,
     };
@@ -94,6 +106,12 @@ fn parts_of(extent: Extent) -> Vec<Inner> {
 impl<F: FnMut(&Around)> Dual<'_, F> {
     /// Looks for vertices in a part with these cells in its octants.
     fn descend(&mut self, around: &Around, extent: Extent) {
+        if self
+            .holds
+            .is_some_and(|holds| !around.iter().any(|&place| place != BEYOND && holds[place as usize]))
+        {
+            return;
+        }
         let mut has_children = false;
         let children = around.map(|place| {
             let first = if place == BEYOND { BEYOND } else { self.first_child[place as usize] };

@@ -103,6 +103,7 @@ impl<'a> Replay<'a> {
     /// One frame, as the renderer steps through it.
     fn play(&mut self, frame: &'a TracedFrame) -> ReplayedFrame {
         let (shape, lod) = (self.shape, frame.lod_rule(self.header));
+        let is_still = self.last.is_some_and(|last| is_same_view(last, frame));
         let moment = Moment {
             rules: IndexRules {
                 shape: &shape,
@@ -114,8 +115,8 @@ impl<'a> Replay<'a> {
             },
             summary: self.volume.summary,
             now_s: frame.time_s,
-            is_still: self.last.is_some_and(|last| is_same_view(last, frame)),
-            fade_s: self.policy.fade_s,
+            is_still,
+            fade_s: Moment::fade_of(self.policy.fade_s, is_still),
             most_in_flight: most_in_flight(self.policy.upload_bytes),
         };
         let before = self.last.map(|last| (last.lod_rule(self.header), last.time_s));

@@ -86,9 +86,10 @@ fn with_room_and_an_instant_disk_all_is_fine_enough_within_the_fades_of_its_dept
     let account = Account::of(&[run(&world, &POLICY, &frames)]);
     // A family appears once the one above it is complete; rays report it a frame later.
     let depths = f64::from(world.shape.finest_depth());
-    let most_s = depths * (FADE_S + 3.0 * FRAME_S);
+    let fade_s = Moment::fade_of(FADE_S, true);
+    let most_s = depths * (fade_s + 3.0 * FRAME_S);
     let seconds = account.seconds_to_rest.unwrap();
-    assert!(seconds > FADE_S && seconds <= most_s, "{seconds} s of at most {most_s}");
+    assert!(seconds > fade_s && seconds <= most_s, "{seconds} s of at most {most_s}");
     assert_eq!((account.deficit_at_end, account.loaded_again, account.collapses), (0.0, 0, 0));
     assert_eq!(account.bytes_read, account.bricks_loaded * 65536);
     let at_once = Account::of(&[run(&world, &Policy { fade_s: 0.0, ..POLICY }, &frames)]);

@@ -1,0 +1,113 @@
+//! Eases a still view into detail that comes: no pixel changes by much from one live frame to the next.
+//!
+//! Shares of levels move evenly in time, but pictures do not: where an opaque surface moves from one level to the next, a
+//! pixel may go from dark to bright within a hundredth of a fade. So pictures of a still view, in which nothing but detail
+//! changes, go no faster toward what rays see than [`MOST_PER_S`]. What moves is shown as it was cast.
+
+use protocol::ProjectorImage;
+use std::collections::HashMap;
+
+/// What any of a pixel's numbers may change by in a second: 12/255 in a frame at 60 Hz.
+const MOST_PER_S: f64 = 60.0 * 12.0 / 255.0;
+
+/// The pictures last shown.
+#[derive(Debug, Default)]
+pub(super) struct Easing {
+    shown: HashMap<u32, Shown>,
+}
+
+/// A picture as it was shown.
+#[derive(Debug)]
+struct Shown {
+    rgba: Vec<f32>,
+    time_s: f64,
+    /// Whether rays saw something else.
+    is_behind: bool,
+}
+
+impl Easing {
+    /// Whether a picture was shown that is still on its way to what rays saw.
+    pub(super) fn is_behind(&self) -> bool {
+        self.shown.values().any(|shown| shown.is_behind)
+    }
+
+    /// Makes of a picture that has been cast the one to show; `eases` if the view is still.
+    pub(super) fn show(&mut self, image: &mut ProjectorImage, now_s: f64, eases: bool) {
+        let before = self.shown.remove(&image.projector);
+        let mut is_behind = false;
+        if let Some(before) = before.filter(|before| eases && before.rgba.len() == image.rgba.len()) {
+            let most = (MOST_PER_S * (now_s - before.time_s).max(0.0)) as f32;
+            is_behind = ease(&before.rgba, &mut image.rgba, most);
+        }
+        let shown = Shown { rgba: image.rgba.clone(), time_s: now_s, is_behind };
+        self.shown.insert(image.projector, shown);
+    }
+
+    /// Others show their own pictures now.
+    pub(super) fn forget(&mut self) {
+        self.shown.clear();
+    }
+}
+
+/// Takes every pixel back toward what it was, so far that none of its numbers differs from that by more than `most`.
+/// Whether any had to.
+fn ease(before: &[f32], rgba: &mut [f32], most: f32) -> bool {
+    let mut is_behind = false;
+    for (before, pixel) in before.chunks_exact(4).zip(rgba.chunks_exact_mut(4)) {
+        let change = pixel.iter().zip(before).fold(0.0_f32, |change, (a, b)| change.max((a - b).abs()));
+        if change > most {
+            // On a straight line: a mixture of the two, of no third colour.
+            let share = most / change;
+            pixel.iter_mut().zip(before).for_each(|(now, before)| *now = before + share * (*now - before));
+            is_behind = true;
+        }
+    }
+    is_behind
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME_S: f64 = 1.0 / 60.0;
+    const MOST: f32 = 12.0 / 255.0;
+
+    fn image(rgba: [f32; 4]) -> ProjectorImage {
+        ProjectorImage { projector: 3, width: 2, height: 1, rgba: [[0.25; 4], rgba].concat() }
+    }
+
+    #[test]
+    fn a_still_view_goes_on_evenly_and_ends_at_what_was_cast() {
+        let (mut easing, cast) = (Easing::default(), image([0.9, 0.1, 0.5, 0.7]));
+        easing.show(&mut image([0.0, 0.4, 0.5, 0.7]), 0.0, false);
+        let mut last = [0.0, 0.4, 0.5, 0.7];
+        for frame in 1..=40 {
+            let mut shown = cast.clone();
+            easing.show(&mut shown, f64::from(frame) * FRAME_S, true);
+            let pixel: [f32; 4] = shown.rgba[4..].try_into().unwrap();
+            let change = pixel.iter().zip(last).fold(0.0_f32, |most, (a, b)| most.max((a - b).abs()));
+            assert!(change <= MOST + 1e-6, "frame {frame}: {change}");
+            // 0.9 takes 20 steps of 12/255.
+            assert_eq!(easing.is_behind(), frame < 20, "frame {frame}");
+            assert_eq!(shown == cast, frame >= 20);
+            last = pixel;
+        }
+    }
+
+    #[test]
+    fn what_moves_and_what_is_new_is_shown_as_it_was_cast() {
+        let mut easing = Easing::default();
+        for (number, eases) in [(0.2, true), (0.9, false)] {
+            let mut shown = image([number; 4]);
+            easing.show(&mut shown, 0.0, eases);
+            assert_eq!(shown, image([number; 4]));
+            assert!(!easing.is_behind());
+        }
+        easing.show(&mut image([0.1; 4]), FRAME_S, true);
+        assert!(easing.is_behind());
+        easing.forget();
+        let mut shown = image([0.1; 4]);
+        easing.show(&mut shown, 2.0 * FRAME_S, true);
+        assert_eq!(shown, image([0.1; 4]));
+    }
+}
