@@ -7,6 +7,7 @@
 
 mod accuracy;
 mod bad_input;
+mod bad_volumes;
 mod export;
 mod import;
 mod live;

@@ -1,5 +1,7 @@
 //! TIFF stacks: a file of many pages, or a folder of slices (TIFF 6.0, BigTIFF, ImageJ, OME-TIFF).
 
+mod ends;
+mod gaps;
 mod hyperstack;
 mod imagej;
 mod natural;

@@ -1,5 +1,6 @@
 //! TIFF pages as a volume: one page is decoded at a time.
 
+use super::gaps::gap;
 use super::hyperstack::Hyperstack;
 use super::pages::TiffFile;
 use super::{imagej, ome};
@@ -61,6 +62,7 @@ impl TiffVolume {
                 return Err(VolumeError::unsupported(path, what));
             }
         }
+        warn_of_gap(folder, &paths);
         let voxel_mm = selection.spacing_mm.unwrap_or_else(|| stack.voxel_mm(folder));
         Self::new(folder, first, Slices::Files(paths), sample, voxel_mm)
     }
@@ -76,9 +78,16 @@ impl TiffVolume {
             Slices::Pages(pages) => pages.len(),
             Slices::Files(paths) => paths.len(),
         };
+        if file.has_palette {
+            tracing::warn!(path = %path.display(), "its numbers stand for colours of a palette: they are taken as values");
+        }
         let frame = VolumeFrame::of_voxels(voxel_mm * 1e-3);
-        if count > MAX_EDGE_VOXELS as usize || !frame.is_sound() {
-            let what = format!("it has {count} slices with voxels of {voxel_mm} mm, and that cannot be");
+        if count > MAX_EDGE_VOXELS as usize {
+            let what = format!("it has {count} slices, and {MAX_EDGE_VOXELS} are the most");
+            return Err(VolumeError::unsupported(path, what));
+        }
+        if !frame.is_sound() {
+            let what = format!("the voxel size is {voxel_mm} mm, and {}", VolumeFrame::SOUND_EDGES);
             return Err(VolumeError::header(path, what));
         }
         let info = VolumeInfo {
@@ -127,6 +136,17 @@ impl VolumeReader for TiffVolume {
             number.copy_from_slice(&pixel[self.sample * bytes..][..bytes]);
         }
         Ok(())
+    }
+}
+
+/// Files are slices in the order of their names, so a gap between these is all that tells of a missing one.
+fn warn_of_gap(folder: &Path, paths: &[PathBuf]) {
+    let names: Vec<_> =
+        paths.iter().map(|path| path.file_stem().unwrap_or_default().to_string_lossy()).collect();
+    let names: Vec<&str> = names.iter().map(|name| &**name).collect();
+    if let Some((before, after)) = gap(&names) {
+        let path = folder.display();
+        tracing::warn!(%path, before, after, "between these slices one may be missing, or another stack begins");
     }
 }
 
