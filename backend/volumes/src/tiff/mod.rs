@@ -11,6 +11,7 @@ mod relabel;
 #[cfg(test)]
 mod tests;
 mod volume;
+mod xml_depth;
 
 use super::Selection;
 use bricks::volume::{VolumeError, VolumeReader};

@@ -264,24 +264,43 @@ fn the_checksum_of_every_deflated_strip_is_looked_at() {
     }
 }
 
-/// A TIFF of 4 × 2 bytes in one strip, packed with Zstandard.
-fn zstd_tiff(strip: &[u8]) -> Vec<u8> {
-    let tags: [(u16, u16, u32); 9] = [
-        (256, 3, 4),
-        (257, 3, 2),
-        (258, 3, 8),
-        (259, 3, 50000),
-        (262, 3, 1),
-        (273, 4, 8 + 2 + 9 * 12 + 4),
-        (277, 3, 1),
-        (278, 3, 2),
-        (279, 4, strip.len() as u32),
+/// A page of so many bytes in one strip, with a description, packed as the number says.
+fn tiff(width: u32, height: u32, compression: u32, strip: &[u8], description: &[u8]) -> Vec<u8> {
+    let strip_at = 8 + 2 + 10 * 12 + 4;
+    let description_at = strip_at + strip.len() as u32;
+    let tags: [(u16, u16, u32, u32); 10] = [
+        (256, 4, 1, width),
+        (257, 4, 1, height),
+        (258, 3, 1, 8),
+        (259, 3, 1, compression),
+        (262, 3, 1, 1),
+        (270, 2, description.len() as u32, description_at),
+        (273, 4, 1, strip_at),
+        (277, 3, 1, 1),
+        (278, 4, 1, height),
+        (279, 4, 1, strip.len() as u32),
     ];
-    let entry = |&(tag, kind, value): &(u16, u16, u32)| {
-        [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &1u32.to_le_bytes(), &value.to_le_bytes()].concat()
+    let entry = |&(tag, kind, count, value): &(u16, u16, u32, u32)| {
+        [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat()
     };
     let entries: Vec<u8> = tags.iter().flat_map(entry).collect();
-    [b"II*\0\x08\0\0\0\x09\0", &entries[..], &[0; 4], strip].concat()
+    [b"II*\0\x08\0\0\0\x0a\0", &entries[..], &[0; 4], strip, description].concat()
+}
+
+/// 4 × 2 bytes packed with Zstandard.
+fn zstd_tiff(strip: &[u8]) -> Vec<u8> {
+    tiff(4, 2, 50_000, strip, b"a picture\0")
+}
+
+/// More pages than memory could list, of which the file holds one.
+#[test]
+fn pages_that_are_promised_take_no_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stack.tif");
+    let description = b"ImageJ=1.54f\nimages=4294967295\nslices=4294967295\n\0";
+    std::fs::write(&path, tiff(1, 1, 1, &[7], description)).unwrap();
+    let said = read_file(&path).unwrap_err();
+    assert!(said.contains("4294967295 bytes of voxels are promised"), "{said}");
 }
 
 #[test]
