@@ -4,7 +4,7 @@ use bricks::store::Store;
 use bricks::{Brick, BrickSource, NodeKey, OVERLAP};
 use glam::UVec3;
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use volumes::{ImportOptions, Selection, import};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -13,7 +13,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // The input may be any file that `lightloom import` reads. A built-in volume needs none.
     let options = ImportOptions { procedural_dims: UVec3::splat(64), ..ImportOptions::default() };
-    let report = import("procedural:shells", &Selection::default(), &path, &options, &|_, _| {})?;
+    let input = Path::new("procedural:shells");
+    let report = import(input, &Selection::default(), &path, &options, &|_, _| {})?;
     println!("{} of {} bricks take {} bytes", report.stored_bricks, report.nodes, report.store_bytes);
     println!("RMS error {:.5}, largest {:.5}", report.rms_error, report.max_error);
 

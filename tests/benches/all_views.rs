@@ -46,7 +46,7 @@ fn store(folder: &Path) -> Store {
     };
     let out = folder.join("head.lloom");
     let selection = Selection { raw: Some(layout), ..Default::default() };
-    import(&raw.to_string_lossy(), &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
+    import(&raw, &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
     Store::open(&out).expect("a store just built opens")
 }
 

@@ -132,11 +132,7 @@ fn median_build(
     let build = BuildOptions { bits, codec, memory_bytes: 768 << 20, ..Default::default() };
     let options = ImportOptions { build, ..Default::default() };
     let mut runs: Vec<_> = (0..RUNS)
-        .map(|_| {
-            measure(|| {
-                import(&raw.to_string_lossy(), selection, out, &options, &|_, _| {}).expect("it imports")
-            })
-        })
+        .map(|_| measure(|| import(raw, selection, out, &options, &|_, _| {}).expect("it imports")))
         .collect();
     runs.sort_by(|(a, _), (b, _)| a.wall_s.total_cmp(&b.wall_s));
     runs.swap_remove(RUNS / 2)
@@ -254,7 +250,7 @@ fn huge(results: &mut Results, folder: &Path, edge: u32) {
         }
     };
     let (measured, report) = measure(|| {
-        import("procedural:sparse-vessels", &Selection::default(), &out, &options, &progress)
+        import(Path::new("procedural:sparse-vessels"), &Selection::default(), &out, &options, &progress)
             .expect("it builds")
     });
     results.line(format!("{edge}³ voxels of sparse vessels, 8 bits, LZ4\n\n| | |\n| --- | ---: |"));

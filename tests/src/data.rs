@@ -73,7 +73,7 @@ fn store(name: &str, make: impl FnOnce(&Path)) -> Store {
 fn build_store(input: &Path, raw: Option<RawLayout>, bits: CodeBits, out: &Path) {
     let options = ImportOptions { build: BuildOptions { bits, ..Default::default() }, ..Default::default() };
     let selection = Selection { raw, ..Default::default() };
-    import(&input.to_string_lossy(), &selection, out, &options, &|_, _| {}).expect("a whole file imports");
+    import(input, &selection, out, &options, &|_, _| {}).expect("a whole file imports");
 }
 
 /// The cranium CT as a 16-bit store.

@@ -6,6 +6,8 @@ pub mod procedural;
 pub mod store;
 pub mod temporary;
 pub mod volume;
+pub mod working_file;
+pub mod working_folder;
 
 pub use lod::{LodRule, MeasuredRule};
 pub use store::{

@@ -2,7 +2,7 @@
 
 use std::io;
 use std::path::Path;
-use tempfile::{Builder, NamedTempFile, TempDir};
+use tempfile::{Builder, NamedTempFile};
 
 /// A file that deletes itself unless it is given a name; readable like any other file of the user.
 ///
@@ -14,18 +14,6 @@ pub fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder).map_err(without_path)
-}
-
-/// A folder that deletes itself and all in it unless it is kept; readable like any other folder of the user.
-///
-/// # Errors
-/// Those of the file system, without the working folder's own path.
-pub fn temporary_folder_in(folder: &Path) -> io::Result<TempDir> {
-    let mut builder = Builder::new();
-    builder.prefix(".lightloom-").suffix(".part");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    builder.tempdir_in(folder).map_err(without_path)
 }
 
 /// The error without the working file's path that `tempfile` appends: the user knows only the final file.
@@ -44,8 +32,6 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let error = temporary_in(&folder.path().join("nowhere")).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
-        assert!(!error.to_string().contains(".part"), "{error}");
-        let error = temporary_folder_in(&folder.path().join("nowhere")).unwrap_err();
         assert!(!error.to_string().contains(".part"), "{error}");
     }
 }

@@ -77,7 +77,13 @@ static SAID: AtomicBool = AtomicBool::new(false);
 /// Prints a line on standard error. Unlike `eprintln!` it does not panic when the launcher, which reads it, is gone, and
 /// writes the line at once, so that lines of several ranks do not mix.
 pub(super) fn say(program: &str, sentence: &str) {
-    let _ = std::io::stderr().write_all(format!("{program}: {sentence}\n").as_bytes());
+    let _ = std::io::stderr().write_all(printable(&format!("{program}: {sentence}\n")).as_bytes());
+}
+
+/// Text that comes from files, without the characters that a terminal takes for commands; line ends and tabs stay.
+pub fn printable(text: &str) -> String {
+    let is_command = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    text.replace(is_command, "\u{fffd}")
 }
 
 /// Whether the caller is the first to say why the run ends. A lost back-end is noticed in more than one place, and
@@ -103,6 +109,13 @@ pub fn fail(program: &str, sentence: &str) -> ! {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_command_reaches_the_terminal() {
+        let text = "title \u{1b}]0;x\u{7}, colour \u{9b}31m, bell \u{7}\r\nnext\tline é";
+        let plain = "title \u{fffd}]0;x\u{fffd}, colour \u{fffd}31m, bell \u{fffd}\u{fffd}\nnext\tline é";
+        assert_eq!(printable(text), plain);
+    }
 
     fn value(environment: &[(&str, &str)], name: &str) -> Option<String> {
         environment.iter().find(|(n, _)| *n == name).map(|(_, value)| (*value).to_owned())

@@ -1,12 +1,13 @@
 //! The unpacked bytes of a volume's files, as if they were one.
 
 use super::data_files::DataFiles;
+use super::gzip::Gzip;
 use super::packing::Packing;
 use super::text_numbers::TextNumbers;
-use bricks::volume::Element;
-use flate2::read::{MultiGzDecoder, ZlibDecoder};
+use bricks::volume::{Element, open_file};
+use flate2::bufread::ZlibDecoder;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, Read, Result, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Result, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// Bytes read from a file at once.
@@ -46,7 +47,7 @@ impl Source {
         if start.lines == 0 {
             return Ok(start.header_bytes);
         }
-        let mut file = BufReader::new(File::open(path)?);
+        let mut file = BufReader::new(open_file(path)?);
         let mut offset = file.seek(SeekFrom::Start(start.header_bytes))?;
         for _ in 0..start.lines {
             match file.skip_until(b'\n')? {
@@ -63,17 +64,17 @@ impl Source {
             Packing::Plain | Packing::Text => offset.saturating_add(self.start.unpacked_bytes),
             Packing::Gzip | Packing::Zlib => offset,
         };
-        let mut file = File::open(path)?;
+        let mut file = open_file(path)?;
         file.seek(SeekFrom::Start(start))?;
         let file = BufReader::with_capacity(READ_BUFFER_BYTES, file);
         let mut stream: Box<dyn Read + Send> = match self.packing {
             Packing::Plain => return Ok(Unpacked::Plain(file)),
-            Packing::Text => return Ok(Unpacked::Stream(Box::new(TextNumbers::new(file, self.element)))),
-            Packing::Gzip => Box::new(MultiGzDecoder::new(file)),
+            Packing::Text => return Ok(Unpacked::Text(Box::new(TextNumbers::new(file, self.element)))),
+            Packing::Gzip => Box::new(Gzip::new(file)),
             Packing::Zlib => Box::new(ZlibDecoder::new(file)),
         };
         skip(&mut stream, self.start.unpacked_bytes)?;
-        Ok(Unpacked::Stream(stream))
+        Ok(Unpacked::Packed(stream))
     }
 }
 
@@ -82,7 +83,9 @@ enum Unpacked {
     /// Any place can be gone to.
     Plain(BufReader<File>),
     /// Only later places can.
-    Stream(Box<dyn Read + Send>),
+    Text(Box<dyn Read + Send>),
+    /// Likewise, and what is at its end tells whether it was whole.
+    Packed(Box<dyn Read + Send>),
 }
 
 /// The file that is open, and where it is read.
@@ -101,7 +104,7 @@ pub(super) struct DataStream {
 /// What went wrong with which file.
 pub(super) struct StreamError {
     pub path: PathBuf,
-    pub cause: std::io::Error,
+    pub cause: Error,
 }
 
 impl DataStream {
@@ -119,6 +122,9 @@ impl DataStream {
             let most = usize::try_from(file_bytes - inside).unwrap_or(usize::MAX);
             let count = most.min(bytes.len() - done);
             let part = &mut bytes[done..done + count];
+            if self.opened.as_ref().is_some_and(|opened| opened.index != index) {
+                self.finish()?;
+            }
             self.read_in(index, inside, part).map_err(|cause| {
                 // What is known of a stream that failed is not to be relied on.
                 self.opened = None;
@@ -127,6 +133,14 @@ impl DataStream {
             done += count;
         }
         Ok(())
+    }
+
+    /// Leaves the file that is open, after reading what is left of a packed one: only its end tells whether all of it was
+    /// whole.
+    pub fn finish(&mut self) -> std::result::Result<(), StreamError> {
+        let Some(opened) = self.opened.take() else { return Ok(()) };
+        let path = self.source.files.path(opened.index);
+        opened.finish(&path, self.source.file_bytes).map_err(|cause| StreamError { path, cause })
     }
 
     /// Fills `bytes` from one file.
@@ -154,13 +168,34 @@ impl Opened {
                 file.seek_relative(position as i64 - self.position as i64)?;
                 file.read_exact(bytes)?;
             }
-            Unpacked::Stream(stream) => {
+            Unpacked::Text(stream) | Unpacked::Packed(stream) => {
                 skip(stream, position - self.position)?;
                 stream.read_exact(bytes)?;
             }
         }
         self.position = position + bytes.len() as u64;
         Ok(())
+    }
+
+    /// Reads a packed file to its end, which must not come before `promised` bytes of voxels.
+    fn finish(self, path: &Path, promised: u64) -> Result<()> {
+        let Unpacked::Packed(mut stream) = self.unpacked else { return Ok(()) };
+        let found = self.position + std::io::copy(&mut stream, &mut std::io::sink())?;
+        if found < promised {
+            return Err(Error::new(
+                ErrorKind::UnexpectedEof,
+                format!("{found} of its {promised} bytes are there"),
+            ));
+        }
+        warn_of_more(path, found, promised);
+        Ok(())
+    }
+}
+
+/// Tells of bytes after the voxels, which may be a sign of a wrong header.
+pub(super) fn warn_of_more(path: &Path, found: u64, promised: u64) {
+    if found > promised {
+        tracing::warn!(path = %path.display(), found, promised, "more bytes than the header says");
     }
 }
 

@@ -1,7 +1,7 @@
 //! A volume in a file, whatever its format: where the voxels lie, how they are packed, what their numbers mean.
 
 use super::data_files::DataFiles;
-use super::data_stream::{DataStream, Source, Start, StreamError};
+use super::data_stream::{DataStream, Source, Start, StreamError, warn_of_more};
 use super::packing::Packing;
 use super::shape::Shape;
 use bricks::volume::{ByteOrder, Element, Samples, VolumeError, VolumeFrame};
@@ -129,6 +129,9 @@ impl VolumeReader for FileVolume {
     fn read_slab(&mut self, z: u32, slab: &mut Samples) -> Result<(), VolumeError> {
         assert!(z < self.info.dims.z && slab.len() == self.info.slab_voxels(), "slab {z} of {:?}", self.info);
         self.read_bytes(z, slab.bytes_mut()).map_err(|error| self.read_error(z, error))?;
+        if z + 1 == self.info.dims.z {
+            self.stream.finish().map_err(|StreamError { path, cause }| VolumeError::Read { path, cause })?;
+        }
         if let Some(order) = self.byte_order {
             slab.reorder(order);
         }
@@ -155,8 +158,8 @@ fn source(layout: &FileLayout) -> Result<Source, VolumeError> {
 fn check_numbers(layout: &FileLayout) -> Result<(), VolumeError> {
     let wrong = |what| Err(VolumeError::header(&layout.header_path, what));
     let size = layout.frame.voxel_size_m();
-    if !size.is_finite() || size.min_element() <= 0.0 {
-        return wrong(format!("the voxel size is {} mm, and each edge must be positive", size * 1e3));
+    if !VolumeFrame::of_voxels(size).is_sound() {
+        return wrong(format!("the voxel size is {} mm, and {}", size * 1e3, VolumeFrame::SOUND_EDGES));
     }
     if !layout.frame.is_sound() {
         return wrong("its axes lie in a plane, or its origin is not a number".into());
@@ -183,9 +186,7 @@ fn check_length(source: &Source, path: &Path, found: u64) -> Result<(), VolumeEr
     let (most, found) = match source.packing {
         Packing::Plain => {
             let found = found.saturating_sub(source.start.unpacked_bytes);
-            if found > promised {
-                tracing::warn!(path = %path.display(), found, promised, "more bytes than the header says");
-            }
+            warn_of_more(path, found, promised);
             (found, format!("{found} are there"))
         }
         Packing::Gzip | Packing::Zlib => {
@@ -208,6 +209,9 @@ pub(super) fn file_length(path: &Path) -> Result<u64, VolumeError> {
     let metadata = std::fs::metadata(path).map_err(VolumeError::open(path))?;
     if metadata.is_dir() {
         return Err(VolumeError::unsupported(path, "it is a folder: give the file in it"));
+    }
+    if !metadata.is_file() {
+        return Err(VolumeError::unsupported(path, "it is a pipe or a device: save it as a file first"));
     }
     Ok(metadata.len())
 }

@@ -1,7 +1,6 @@
 //! A text header: lines at the start of a file, before binary voxels.
 
-use bricks::volume::VolumeError;
-use std::fs::File;
+use bricks::volume::{VolumeError, open_file};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -34,7 +33,7 @@ pub(super) enum Line {
 impl HeaderText {
     /// Reads lines until the format's `line` function says that the header ends, or the file does.
     pub fn read(path: &Path, line: impl Fn(usize, &str) -> Line) -> Result<Self, VolumeError> {
-        let file = File::open(path).map_err(VolumeError::open(path))?;
+        let file = open_file(path).map_err(VolumeError::open(path))?;
         let mut bytes = Vec::new();
         file.take(LONGEST_HEADER_BYTES).read_to_end(&mut bytes).map_err(VolumeError::read(path))?;
         let mut header = Self { path: path.into(), fields: Vec::new(), listed: Vec::new(), length: 0 };

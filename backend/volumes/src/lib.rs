@@ -6,6 +6,7 @@ mod data_stream;
 mod dicom;
 pub mod export;
 mod file;
+mod gzip;
 mod header_text;
 mod import;
 mod metaimage;

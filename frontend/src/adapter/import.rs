@@ -12,7 +12,7 @@ use bricks::volume::{ByteOrder, Element};
 use glam::{DVec3, UVec3};
 use serde::Serialize;
 use std::cell::RefCell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use volumes::ImportOptions;
@@ -106,6 +106,7 @@ pub struct ImportSummary {
 
 /// Makes a store from a volume file, a folder of one, or a procedural volume. A signal to end stops it in good order.
 pub fn import(request: &ImportRequest, progress: Progress) -> Result<ImportSummary, FrontendError> {
+    check_name(&request.output)?;
     let stop = interrupt::stop_flag()?;
     let (input, options) = import_options(request, &stop)?;
     let selection = selection(request)?;
@@ -136,11 +137,22 @@ pub fn import(request: &ImportRequest, progress: Progress) -> Result<ImportSumma
     })
 }
 
+/// Only by this ending do the other commands know a store.
+fn check_name(store: &Path) -> Result<(), FrontendError> {
+    match store.extension().is_some_and(|extension| extension == "lloom") {
+        true => Ok(()),
+        false => Err(FrontendError::Volume(format!(
+            "{} does not end in .lloom, by which other commands know a store: give such a name",
+            store.display()
+        ))),
+    }
+}
+
 /// The input as the importer wants it: without the `@VOXELS` of a procedural volume, which goes into the options.
 fn import_options(
     request: &ImportRequest,
     stop: &Arc<AtomicBool>,
-) -> Result<(String, ImportOptions), FrontendError> {
+) -> Result<(PathBuf, ImportOptions), FrontendError> {
     let build = BuildOptions {
         bits: request.bits,
         codec: request.codec,
@@ -150,10 +162,12 @@ fn import_options(
         stop: Some(Arc::clone(stop)),
     };
     let mut options = ImportOptions { build, ..ImportOptions::default() };
-    let mut input = request.input.to_string_lossy().into_owned();
-    if let Some(VolumeSource::Procedural { name, dims }) = VolumeSource::parse_procedural(&input)? {
+    let mut input = request.input.clone();
+    // A name that is no text is a file's.
+    let text = input.to_str().unwrap_or_default();
+    if let Some(VolumeSource::Procedural { name, dims }) = VolumeSource::parse_procedural(text)? {
         options.procedural_dims = dims;
-        input = format!("{}{name}", volumes::PROCEDURAL_PREFIX);
+        input = format!("{}{name}", volumes::PROCEDURAL_PREFIX).into();
     }
     Ok((input, options))
 }

@@ -47,6 +47,7 @@ impl ExportArgs {
             size: self.size,
             element: self.element,
             is_packed: self.compress,
+            stop: None,
         }
     }
 }

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 pub struct ImportArgs {
     /// A volume file or a folder of its slices, a raw file, procedural:NAME or procedural:NAME@VOXELS.
     pub input: PathBuf,
-    /// The store to write.
+    /// The store to write; its name ends in .lloom.
     #[arg(short, long, value_name = "OUT.lloom")]
     pub output: PathBuf,
     /// Bits per voxel in the store.
@@ -22,7 +22,7 @@ pub struct ImportArgs {
     /// How bricks are compressed.
     #[arg(long, value_enum, default_value = "lz4")]
     pub codec: CodecArg,
-    /// Memory that the import may use; a quarter of it is for the reader's decoded data.
+    /// Memory for slabs, a quarter of it for the reader's; some 100 MiB come on top, for bricks under way and the program.
     #[arg(long = "memory", value_name = "MIB", default_value_t = 2048, value_parser = whole(1..=1_u64 << 30), allow_hyphen_values = true)]
     pub memory_mib: u64,
     /// Leave out bricks in which every value is below this one; they read back as their smallest value.

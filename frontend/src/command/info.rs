@@ -6,6 +6,7 @@ use crate::FrontendError;
 use crate::adapter::{self, StoreSummary};
 use crate::cli::InfoArgs;
 use crate::report::units;
+use transport::printable;
 
 /// Prints what a store holds.
 pub(super) fn info(args: &InfoArgs) -> Result<(), FrontendError> {
@@ -22,7 +23,7 @@ fn text(store: &StoreSummary) -> String {
     let (dims, size_mm, (low, high)) = (store.dims, store.frame.voxel_size_m * 1e3, store.value_range);
     let deviation = if store.has_deviation { "kept" } else { "not kept" };
     let rows = [
-        ("made from", store.source.clone()),
+        ("made from", printable(&store.source)),
         ("format version", store.format_version.to_string()),
         ("voxels", format!("{} × {} × {}", dims.x, dims.y, dims.z)),
         ("voxel size", format!("{:.4} × {:.4} × {:.4} mm", size_mm.x, size_mm.y, size_mm.z)),

@@ -108,11 +108,39 @@ fn volumes(out: &Path) -> Result<(), Box<dyn Error>> {
             fs::write(out.join(format!("{format}_{name}")), [vec![format], bytes].concat())?;
         }
     }
+    for (name, format, bytes) in hostile()? {
+        fs::write(out.join(format!("{format}_{name}")), [vec![format], bytes].concat())?;
+    }
     // The layout of raw voxels, as the target reads it: 4³ bytes of 1 mm after these 16.
     let layout = [4, 4, 4].into_iter().flat_map(u32::to_le_bytes).chain([0, 0, 1, 16]);
     let raw = number("input.raw", Form::Raw);
     fs::write(out.join("raw"), [raw].into_iter().chain(layout).chain(0..64).collect::<Vec<u8>>())?;
     Ok(())
+}
+
+/// What no file of the tests has: sequences deep in each other, of every coding, and gzip files of several members.
+fn hostile() -> Result<Vec<(String, u8, Vec<u8>)>, Box<dyn Error>> {
+    let folder = number("slice.dcm", Form::Folder);
+    let mut seeds = Vec::new();
+    for (name, syntax, begin) in [
+        ("explicit", "1.2.840.10008.1.2.1\0", &b"\x08\0\x40\x11SQ\0\0"[..]),
+        ("unknown", "1.2.840.10008.1.2.1\0", &b"\x09\0\x01\x10UN\0\0"[..]),
+        ("implicit", "1.2.840.10008.1.2\0", &b"\x08\0\x40\x11"[..]),
+    ] {
+        let nested = [begin, &[0xff; 4], b"\xfe\xff\x00\xe0", &[0xff; 4]].concat();
+        for depth in [40, 4000] {
+            let length = [8 + syntax.len() as u8, 0, 0, 0];
+            let meta =
+                [b"\x02\0\0\0UL\x04\0", &length[..], b"\x02\0\x10\0UI", &[syntax.len() as u8, 0]].concat();
+            let file = [&[0; 128], &b"DICM"[..], &meta, syntax.as_bytes(), &nested.repeat(depth)].concat();
+            seeds.push((format!("{name}_{depth}"), folder, file));
+        }
+    }
+    let packed = fs::read("tests/data/short_big.nii.gz")?;
+    let gzip = number("input.nii.gz", Form::File);
+    seeds.push(("two_members".into(), gzip, [&packed[..], &packed].concat()));
+    seeds.push(("padded_member".into(), gzip, [&packed[..], &[0; 64]].concat()));
+    Ok(seeds)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -55,7 +55,7 @@ fn imported(folder: &Path) -> Store {
     let build = BuildOptions { bits: CodeBits::Sixteen, ..Default::default() };
     let options = ImportOptions { build, ..Default::default() };
     let selection = Selection { raw: Some(layout), ..Default::default() };
-    let report = import(&raw.to_string_lossy(), &selection, &out, &options, &|_, _| {}).unwrap();
+    let report = import(&raw, &selection, &out, &options, &|_, _| {}).unwrap();
     assert!(report.non_finite > 2000 && report.value_range == RANGE, "{report:?}");
     Store::open(&out).unwrap()
 }

@@ -86,8 +86,7 @@ fn errors(store: &Store, values: &[f64]) -> (f64, f64) {
 fn build(path: &Path, chosen: &Selection, bits: CodeBits, out: &Path) -> Store {
     let build = BuildOptions { bits, codec: Codec::Zstd, ..Default::default() };
     let options = ImportOptions { build, ..Default::default() };
-    import(&path.to_string_lossy(), chosen, out, &options, &|_, _| {})
-        .unwrap_or_else(|error| panic!("{error}"));
+    import(path, chosen, out, &options, &|_, _| {}).unwrap_or_else(|error| panic!("{error}"));
     Store::open(out).expect("a store just built opens")
 }
 

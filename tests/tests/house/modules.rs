@@ -8,7 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Crates whose top-level modules have an order: each uses those before it only.
 const ORDERS: [(&str, &[&str]); 3] = [
-    ("backend/bricks", &["temporary", "volume", "store", "lod", "procedural"]),
+    (
+        "backend/bricks",
+        &["temporary", "working_file", "working_folder", "volume", "store", "lod", "procedural"],
+    ),
     ("backend/renderer", &["output", "cache_size", "working_set", "device", "render"]),
     (
         "frontend",

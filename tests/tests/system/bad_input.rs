@@ -288,7 +288,8 @@ fn stores_that_cannot_be_written() {
         ran.refused(&[&out, "cannot write", "check the folder"]);
         assert!(!ran.stderr.contains(".lloom-"), "a working file is nothing to tell of: {}", ran.stderr);
     }
-    let folder = bench.folder.path().to_string_lossy().into_owned();
+    let folder = bench.path("folder.lloom");
+    fs::create_dir(&folder).unwrap();
     run(&mut lightloom(&["import", &test_data("short.nrrd"), "-o", &folder]))
         .refused(&[&folder, "cannot write"]);
 }

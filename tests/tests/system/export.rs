@@ -16,7 +16,8 @@ fn store_of(name: &str) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let input = Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
     let store = folder.path().join("a.lloom").to_string_lossy().into_owned();
-    let said = json_of(&["import", &input.to_string_lossy(), "-o", &store, "--bits", "16"]);
+    let said =
+        json_of(&["import", &input.to_string_lossy(), "-o", &store, "--bits", "16", "--spacing-mm", "1,1,1"]);
     assert_eq!(said["value_range"], json!([0.0, 354.0]), "{said}");
     (folder, store)
 }

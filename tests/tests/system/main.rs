@@ -7,6 +7,7 @@
 
 mod accuracy;
 mod bad_input;
+mod bad_volumes;
 mod careless;
 mod export;
 mod idle_backends;

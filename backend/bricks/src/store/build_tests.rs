@@ -311,6 +311,10 @@ fn what_is_not_finite_is_replaced_and_counted() {
     let error =
         build(&mut grid, &folder.path().join("nan.lloom"), &BuildOptions::default(), &|_, _| {}).unwrap_err();
     assert!(error.to_string().contains("no finite value"));
+    let mut huge = Grid::new(UVec3::new(31, 3, 40), Element::F64, |p| 1e300 * f64::from(p.x + 1));
+    let error = build(&mut huge, &folder.path().join("huge.lloom"), &BuildOptions::default(), &|_, _| {})
+        .unwrap_err();
+    assert!(error.to_string().contains("no value within 3.40e38"), "{error}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left of a failed build");
 }
 
@@ -335,4 +339,21 @@ fn a_folder_that_cannot_be_written_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let error = build(&mut grid, folder.path(), &BuildOptions::default(), &|_, _| {}).unwrap_err();
     assert!(error.to_string().contains("directory"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_store_stays_a_link() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("elsewhere")).unwrap();
+    std::os::unix::fs::symlink("elsewhere/a.lloom", at("link.lloom")).unwrap();
+    let mut grid = Grid::new(UVec3::splat(3), Element::U8, |p| f64::from(p.x));
+    // First the link leads nowhere, then to the store of before.
+    for _ in 0..2 {
+        build(&mut grid, &at("link.lloom"), &BuildOptions::default(), &|_, _| {}).unwrap();
+        assert!(at("link.lloom").symlink_metadata().unwrap().is_symlink());
+        Store::open(&at("elsewhere/a.lloom")).unwrap();
+        assert_eq!(std::fs::read_dir(at("elsewhere")).unwrap().count(), 1);
+    }
 }

@@ -7,10 +7,9 @@ use super::read_at::ReadAt;
 use super::table::{EntryRules, Fault, Found, Table};
 use super::{CodeBits, Codec};
 use super::{LevelError, StoreError, format, format_v1};
-use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame};
+use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame, open_file};
 use crate::{BRICK_VOXELS, Brick, BrickError, BrickSource, CellRanges, Codes, Deviation};
 use crate::{NodeKey, NodeSummary, OctreeShape};
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// An open store. Opening reads only the header, whatever the size; tables and bricks are checked as they are read, and
@@ -41,7 +40,7 @@ impl Store {
     /// # Errors
     /// A missing file, a file that is not a store or of another version, a damaged header.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
-        let file = File::open(path).map_err(StoreError::open(path))?;
+        let file = open_file(path).map_err(StoreError::open(path))?;
         let length = file.metadata().map_err(StoreError::open(path))?.len();
         Self::of(path, Box::new(file), length)
     }
@@ -317,8 +316,9 @@ fn check_header(header: &Header) -> Result<(), String> {
     }
     if !header.frame.is_sound() {
         return Err(format!(
-            "the voxel size is {} m, but each edge must be positive",
-            header.frame.voxel_size_m()
+            "the voxel size is {} m, but {}",
+            header.frame.voxel_size_m(),
+            VolumeFrame::SOUND_EDGES
         ));
     }
     let is_error = |error: f64| error.is_finite() && error >= 0.0;

@@ -99,6 +99,24 @@ fn what_is_right_stays_as_it_is() {
     }
 }
 
+/// An entry without children that says where they are, within the table or far beyond it.
+#[test]
+fn children_of_a_leaf_are_a_damage() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = store_bytes(folder.path(), Codec::Lz4, false);
+    let last = whole.len() - entry::ENTRY_BYTES;
+    for first_child in [1, 2, 3, 4, 1 << 20, u64::MAX] {
+        let mut bytes = whole.clone();
+        assert_eq!(bytes[last + 56], 0, "the last entry has no children");
+        bytes[last + 48..last + 56].copy_from_slice(&u64::to_le_bytes(first_child));
+        resign(&mut bytes, Repair { places: false, ..Repair::ALL });
+        let store = Store::from_bytes(Path::new("hostile.lloom"), bytes).unwrap();
+        let found = store.verify(&|_, _| {});
+        let named = found.damages.iter().any(|what| what.contains("entry 2 of the table"));
+        assert!(named, "{first_child}: {:?}", found.damages);
+    }
+}
+
 #[test]
 fn values_beyond_f32_are_an_error() {
     let folder = tempfile::tempdir().unwrap();

@@ -39,7 +39,6 @@ mod table;
 mod tally;
 mod tree;
 mod verify;
-mod working_file;
 mod writer;
 
 pub use brick::{Brick, Deviation};

@@ -13,6 +13,7 @@ const LENGTHS_AT: usize = 20;
 const OFFSET_AT: usize = 32;
 const EXTENT_CHECKSUMS_AT: usize = 40;
 const FIRST_CHILD_AT: usize = 48;
+const CHILDREN_AT: usize = 56;
 const ENTRY_CHECKSUM_AT: usize = 60;
 
 /// What is put right.
@@ -81,8 +82,11 @@ fn replace(bytes: &mut [u8], at: usize, bricks: std::ops::Range<usize>, nodes: u
         let folded = start + offset.wrapping_sub(start) % (room + 1);
         put(bytes, at + OFFSET_AT, &folded.to_le_bytes());
     }
-    let child = u64_at(bytes, at + FIRST_CHILD_AT) % nodes as u64;
-    put(bytes, at + FIRST_CHILD_AT, &child.to_le_bytes());
+    // An entry without children keeps its lie about where they are.
+    if bytes[at + CHILDREN_AT] != 0 {
+        let child = u64_at(bytes, at + FIRST_CHILD_AT) % nodes as u64;
+        put(bytes, at + FIRST_CHILD_AT, &child.to_le_bytes());
+    }
 }
 
 /// The checksums of the cells and of all that follows them, where they lie in the file.

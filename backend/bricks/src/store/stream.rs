@@ -35,7 +35,7 @@ pub(super) fn stream<E: From<VolumeError>>(
     let should_stop = || is_left.load(Ordering::Relaxed) || stop();
     std::thread::scope(|scope| {
         let (stop, info) = (&should_stop, &info);
-        let ahead = ReadAhead { reader, info, stop, range: None, cleaner: None };
+        let ahead = ReadAhead { reader, info, stop, range: None, has_huge_values: false, cleaner: None };
         scope.spawn(move || ahead.run(&spares, &filled));
         let mut take_all = || {
             for z in 0..info.dims.z {
@@ -63,6 +63,8 @@ struct ReadAhead<'a> {
     stop: &'a (dyn Fn() -> bool + Sync),
     /// Stored numbers of the smallest and the largest finite value so far, where there may be others.
     range: Option<(f64, f64)>,
+    /// Whether there was a finite value beyond f32.
+    has_huge_values: bool,
     cleaner: Option<Cleaner>,
 }
 
@@ -116,6 +118,9 @@ impl ReadAhead<'_> {
             }
             _ => numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v))),
         };
+        if low > high && !self.has_huge_values {
+            self.has_huge_values = (0..slab.len()).any(|i| self.info.value(slab.get(i)).is_finite());
+        }
         let (lowest, highest) = self.range.unwrap_or((low, high));
         self.range = (low <= high).then(|| (lowest.min(low), highest.max(high))).or(self.range);
     }
@@ -130,7 +135,13 @@ impl ReadAhead<'_> {
             self.reader.read_slab(z, slab)?;
             self.look(slab);
         }
-        let nothing = || VolumeError::NoFiniteValue { name: self.info.name.clone() };
+        let nothing = || {
+            let name = self.info.name.clone();
+            match self.has_huge_values {
+                true => VolumeError::BeyondSinglePrecision { name },
+                false => VolumeError::NoFiniteValue { name },
+            }
+        };
         let (low, high) = self.range.ok_or_else(nothing)?;
         // A negative slope turns the order of values around.
         let [smallest, largest] = if self.info.slope > 0.0 { [low, high] } else { [high, low] };

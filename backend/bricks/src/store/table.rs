@@ -98,9 +98,7 @@ impl Table {
             Table::Tree { count, .. } => {
                 let block = self.block(place / BLOCK, file)?;
                 let entry = block.get((place % BLOCK) as usize).copied().flatten().ok_or(Fault::Damaged)?;
-                let end = entry.first_child.checked_add(u64::from(entry.children.count_ones()));
-                let has_children = entry.first_child > place && end.is_some_and(|end| end <= *count);
-                if entry.children != 0 && !has_children {
+                if !has_children_within(&entry, place, *count) {
                     return Err(Fault::Damaged);
                 }
                 entry
@@ -165,6 +163,16 @@ impl Table {
         }
         unreachable!("the loop returns at the node's own depth")
     }
+}
+
+/// Whether the children of the entry at a place lie after it in a table of so many entries; one without children
+/// must not say where they are.
+fn has_children_within(entry: &Entry, place: u64, count: u64) -> bool {
+    if entry.children == 0 {
+        return entry.first_child == 0;
+    }
+    let end = entry.first_child.checked_add(u64::from(entry.children.count_ones()));
+    entry.first_child > place && end.is_some_and(|end| end <= count)
 }
 
 /// What the numbers of an entry must keep to, so that no read can leave the file or take more memory than a brick.

@@ -134,7 +134,7 @@ fn pass_on(
     found: &mut Verification,
 ) {
     let octants = (0..8u32).filter(|octant| entry.children >> octant & 1 == 1);
-    // The table rejects entries whose children lie outside it.
+    // The table rejects entries whose children lie outside it, and those without children that name a place for them.
     for (octant, slot) in octants.zip(&mut keys[entry.first_child as usize..]) {
         if slot.is_some() {
             found.note(format!("entry {place} of the table shares a child with another entry"));

@@ -79,6 +79,15 @@ pub enum VolumeError {
         /// The volume.
         name: String,
     },
+    /// No value is one of f32.
+    #[error(
+        "{name} has no value within {:.2e}, the largest that single precision holds: scale its values down",
+        f32::MAX
+    )]
+    BeyondSinglePrecision {
+        /// The volume.
+        name: String,
+    },
     /// A procedural volume that does not exist or cannot have that size.
     #[error("there is no procedural volume {name}: {what}")]
     Procedural {

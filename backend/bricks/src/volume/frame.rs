@@ -4,6 +4,9 @@ use glam::{DMat3, DVec3};
 
 /// Volume that three unit vectors span at least where they are taken to span a space.
 const FLATTEST: f64 = 1e-6;
+/// So many times as long as the shortest edge of a voxel is the longest at most. Far beyond any scanner's, it is near
+/// what rays in single precision can cross.
+const MOST_STRETCHED: f64 = 1e6;
 
 /// What the axes of a file's space are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +30,9 @@ pub struct VolumeFrame {
 }
 
 impl VolumeFrame {
+    /// What is asked of a voxel's edges, as the end of a sentence.
+    pub const SOUND_EDGES: &str = "each edge must be positive, and none a million times as long as another";
+
     /// A volume of which only the voxels' edges are known.
     pub fn of_voxels(voxel_size_m: DVec3) -> Self {
         Self { axes_m: DMat3::from_diagonal(voxel_size_m), origin_m: DVec3::ZERO, space: Space::Unknown }
@@ -53,13 +59,14 @@ impl VolumeFrame {
         Self { axes_m: directions * DMat3::from_diagonal(voxel_size_m), ..*self }
     }
 
-    /// Whether a volume can lie so: finite numbers, and axes that span a space.
+    /// Whether a volume can lie so: finite numbers, edges as [`Self::SOUND_EDGES`] says, and axes that span a space.
     pub fn is_sound(&self) -> bool {
         let size = self.voxel_size_m();
         self.axes_m.is_finite()
             && self.origin_m.is_finite()
             && size.is_finite()
             && size.min_element() > 0.0
+            && size.max_element() <= MOST_STRETCHED * size.min_element()
             && self.directions().determinant().abs() > FLATTEST
     }
 }
@@ -97,6 +104,11 @@ mod tests {
     fn flat_and_infinite_frames_are_unsound() {
         assert!(!VolumeFrame::of_voxels(DVec3::new(1.0, 0.0, 1.0)).is_sound());
         assert!(!VolumeFrame::of_voxels(DVec3::splat(f64::NAN)).is_sound());
+        for thin in [1e-37, 1e-7] {
+            assert!(!VolumeFrame::of_voxels(DVec3::new(1.0, thin, 1.0)).is_sound(), "{thin}");
+            assert!(VolumeFrame::of_voxels(DVec3::splat(thin)).is_sound(), "{thin}");
+        }
+        assert!(VolumeFrame::of_voxels(DVec3::new(1e-3, 1e-9, 1e-6)).is_sound());
         let flat = DMat3::from_cols(DVec3::X, DVec3::X, DVec3::Z);
         assert!(!VolumeFrame { axes_m: flat, ..VolumeFrame::of_voxels(DVec3::ONE) }.is_sound());
     }

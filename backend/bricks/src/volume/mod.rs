@@ -3,12 +3,14 @@
 mod element;
 mod error;
 mod frame;
+mod input;
 mod reader;
 mod samples;
 
 pub use element::{ByteOrder, Element};
 pub use error::VolumeError;
 pub use frame::{Space, VolumeFrame};
+pub use input::open_file;
 pub use reader::{MAX_EDGE_VOXELS, VolumeInfo, VolumeReader};
 pub(crate) use samples::with_samples;
 pub use samples::{Sample, Samples};

@@ -26,11 +26,12 @@ pub(super) fn item(object: &InMemDicomObject, sequence: Tag) -> Option<&InMemDic
     object.get(sequence)?.items()?.first()
 }
 
-/// The text without the blanks around it; None if there is none.
+/// The text without the blanks around it, and with blanks for line ends and other signs that are no letters; None if
+/// there is none.
 pub(super) fn text(element: Option<&InMemElement>) -> Option<String> {
     let text = element?.to_str().ok()?;
-    let text = text.trim_matches(|c: char| c.is_whitespace() || c == '\0');
-    (!text.is_empty()).then(|| text.to_owned())
+    let text = text.replace(char::is_control, " ");
+    Some(text.trim().to_owned()).filter(|text| !text.is_empty())
 }
 
 /// All numbers of an element.

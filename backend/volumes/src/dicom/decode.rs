@@ -1,25 +1,31 @@
 //! The bytes of a frame, extracted from its file and unpacked.
 
 use super::header::{Frame, ImageFile, cause_of, damaged};
+use super::jpeg::JpegSize;
 use super::rle;
 use super::syntax::{BIG_ENDIAN, is_plain};
-use bricks::volume::VolumeError;
-use dicom_core::DicomValue;
+use bricks::volume::{VolumeError, open_file};
+use dicom_core::{DicomValue, Tag};
 use dicom_dictionary_std::{tags, uids};
 use dicom_object::{DefaultDicomObject, OpenFileOptions};
 use dicom_pixeldata::PixelDecoder;
 use dicom_transfer_syntax_registry::{TransferSyntaxIndex, TransferSyntaxRegistry};
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
 /// First bytes of the element of the pixels in files with and without value representations; then comes its
 /// length, in four bytes (PS3.5, 7.1).
-const EXPLICIT_STARTS: [&[u8]; 2] =
-    [&[0xe0, 0x7f, 0x10, 0, b'O', b'W', 0, 0], &[0xe0, 0x7f, 0x10, 0, b'O', b'B', 0, 0]];
-const IMPLICIT_STARTS: [&[u8]; 1] = [&[0xe0, 0x7f, 0x10, 0]];
+const EXPLICIT_STARTS: [&[u8]; 4] = [
+    &[0xe0, 0x7f, 0x10, 0, b'O', b'W', 0, 0],
+    &[0xe0, 0x7f, 0x10, 0, b'O', b'B', 0, 0],
+    &[0xe0, 0x7f, 0x08, 0, b'O', b'F', 0, 0],
+    &[0xe0, 0x7f, 0x09, 0, b'O', b'D', 0, 0],
+];
+const IMPLICIT_STARTS: [&[u8]; 3] = [&[0xe0, 0x7f, 0x10, 0], &[0xe0, 0x7f, 0x08, 0], &[0xe0, 0x7f, 0x09, 0]];
 const LENGTH_BYTES: usize = 4;
+/// The elements that pixels can be in, of which a file has one.
+const PIXELS: [Tag; 3] = [tags::PIXEL_DATA, tags::FLOAT_PIXEL_DATA, tags::DOUBLE_FLOAT_PIXEL_DATA];
 
 /// Whether the frames can be unpacked.
 pub(super) fn check(file: &ImageFile) -> Result<(), VolumeError> {
@@ -85,7 +91,8 @@ impl Decoder {
                 );
                 return Err(VolumeError::unsupported(&file.path, what));
             }
-            let object = OpenFileOptions::new().open_file(&file.path);
+            let stream = file.start.open(&file.path).map_err(VolumeError::open(&file.path))?;
+            let object = OpenFileOptions::new().from_reader(stream);
             self.kept = Some((file.path.clone(), object.map_err(|cause| damaged(&file.path, &cause))?));
         }
         Ok(&self.kept.as_ref().expect("it was put there above").1)
@@ -107,7 +114,7 @@ fn frame_in_place(frame: &Frame) -> std::io::Result<Option<Vec<u8>>> {
     else {
         return Ok(None);
     };
-    let mut stream = File::open(&file.path)?;
+    let mut stream = open_file(&file.path)?;
     stream.seek(SeekFrom::Start(at))?;
     stream.read_exact(&mut header)?;
     let is_there = |start: &&[u8]| header == [start, &length.to_le_bytes()[..]].concat();
@@ -124,7 +131,8 @@ fn unpack(object: &DefaultDicomObject, frame: &Frame) -> Result<Vec<u8>, VolumeE
     let file = &*frame.file;
     let wrong =
         |what: &str| VolumeError::unsupported(&file.path, format!("{} {what}: copy it again", frame.name()));
-    let pixels = object.get(tags::PIXEL_DATA).ok_or_else(|| wrong("has no pixels"))?;
+    let mut pixels = PIXELS.into_iter().filter_map(|tag| object.get(tag));
+    let pixels = pixels.next().ok_or_else(|| wrong("has no pixels"))?;
     match pixels.value() {
         DicomValue::Primitive(cells) => {
             let start = frame.bytes() * frame.index as usize;
@@ -139,11 +147,36 @@ fn unpack(object: &DefaultDicomObject, frame: &Frame) -> Result<Vec<u8>, VolumeE
             rle::unpack(packed, pixels, usize::from(file.pixels.allocated / 8))
                 .ok_or_else(|| wrong("has damaged runs"))
         }
-        _ => unpack_jpeg(object, frame),
+        DicomValue::PixelSequence(sequence) => {
+            check_sizes(sequence.fragments(), frame)?;
+            unpack_jpeg(object, frame)
+        }
+        DicomValue::Sequence(_) => Err(wrong("has no pixels")),
     }
 }
 
-/// The crate copies what the JPEG holds to where the frame has room, and panics where the JPEG is the larger.
+/// The crate copies what a JPEG holds to where the frame has room, and panics where the JPEG is the larger: so what the
+/// JPEGs say of their sizes must fit.
+fn check_sizes(fragments: &[Vec<u8>], frame: &Frame) -> Result<(), VolumeError> {
+    let (file, room) = (&*frame.file, frame.bytes() as u64);
+    // A fragment that goes on with the one before it has no size.
+    let sizes = fragments.iter().filter_map(|fragment| JpegSize::of(fragment));
+    let Some(wrong) = sizes
+        .into_iter()
+        .find(|size| (size.rows, size.columns) != (file.rows, file.columns) || size.bytes() > room)
+    else {
+        return Ok(());
+    };
+    let JpegSize { rows, columns, components, bits } = wrong;
+    let what = format!(
+        "it holds a JPEG of {columns} × {rows} pixels of {components} × {bits} bits, and its header says {} × {} of {}: \
+         copy it again",
+        file.columns, file.rows, file.pixels.allocated
+    );
+    Err(VolumeError::unsupported(&file.path, what))
+}
+
+/// Sizes that cannot be seen beforehand may still make the crate panic.
 fn unpack_jpeg(object: &DefaultDicomObject, frame: &Frame) -> Result<Vec<u8>, VolumeError> {
     let path = &frame.file.path;
     let unpack = || object.decode_pixel_data_frame(frame.index).map(|pixels| pixels.data().to_vec());

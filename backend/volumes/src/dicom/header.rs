@@ -3,14 +3,13 @@
 use super::attributes::{FrameAttributes, integer, item, number, numbers, text, time, vector};
 use super::lengths;
 use super::pixels::PixelFormat;
-use super::syntax::{MAGIC, PREAMBLE_BYTES, is_plain};
+use super::start::Start;
+use super::syntax::is_plain;
 use bricks::volume::{MAX_EDGE_VOXELS, VolumeError};
 use dicom_core::Tag;
 use dicom_dictionary_std::tags;
 use dicom_object::{InMemDicomObject, OpenFileOptions};
 use glam::DVec3;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -22,10 +21,14 @@ const LARGEST_RATIO: u64 = 1032;
 pub(super) const MOMENT_NAMES: [&str; 5] =
     ["TemporalPosition", "AcquisitionTime", "TriggerTime", "EchoTime", "InstanceNumber"];
 
+/// How files call an image whose numbers stand for colours (PS3.3 C.7.6.3.1.2).
+const PALETTE: &str = "PALETTE COLOR";
+
 /// What all frames of a file share.
 #[derive(Clone, Debug)]
 pub(super) struct ImageFile {
     pub path: PathBuf,
+    pub start: Start,
     pub transfer_syntax: String,
     pub series_uid: String,
     pub description: String,
@@ -34,6 +37,8 @@ pub(super) struct ImageFile {
     pub rows: u32,
     pub columns: u32,
     pub frames: u32,
+    /// Whether the numbers stand for the colours of a table.
+    pub has_palette: bool,
     pub samples_per_pixel: u16,
     pub pixels: PixelFormat,
     /// Length of the file, bytes.
@@ -91,35 +96,15 @@ impl Frame {
     }
 }
 
-/// Whether a file that starts with these bytes is a DICOM file.
-pub(crate) fn is_dicom(start: &[u8]) -> bool {
-    start.get(PREAMBLE_BYTES..).is_some_and(|start| start.starts_with(MAGIC)) || start.starts_with(MAGIC)
-}
-
-/// Whether a file is a DICOM file.
-pub(super) fn is_dicom_file(path: &Path) -> Result<bool, VolumeError> {
-    Ok(is_dicom(&start(path)?))
-}
-
-fn start(path: &Path) -> Result<Vec<u8>, VolumeError> {
-    let mut start = Vec::new();
-    let file = File::open(path).map_err(VolumeError::open(path))?;
-    let magic_bytes = (PREAMBLE_BYTES + MAGIC.len()) as u64;
-    file.take(magic_bytes).read_to_end(&mut start).map_err(VolumeError::read(path))?;
-    Ok(start)
-}
-
 /// Reads the header; no frames where the file is not a DICOM file, or holds no image.
 pub(super) fn read(path: &Path) -> Result<Vec<Frame>, VolumeError> {
-    let start = start(path)?;
-    if !is_dicom(&start) {
-        return Ok(Vec::new());
-    }
-    lengths::check(path, start[MAGIC.len()..].ends_with(MAGIC))?;
+    let Some(start) = Start::of_file(path)? else { return Ok(Vec::new()) };
+    lengths::check(path, start)?;
     let length = std::fs::metadata(path).map_err(VolumeError::open(path))?.len();
-    let object = OpenFileOptions::new().read_until(FIRST_PIXELS).open_file(path);
+    let file = start.open(path).map_err(VolumeError::open(path))?;
+    let object = OpenFileOptions::new().read_until(FIRST_PIXELS).from_reader(file);
     let object = object.map_err(|cause| damaged(path, &cause))?;
-    match image_file(path, &object, object.meta().transfer_syntax(), length)? {
+    match image_file(path, start, &object, object.meta().transfer_syntax(), length)? {
         Some(file) => Ok(frames(&Arc::new(file), &object)),
         None => Ok(Vec::new()),
     }
@@ -140,6 +125,7 @@ pub(super) fn cause_of(error: &dyn std::error::Error) -> String {
 
 fn image_file(
     path: &Path,
+    start: Start,
     object: &InMemDicomObject,
     syntax: &str,
     length: u64,
@@ -163,9 +149,11 @@ fn image_file(
         stored,
         high_bit: bits(tags::HIGH_BIT).unwrap_or(stored.saturating_sub(1)),
         is_signed: integer_of(tags::PIXEL_REPRESENTATION) == Some(1),
+        is_float: is_float(object, allocated),
     };
     let file = ImageFile {
         path: path.into(),
+        start,
         transfer_syntax: syntax.trim_end_matches('\0').trim().to_owned(),
         series_uid: text_of(tags::SERIES_INSTANCE_UID),
         description: text_of(tags::SERIES_DESCRIPTION),
@@ -174,12 +162,20 @@ fn image_file(
         rows,
         columns,
         frames,
+        has_palette: text_of(tags::PHOTOMETRIC_INTERPRETATION) == PALETTE,
         samples_per_pixel: bits(tags::SAMPLES_PER_PIXEL).unwrap_or(1),
         pixels,
         length,
     };
     check_length(&file)?;
     Ok(Some(file))
+}
+
+/// Whether pixels of so many bits are floats: their files must not say what the bits of an integer mean, and all others
+/// have to (PS3.3 C.7.6.3, C.7.6.24 and 25).
+fn is_float(object: &InMemDicomObject, allocated: u16) -> bool {
+    let of_integers = [tags::BITS_STORED, tags::HIGH_BIT, tags::PIXEL_REPRESENTATION];
+    matches!(allocated, 32 | 64) && of_integers.into_iter().all(|tag| object.get(tag).is_none())
 }
 
 /// Whether the file can hold the frames, before memory is taken for them.

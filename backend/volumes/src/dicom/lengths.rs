@@ -1,13 +1,16 @@
-//! Whether the elements of a DICOM file end within it.
+//! Whether the elements of a DICOM file end within it, and do not lie too deep in each other.
 //!
-//! The parser takes memory for an element before it reads the element, and a damaged length can be 4 GiB: so the
-//! lengths are looked at first, without reading values.
+//! The parser takes memory for an element before it reads the element, and a damaged length can be 4 GiB; and it goes
+//! into sequences by recursion. So lengths and sequences are looked at first, without reading values, and just as the
+//! parser will understand them: a file that it understands otherwise would slip through.
 
-use super::syntax::{BIG_ENDIAN, MAGIC, PREAMBLE_BYTES};
-use bricks::volume::VolumeError;
-use dicom_dictionary_std::uids;
+use super::start::Start;
+use super::syntax::{BIG_ENDIAN, MAGIC};
+use bricks::volume::{VolumeError, open_file};
+use dicom_core::dictionary::{DataDictionary, DataDictionaryEntry};
+use dicom_core::{Tag, VR};
+use dicom_dictionary_std::{StandardDataDictionary, uids};
 use flate2::read::DeflateDecoder;
-use std::fs::File;
 use std::io::{BufReader, Cursor, ErrorKind, Read, Result, Seek, SeekFrom};
 use std::path::Path;
 
@@ -22,11 +25,20 @@ const META_GROUP: u16 = 0x0002;
 const META_LENGTH: u16 = 0x0000;
 const TRANSFER_SYNTAX: u16 = 0x0010;
 const ITEM_GROUP: u16 = 0xFFFE;
-const PIXEL_GROUP: u16 = 0x7FE0;
+const ITEM: Tag = Tag(ITEM_GROUP, 0xE000);
+const ITEM_END: Tag = Tag(ITEM_GROUP, 0xE00D);
+const SEQUENCE_END: Tag = Tag(ITEM_GROUP, 0xE0DD);
+const PIXELS: Tag = Tag(0x7FE0, 0x0010);
 /// Bytes of a deflated data set that are believed: it is unpacked whole to be looked at.
 const MOST_UNPACKED_BYTES: u64 = 1 << 30;
-/// First bytes of an item, lowest byte first.
-const ITEM_START: [u8; 4] = [0xfe, 0xff, 0x00, 0xe0];
+/// Sequences within each other that are believed; reports, the deepest of all, have some ten.
+const DEEPEST: usize = 64;
+/// Transfer syntaxes whose elements are deflated.
+const DEFLATED: [&str; 3] = [
+    uids::DEFLATED_EXPLICIT_VR_LITTLE_ENDIAN,
+    uids::JPIP_REFERENCED_DEFLATE,
+    uids::JPIPHTJ2K_REFERENCED_DEFLATE,
+];
 
 /// How element headers are written.
 #[derive(Clone, Copy)]
@@ -37,33 +49,52 @@ struct Coding {
 
 /// What stands before a value.
 struct Header {
-    group: u16,
-    element: u16,
+    tag: Tag,
     vr: [u8; 2],
     length: u32,
 }
 
-struct Walk<F> {
-    file: F,
-    coding: Coding,
-    end: u64,
-    /// Whether items are pixels, and not lists of elements.
-    in_pixels: bool,
+/// A sequence, or an item of one, that has begun.
+struct Begun {
+    is_item: bool,
+    /// Where it ends; None if a delimiter ends it.
+    end: Option<u64>,
+    /// Whether its items are pixels, not lists of elements.
+    is_of_pixels: bool,
 }
 
-/// Checks a file, with its preamble or without.
-pub(super) fn check(path: &Path, has_preamble: bool) -> std::result::Result<(), VolumeError> {
-    let file = File::open(path).map_err(VolumeError::open(path))?;
+struct Walk<F> {
+    file: F,
+    position: u64,
+    end: u64,
+    coding: Coding,
+    begun: Vec<Begun>,
+    /// Whether an item comes next, not an element.
+    awaits_item: bool,
+}
+
+/// Why a walk ended early.
+enum Fault {
+    Unreadable(std::io::Error),
+    Wrong(String),
+}
+
+impl From<std::io::Error> for Fault {
+    fn from(cause: std::io::Error) -> Self {
+        Self::Unreadable(cause)
+    }
+}
+
+/// Checks a file.
+pub(super) fn check(path: &Path, start: Start) -> std::result::Result<(), VolumeError> {
+    let file = open_file(path).map_err(VolumeError::open(path))?;
     let end = file.metadata().map_err(VolumeError::open(path))?.len();
-    let preamble = if has_preamble { PREAMBLE_BYTES } else { 0 };
-    let coding = Coding { is_explicit: true, is_big_endian: false };
-    let mut walk = Walk { file: BufReader::new(file), coding, end, in_pixels: false };
-    match walk.run((preamble + MAGIC.len()) as u64, true) {
+    match Walk::new(BufReader::new(file), end).run(start) {
         // A header that is cut off is for the parser to complain of.
-        Err(cause) if cause.kind() == ErrorKind::UnexpectedEof => Ok(()),
-        Err(cause) => Err(VolumeError::read(path)(cause)),
-        Ok(None) => Ok(()),
-        Ok(Some(what)) => Err(VolumeError::header(path, what)),
+        Err(Fault::Unreadable(cause)) if cause.kind() == ErrorKind::UnexpectedEof => Ok(()),
+        Err(Fault::Unreadable(cause)) => Err(VolumeError::read(path)(cause)),
+        Err(Fault::Wrong(what)) => Err(VolumeError::header(path, what)),
+        Ok(()) => Ok(()),
     }
 }
 
@@ -73,99 +104,187 @@ fn coding(syntax: &str) -> Coding {
 }
 
 impl<F: Read + Seek> Walk<F> {
-    /// What is wrong with the elements from a place on, if anything is; `in_meta` where the meta group comes first.
-    fn run(&mut self, start: u64, mut in_meta: bool) -> Result<Option<String>> {
-        self.file.seek(SeekFrom::Start(start))?;
-        // The meta group is always coded in the same way, and says how long it is and how the rest is coded.
+    fn new(file: F, end: u64) -> Self {
+        let coding = Coding { is_explicit: true, is_big_endian: false };
+        Self { file, position: 0, end, coding, begun: Vec::new(), awaits_item: false }
+    }
+
+    fn run(&mut self, start: Start) -> std::result::Result<(), Fault> {
+        match start {
+            Start::Elements { syntax } => self.coding = coding(syntax),
+            Start::Meta => return self.run_after_meta(),
+            Start::Whole { preamble_bytes } => {
+                self.position = (preamble_bytes + MAGIC.len()) as u64;
+                self.file.seek(SeekFrom::Start(self.position))?;
+                return self.run_after_meta();
+            }
+        }
+        self.elements()
+    }
+
+    fn run_after_meta(&mut self) -> std::result::Result<(), Fault> {
+        let syntax = self.meta()?;
+        if DEFLATED.contains(&&*syntax) {
+            return self.run_deflated();
+        }
+        self.coding = coding(&syntax);
+        self.elements()
+    }
+
+    /// Goes through the meta group, which is always coded in the same way, and says how long it is and how the rest is
+    /// coded.
+    fn meta(&mut self) -> std::result::Result<String, Fault> {
         let (mut meta_end, mut syntax) = (None, String::new());
-        while self.file.stream_position()? < self.end {
-            if in_meta && self.is_after_meta(meta_end)? {
-                in_meta = false;
-                if syntax == uids::DEFLATED_EXPLICIT_VR_LITTLE_ENDIAN {
-                    return self.run_deflated();
-                }
-                self.coding = coding(&syntax);
-            }
+        while self.position < meta_end.unwrap_or(self.end) {
             let header = self.header()?;
-            if let Some(what) = self.too_long(&header)? {
-                return Ok(Some(what));
-            }
-            match (header.group, header.element) {
-                (META_GROUP, META_LENGTH) if in_meta && header.length == 4 => {
+            self.check_length(&header)?;
+            match (header.tag.group(), header.tag.element()) {
+                (META_GROUP, META_LENGTH) if meta_end.is_none() && header.length == 4 => {
                     let length = self.number::<4>()?;
-                    meta_end = Some(self.file.stream_position()? + u64::from(length));
+                    meta_end = Some(self.position + u64::from(length));
                 }
-                (META_GROUP, TRANSFER_SYNTAX) if in_meta && header.length != UNDEFINED => {
+                (META_GROUP, TRANSFER_SYNTAX) if header.length != UNDEFINED => {
                     let mut text = vec![0; header.length as usize];
-                    self.file.read_exact(&mut text)?;
-                    syntax = String::from_utf8_lossy(&text).trim_end_matches(['\0', ' ']).to_owned();
+                    self.read(&mut text)?;
+                    let text = String::from_utf8_lossy(&text);
+                    syntax = text.trim_end_matches(|c: char| c.is_whitespace() || c == '\0').to_owned();
                 }
-                _ if !self.go_into(&header)? => return Ok(None),
-                _ => (),
+                _ if header.length == UNDEFINED => {
+                    return Err(Fault::Unreadable(ErrorKind::UnexpectedEof.into()));
+                }
+                _ => self.skip(header.length)?,
             }
         }
-        Ok(None)
+        Ok(syntax)
     }
 
-    fn is_after_meta(&mut self, meta_end: Option<u64>) -> Result<bool> {
-        match meta_end {
-            Some(end) => Ok(self.file.stream_position()? >= end),
-            None => Ok(self.peek()?[..2] != META_GROUP.to_le_bytes()),
-        }
-    }
-
-    /// What is wrong with the elements that the rest of the file unpacks to.
-    fn run_deflated(&mut self) -> Result<Option<String>> {
+    /// Goes through the elements that the rest of the file unpacks to.
+    fn run_deflated(&mut self) -> std::result::Result<(), Fault> {
         let mut unpacked = Vec::new();
         // What comes before damage can still be wrong; the damage itself is for the parser to complain of.
         let _ = DeflateDecoder::new(&mut self.file).take(MOST_UNPACKED_BYTES + 1).read_to_end(&mut unpacked);
         let end = unpacked.len() as u64;
         if end > MOST_UNPACKED_BYTES {
             let what = "its deflated elements unpack to more than 1 GiB: unpack it first, for instance with gdcmconv --raw";
-            return Ok(Some(what.into()));
+            return Err(Fault::Wrong(what.into()));
         }
-        let coding = Coding { is_explicit: true, is_big_endian: false };
-        Walk { file: Cursor::new(unpacked), coding, end, in_pixels: false }.run(0, false)
+        Walk::new(Cursor::new(unpacked), end).elements()
     }
 
-    fn too_long(&mut self, header: &Header) -> Result<Option<String>> {
-        let left = self.end.saturating_sub(self.file.stream_position()?);
-        let is_wrong = header.length != UNDEFINED && u64::from(header.length) > left;
-        Ok(is_wrong.then(|| {
-            format!(
-                "element ({:04x},{:04x}) has {} bytes, and {left} are left: the file is cut off or damaged, copy it again",
-                header.group, header.element, header.length
-            )
-        }))
+    /// Goes through elements to the end, or to what the parser will not go beyond.
+    fn elements(&mut self) -> std::result::Result<(), Fault> {
+        while self.position < self.end {
+            self.end_what_is_over()?;
+            let goes_on = if self.awaits_item { self.item()? } else { self.element()? };
+            if !goes_on {
+                break;
+            }
+        }
+        Ok(())
     }
 
-    /// Goes to the next header, in the value where that is made of elements; false if that is unknown.
-    fn go_into(&mut self, header: &Header) -> Result<bool> {
-        let is_item = header.group == ITEM_GROUP;
-        if header.length == UNDEFINED {
-            self.in_pixels |= header.group == PIXEL_GROUP;
-            // What is in a value of unknown type is coded otherwise.
-            return Ok(header.vr != *b"UN");
+    /// Leaves the sequences and items whose length is over.
+    fn end_what_is_over(&mut self) -> std::result::Result<(), Fault> {
+        while let Some(&Begun { is_item, end: Some(end), .. }) = self.begun.last() {
+            if self.position < end {
+                break;
+            }
+            if self.position > end {
+                let what =
+                    "the lengths of its sequences contradict each other: it may be damaged, copy it again";
+                return Err(Fault::Wrong(what.into()));
+            }
+            self.begun.pop();
+            self.awaits_item = is_item;
         }
-        let is_list = match (is_item, self.coding.is_explicit) {
-            (true, _) => !self.in_pixels,
-            (false, true) => header.vr == *b"SQ",
-            (false, false) => header.length >= 8 && self.peek()? == ITEM_START,
-        };
-        if !is_list {
-            self.file.seek_relative(i64::from(header.length))?;
+        Ok(())
+    }
+
+    /// The header of an item, or the end of one or of a sequence; false where there is neither.
+    fn item(&mut self) -> std::result::Result<bool, Fault> {
+        let (tag, length) = (self.tag()?, self.number::<4>()?);
+        let is_of_pixels = self.begun.last().is_some_and(|begun| begun.is_of_pixels);
+        match tag {
+            ITEM if is_of_pixels && length == UNDEFINED => return Ok(false),
+            ITEM => {
+                self.check_length(&Header { tag, vr: [0; 2], length })?;
+                match is_of_pixels {
+                    true => self.skip(length)?,
+                    false => self.begin(true, length, false)?,
+                }
+            }
+            ITEM_END | SEQUENCE_END => {
+                self.begun.pop();
+                self.awaits_item = tag == ITEM_END;
+            }
+            _ => return Ok(false),
         }
         Ok(true)
     }
 
+    /// The header of an element, and its value if that is not made of elements; or the end of an item.
+    fn element(&mut self) -> std::result::Result<bool, Fault> {
+        let header = self.header()?;
+        if header.tag == ITEM_END {
+            self.awaits_item = self.begun.pop().is_some();
+            return Ok(true);
+        }
+        self.check_length(&header)?;
+        let is_sequence = self.is_sequence(&header);
+        match is_sequence || header.length == UNDEFINED {
+            true => self.begin(false, header.length, header.tag == PIXELS && !is_sequence)?,
+            false => self.skip(header.length)?,
+        }
+        Ok(true)
+    }
+
+    /// Whether the type is that of sequences; without types in the file, the dictionary says so.
+    fn is_sequence(&self, header: &Header) -> bool {
+        match self.coding.is_explicit {
+            true => header.vr == *b"SQ",
+            false => {
+                let entry = StandardDataDictionary.by_tag(header.tag);
+                entry.is_some_and(|entry| entry.vr().relaxed() == VR::SQ)
+            }
+        }
+    }
+
+    fn begin(&mut self, is_item: bool, length: u32, is_of_pixels: bool) -> std::result::Result<(), Fault> {
+        if self.begun.len() == 2 * DEEPEST {
+            let what = format!(
+                "its sequences lie more than {DEEPEST} deep in each other: it may be damaged, copy it again"
+            );
+            return Err(Fault::Wrong(what));
+        }
+        let end = (length != UNDEFINED).then(|| self.position + u64::from(length));
+        self.begun.push(Begun { is_item, end, is_of_pixels });
+        self.awaits_item = !is_item;
+        Ok(())
+    }
+
+    /// Whether what a header announces ends within the file.
+    fn check_length(&self, header: &Header) -> std::result::Result<(), Fault> {
+        let left = self.end.saturating_sub(self.position);
+        if header.length == UNDEFINED || u64::from(header.length) <= left {
+            return Ok(());
+        }
+        Err(Fault::Wrong(format!(
+            "element ({:04x},{:04x}) has {} bytes, and {left} are left: the file is cut off or damaged, copy it again",
+            header.tag.group(),
+            header.tag.element(),
+            header.length
+        )))
+    }
+
     fn header(&mut self) -> Result<Header> {
-        let (group, element) = (self.number::<2>()? as u16, self.number::<2>()? as u16);
-        let mut header = Header { group, element, vr: [0; 2], length: 0 };
-        if group == ITEM_GROUP || !self.coding.is_explicit {
+        let mut header = Header { tag: self.tag()?, vr: [0; 2], length: 0 };
+        if header.tag.group() == ITEM_GROUP || !self.coding.is_explicit {
             header.length = self.number::<4>()?;
             return Ok(header);
         }
-        self.file.read_exact(&mut header.vr)?;
+        let mut vr = [0; 2];
+        self.read(&mut vr)?;
+        header.vr = vr;
         header.length = self.number::<2>()?;
         if !SHORT.contains(&&header.vr) {
             header.length = self.number::<4>()?;
@@ -173,20 +292,28 @@ impl<F: Read + Seek> Walk<F> {
         Ok(header)
     }
 
+    fn tag(&mut self) -> Result<Tag> {
+        Ok(Tag(self.number::<2>()? as u16, self.number::<2>()? as u16))
+    }
+
     fn number<const BYTES: usize>(&mut self) -> Result<u32> {
         let mut bytes = [0; BYTES];
-        self.file.read_exact(&mut bytes)?;
+        self.read(&mut bytes)?;
         if !self.coding.is_big_endian {
             bytes.reverse();
         }
         Ok(bytes.iter().fold(0, |number, &byte| number << 8 | u32::from(byte)))
     }
 
-    /// The next bytes, which stay.
-    fn peek(&mut self) -> Result<[u8; 4]> {
-        let mut bytes = [0; 4];
-        self.file.read_exact(&mut bytes)?;
-        self.file.seek_relative(-4)?;
-        Ok(bytes)
+    fn read(&mut self, bytes: &mut [u8]) -> Result<()> {
+        self.file.read_exact(bytes)?;
+        self.position += bytes.len() as u64;
+        Ok(())
+    }
+
+    fn skip(&mut self, bytes: u32) -> Result<()> {
+        self.file.seek_relative(i64::from(bytes))?;
+        self.position += u64::from(bytes);
+        Ok(())
     }
 }

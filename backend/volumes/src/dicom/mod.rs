@@ -3,11 +3,15 @@
 mod attributes;
 mod decode;
 mod header;
+#[cfg(test)]
+mod hostile_tests;
+mod jpeg;
 mod lengths;
 mod pixels;
 mod rle;
 mod scan;
 mod stack;
+mod start;
 mod syntax;
 #[cfg(test)]
 mod tests;
@@ -15,9 +19,13 @@ mod volume;
 
 use super::Selection;
 use bricks::volume::{VolumeError, VolumeReader};
-pub(super) use header::is_dicom;
 pub(super) use scan::is_in;
 use std::path::Path;
+
+/// Whether a file that starts with these bytes is a DICOM file.
+pub(super) fn is_dicom(start: &[u8]) -> bool {
+    start::Start::of(start).is_some()
+}
 
 /// Opens the series in a folder, or around a file.
 pub(super) fn open(path: &Path, selection: &Selection) -> Result<Box<dyn VolumeReader>, VolumeError> {

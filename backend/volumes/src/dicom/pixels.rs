@@ -13,11 +13,16 @@ pub(super) struct PixelFormat {
     pub high_bit: u16,
     /// Whether the highest bit is the sign, as two's complement.
     pub is_signed: bool,
+    /// Whether the whole cell is a float of 32 or 64 bits, as in parametric maps (PS3.3 C.7.6.24 and 25).
+    pub is_float: bool,
 }
 
 impl PixelFormat {
     /// The type that holds the numbers; None if the bits make no sense, or are not read here.
     pub fn element(&self) -> Option<Element> {
+        if self.is_float {
+            return if self.allocated == 32 { Some(Element::F32) } else { Some(Element::F64) };
+        }
         let fits = self.stored >= 1 && self.high_bit < self.allocated && self.stored <= self.high_bit + 1;
         match (fits, self.allocated, self.is_signed) {
             (true, 8, false) => Some(Element::U8),
@@ -40,10 +45,13 @@ impl PixelFormat {
         }
     }
 
-    /// Writes the numbers of `bytes` (cells, lowest byte first) to `slab`, whose type is [`PixelFormat::element`]
-    /// or, where they are scaled, f32.
-    pub fn unpack(&self, bytes: &[u8], scaling: (f64, f64), slab: &mut Samples) {
-        if self.stored == self.allocated && !slab.element().is_float() {
+    /// Writes the numbers of `bytes` (cells, lowest byte first) to `slab`, whose type is [`PixelFormat::element`]; or,
+    /// given a slope and an intercept, their values to one of f32.
+    pub fn unpack(&self, bytes: &[u8], scaling: Option<(f64, f64)>, slab: &mut Samples) {
+        if let (Some(scaling), Samples::F32(values)) = (scaling, &mut *slab) {
+            return self.fill_scaled(bytes, scaling, values);
+        }
+        if self.is_float || self.stored == self.allocated {
             slab.bytes_mut().copy_from_slice(bytes);
             return slab.reorder(ByteOrder::Little);
         }
@@ -54,10 +62,18 @@ impl PixelFormat {
             Samples::I16(values) => self.fill(bytes, values, |number| number as i16),
             Samples::U32(values) => self.fill(bytes, values, |number| number as u32),
             Samples::I32(values) => self.fill(bytes, values, |number| number as i32),
-            Samples::F32(values) => {
-                self.fill(bytes, values, |number| (number as f64 * scaling.0 + scaling.1) as f32)
-            }
             _ => unreachable!("no pixel format has the type {}", slab.element()),
+        }
+    }
+
+    fn fill_scaled(&self, bytes: &[u8], (slope, intercept): (f64, f64), values: &mut [f32]) {
+        let scaled = |number: f64| (number * slope + intercept) as f32;
+        let pairs =
+            |values| std::iter::zip::<&mut [f32], _>(values, bytes.chunks(usize::from(self.allocated / 8)));
+        match (self.is_float, self.allocated) {
+            (false, _) => self.fill(bytes, values, |number| scaled(number as f64)),
+            (true, 32) => pairs(values).for_each(|(value, cell)| *value = scaled(f32_in(cell).into())),
+            (true, _) => pairs(values).for_each(|(value, cell)| *value = scaled(f64_in(cell))),
         }
     }
 
@@ -70,25 +86,51 @@ impl PixelFormat {
     }
 }
 
+fn f32_in(cell: &[u8]) -> f32 {
+    f32::from_le_bytes(std::array::from_fn(|i| cell[i]))
+}
+
+fn f64_in(cell: &[u8]) -> f64 {
+    f64::from_le_bytes(std::array::from_fn(|i| cell[i]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn twelve_bits_in_sixteen_keep_their_sign_and_lose_what_lies_beside() {
-        let format = PixelFormat { allocated: 16, stored: 12, high_bit: 11, is_signed: true };
+        let format =
+            PixelFormat { allocated: 16, stored: 12, high_bit: 11, is_signed: true, is_float: false };
         let mut slab = Samples::new(Element::I16, 3);
-        format.unpack(&[0xff, 0xff, 0x00, 0x78, 0x00, 0x10], (1.0, 0.0), &mut slab);
+        format.unpack(&[0xff, 0xff, 0x00, 0x78, 0x00, 0x10], None, &mut slab);
         assert_eq!(slab, Samples::I16(vec![-1, -2048, 0]));
         let high = PixelFormat { high_bit: 15, is_signed: false, ..format };
         let mut slab = Samples::new(Element::U16, 1);
-        high.unpack(&[0xff, 0xff], (1.0, 0.0), &mut slab);
+        high.unpack(&[0xff, 0xff], None, &mut slab);
         assert_eq!(slab, Samples::U16(vec![4095]));
     }
 
     #[test]
+    fn floats_are_taken_as_they_are_or_scaled() {
+        let bytes = [1.5f64, -2.0].map(f64::to_le_bytes).concat();
+        let format =
+            PixelFormat { allocated: 64, stored: 64, high_bit: 63, is_signed: false, is_float: true };
+        let mut slab = Samples::new(format.element().unwrap(), 2);
+        format.unpack(&bytes, None, &mut slab);
+        assert_eq!(slab, Samples::F64(vec![1.5, -2.0]));
+        let mut slab = Samples::new(Element::F32, 2);
+        format.unpack(&bytes, Some((2.0, 1.0)), &mut slab);
+        assert_eq!(slab, Samples::F32(vec![4.0, -3.0]));
+        let bytes = [1.5f32, -2.0].map(f32::to_le_bytes).concat();
+        PixelFormat { allocated: 32, ..format }.unpack(&bytes, Some((2.0, 1.0)), &mut slab);
+        assert_eq!(slab, Samples::F32(vec![4.0, -3.0]));
+    }
+
+    #[test]
     fn bits_that_do_not_fit_have_no_type() {
-        let format = PixelFormat { allocated: 16, stored: 12, high_bit: 11, is_signed: false };
+        let format =
+            PixelFormat { allocated: 16, stored: 12, high_bit: 11, is_signed: false, is_float: false };
         assert_eq!(format.element(), Some(Element::U16));
         assert_eq!(PixelFormat { stored: 0, ..format }.element(), None);
         assert_eq!(PixelFormat { high_bit: 10, ..format }.element(), None);

@@ -1,6 +1,7 @@
 //! Which images lie in a folder, and which series they make.
 
 use super::header::{self, Frame};
+use super::start::Start;
 use bricks::volume::VolumeError;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ pub(crate) fn is_in(folder: &Path) -> Result<bool, VolumeError> {
     let mut paths = Vec::new();
     list(folder, DEEPEST, &mut paths)?;
     for path in paths {
-        if header::is_dicom_file(&path)? {
+        if Start::of_file(&path)?.is_some() {
             return Ok(true);
         }
     }

@@ -3,6 +3,7 @@
 use super::header::{Frame, MOMENT_NAMES, Pose};
 use super::scan::Series;
 use crate::Selection;
+use crate::choice::{Several, only_one};
 use bricks::volume::{Space, VolumeError, VolumeFrame};
 use glam::{DMat3, DVec3};
 use std::path::Path;
@@ -31,6 +32,7 @@ pub(super) struct Stack {
 pub(super) fn stack(path: &Path, series: Series, selection: &Selection) -> Result<Stack, VolumeError> {
     let wrong = |what| Err(VolumeError::unsupported(path, what));
     let Some(pose) = series[0].pose else {
+        only_one(path, Several::Times, selection.time)?;
         return Ok(stack_without_positions(path, series, selection));
     };
     if !pose.position_mm.is_finite() || pose.normal().length() < 0.5 {

@@ -2,7 +2,7 @@
 
 use dicom_dictionary_std::uids;
 
-/// What a Part 10 file starts with after its preamble of so many bytes; old files lack the preamble.
+/// What a Part 10 file starts with after its preamble of so many bytes; some files lack the preamble.
 pub(super) const MAGIC: &[u8] = b"DICM";
 pub(super) const PREAMBLE_BYTES: usize = 128;
 

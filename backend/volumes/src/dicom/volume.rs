@@ -4,7 +4,7 @@ use super::decode::{self, Decoder};
 use super::header::Frame;
 use super::stack::Stack;
 use crate::Selection;
-use bricks::volume::{Element, MAX_EDGE_VOXELS, Samples, VolumeError, VolumeInfo, VolumeReader};
+use bricks::volume::{Element, MAX_EDGE_VOXELS, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
 use glam::UVec3;
 use std::path::Path;
 
@@ -12,6 +12,8 @@ use std::path::Path;
 pub(super) struct DicomVolume {
     info: VolumeInfo,
     slices: Vec<Frame>,
+    /// Whether values are handed out, not the numbers of the files.
+    is_scaled: bool,
     decoder: Decoder,
 }
 
@@ -23,6 +25,9 @@ impl DicomVolume {
             check_slice(slice)?;
         }
         let first = &slices[0];
+        if first.file.has_palette {
+            tracing::warn!(path = %first.file.path.display(), "its numbers stand for colours of a palette: they are taken as values");
+        }
         let mut info = VolumeInfo {
             name: name(path, first),
             dims: UVec3::new(first.file.columns, first.file.rows, slices.len() as u32),
@@ -32,7 +37,8 @@ impl DicomVolume {
             intercept: first.scaling.1,
         };
         // Slices that are scaled differently (PET) have no common stored number: they are handed out as values.
-        if slices.iter().any(|slice| slice.scaling != first.scaling) {
+        let is_scaled = slices.iter().any(|slice| slice.scaling != first.scaling);
+        if is_scaled {
             (info.element, info.slope, info.intercept) = (Element::F32, 1.0, 0.0);
         }
         if slices.len() > MAX_EDGE_VOXELS as usize {
@@ -40,10 +46,11 @@ impl DicomVolume {
             return Err(VolumeError::unsupported(path, what));
         }
         if !info.frame.is_sound() {
-            let what = format!("its voxels cannot lie so: edges of {} mm", info.frame.voxel_size_m() * 1e3);
+            let size_mm = info.frame.voxel_size_m() * 1e3;
+            let what = format!("its voxels of {size_mm} mm cannot lie so: {}", VolumeFrame::SOUND_EDGES);
             return Err(VolumeError::header(&first.file.path, what));
         }
-        Ok(Self { info, slices, decoder: Decoder::new(selection.memory_bytes) })
+        Ok(Self { info, slices, is_scaled, decoder: Decoder::new(selection.memory_bytes) })
     }
 }
 
@@ -56,7 +63,7 @@ impl VolumeReader for DicomVolume {
         assert!(z < self.info.dims.z && slab.len() == self.info.slab_voxels(), "slab {z} of {:?}", self.info);
         let slice = &self.slices[z as usize];
         let bytes = self.decoder.frame(slice)?;
-        slice.file.pixels.unpack(&bytes, slice.scaling, slab);
+        slice.file.pixels.unpack(&bytes, self.is_scaled.then_some(slice.scaling), slab);
         Ok(())
     }
 }

@@ -28,6 +28,22 @@ pub enum ExportError {
         /// What it has.
         what: String,
     },
+    /// A part that takes more memory than can be meant.
+    #[error(
+        "a plane of {width} × {height} voxels is too large for NRRD: choose a coarser level or a smaller part, or OME-Zarr"
+    )]
+    Plane {
+        /// Voxels along x.
+        width: u32,
+        /// Voxels along y.
+        height: u32,
+    },
+    /// The export was asked to stop.
+    #[error("stopped: nothing was written to {}; the same command starts again from the beginning", path.display())]
+    Interrupted {
+        /// The file or folder that was to be.
+        path: PathBuf,
+    },
     /// A value beyond the numbers of a type.
     #[error("the value {value} does not fit into {element}: choose a larger type, or none")]
     Fit {

@@ -7,6 +7,7 @@ mod numbers;
 mod options;
 mod part;
 mod rounding;
+mod supply;
 #[cfg(test)]
 mod tests;
 mod zarr;
@@ -18,13 +19,14 @@ use bricks::BrickSource;
 use part::Part;
 use std::path::Path;
 use std::time::Instant;
+use supply::Supply;
 
 /// Writes a `.nrrd` file or a `.zarr` folder from a store. It appears under its name only when it is complete;
 /// `progress` gets (done, total) in planes. The whole volume is never in memory.
 ///
 /// # Errors
 /// A name of neither kind or of something that is there, a part that is not in the level, values that are beyond the
-/// type asked for, a damaged brick, and what the file system says.
+/// type asked for, a damaged brick, a request to stop, and what the file system says.
 pub fn export(
     source: &dyn BrickSource,
     out: &Path,
@@ -46,9 +48,13 @@ pub fn export(
         true => grid::all_levels(source),
         false => vec![grid::part(source, options)?],
     };
+    if !is_zarr {
+        nrrd::check_size(&parts[0])?;
+    }
+    let supply = Supply { source, out, stop: options.stop.as_deref() };
     let element = match options.element {
         Some(element) => element,
-        None => numbers::smallest_element(source, &parts)?,
+        None => numbers::smallest_element(supply, &parts)?,
     };
     let total: u64 = parts.iter().map(|part| u64::from(part.size.z)).sum();
     let done = std::cell::Cell::new(0);
@@ -57,8 +63,8 @@ pub fn export(
         progress(done.get(), total);
     };
     let bytes = match is_zarr {
-        false => nrrd::write(source, &parts[0], element, out, options.is_packed, &wrote)?,
-        true => zarr::write(source, &parts, element, out, &wrote)?,
+        false => nrrd::write(supply, &parts[0], element, options.is_packed, &wrote)?,
+        true => zarr::write(supply, &parts, element, &wrote)?,
     };
     Ok(ExportReport {
         levels: parts.iter().map(|part| part.size).collect(),

@@ -1,15 +1,16 @@
 //! The smallest type that keeps the exported numbers.
 
 use super::rounding::range;
+use super::supply::Supply;
 use super::{ExportError, Part};
+use bricks::Brick;
 use bricks::volume::Element;
-use bricks::{Brick, BrickSource};
 
 /// Integers that are tried, the smallest first.
 const INTEGERS: [Element; 4] = [Element::U8, Element::I16, Element::U16, Element::I32];
 
 /// The smallest type that keeps every value of the parts as the store has it (f32 where that takes fractions).
-pub(super) fn smallest_element(source: &dyn BrickSource, parts: &[Part]) -> Result<Element, ExportError> {
+pub(super) fn smallest_element(supply: Supply, parts: &[Part]) -> Result<Element, ExportError> {
     let (mut smallest, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut is_integer = true;
     // The coarse levels are means: where there are fractions at all, these have them, and are few.
@@ -17,7 +18,7 @@ pub(super) fn smallest_element(source: &dyn BrickSource, parts: &[Part]) -> Resu
         if !is_integer {
             break;
         }
-        part.bricks(source, |node, brick| {
+        part.bricks(supply, |node, brick| {
             is_integer = has_integers(brick);
             for (index, _, voxels) in part.rows(node) {
                 let values = (index..index + voxels).map(|i| brick.value(i));

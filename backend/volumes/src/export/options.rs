@@ -2,10 +2,12 @@
 
 use bricks::volume::Element;
 use glam::UVec3;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// What to export, and how.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
     /// Level, 0 = finest. None is the finest; of OME-Zarr all levels, where no part is asked for.
     pub level: Option<u8>,
@@ -18,6 +20,8 @@ pub struct ExportOptions {
     pub element: Option<Element>,
     /// Whether an NRRD file is packed with gzip; OME-Zarr is always packed.
     pub is_packed: bool,
+    /// The export ends with an error soon after this becomes true.
+    pub stop: Option<Arc<AtomicBool>>,
 }
 
 /// What an export did.

@@ -2,8 +2,9 @@
 
 use super::ExportError;
 use super::rounding::Rounding;
+use super::supply::Supply;
 use bricks::volume::Samples;
-use bricks::{Brick, BrickSource, NodeKey, OVERLAP, OWN_EDGE};
+use bricks::{Brick, NodeKey, OVERLAP, OWN_EDGE};
 use glam::UVec3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -22,18 +23,26 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// The planes `z` of the part, which count from its own first one, as a part.
-    pub fn planes(self, z: Range<u32>) -> Self {
-        let low = UVec3::new(self.low.x, self.low.y, self.low.z + z.start);
-        Self { low, size: UVec3::new(self.size.x, self.size.y, z.end - z.start), ..self }
+    /// A box of the part, in voxels from its own first one, as a part.
+    pub fn section(self, low: UVec3, size: UVec3) -> Self {
+        Self { low: self.low + low, size, ..self }
     }
 
-    /// The planes in groups that end where bricks do.
-    pub fn layers(self) -> impl Iterator<Item = Range<u32>> {
+    /// The planes `z` of the part, which count from its own first one, as a part.
+    pub fn planes(self, z: Range<u32>) -> Self {
+        self.section(UVec3::new(0, 0, z.start), UVec3::new(self.size.x, self.size.y, z.end - z.start))
+    }
+
+    /// The planes in groups of so many at most, which end where bricks do.
+    pub fn layers(self, most_planes: u32) -> impl Iterator<Item = Range<u32>> {
         let own = OWN_EDGE as u32;
         let (first, end) = (self.low.z, self.low.z + self.size.z);
         let layers = first / own..end.div_ceil(own);
-        layers.map(move |layer| (layer * own).max(first) - first..((layer + 1) * own).min(end) - first)
+        let layers = layers.map(move |layer| (layer * own).max(first)..((layer + 1) * own).min(end));
+        layers.flat_map(move |layer| {
+            let groups = layer.clone().step_by(most_planes as usize);
+            groups.map(move |start| start - first..(start + most_planes).min(layer.end) - first)
+        })
     }
 
     pub fn voxels(self) -> usize {
@@ -41,34 +50,34 @@ impl Part {
     }
 
     /// The nodes that hold something of it.
-    fn nodes(self) -> Vec<NodeKey> {
+    fn nodes(self) -> impl Iterator<Item = NodeKey> {
         let own = UVec3::splat(OWN_EDGE as u32);
         let (low, end) = (self.low / own, (self.low + self.size + own - 1) / own);
-        let mut nodes = Vec::new();
-        for z in low.z..end.z {
-            for y in low.y..end.y {
-                nodes
-                    .extend((low.x..end.x).map(|x| NodeKey { depth: self.depth, cell: UVec3::new(x, y, z) }));
-            }
-        }
-        nodes
+        let node = move |x, y, z| NodeKey { depth: self.depth, cell: UVec3::new(x, y, z) };
+        let row = move |y, z| (low.x..end.x).map(move |x| node(x, y, z));
+        (low.z..end.z).flat_map(move |z| (low.y..end.y).flat_map(move |y| row(y, z)))
     }
 
     /// Reads the bricks of the part, some at a time, and hands them over in order; false from `take` ends it.
     pub fn bricks(
         self,
-        source: &dyn BrickSource,
+        supply: Supply,
         mut take: impl FnMut(NodeKey, &Brick) -> Result<bool, ExportError>,
     ) -> Result<(), ExportError> {
-        for nodes in self.nodes().chunks(BRICKS_AT_ONCE) {
-            let bricks: Result<Vec<_>, _> = nodes.par_iter().map(|&node| source.brick(node)).collect();
+        let mut rest = self.nodes();
+        loop {
+            supply.check_stop()?;
+            let nodes: Vec<_> = rest.by_ref().take(BRICKS_AT_ONCE).collect();
+            if nodes.is_empty() {
+                return Ok(());
+            }
+            let bricks: Result<Vec<_>, _> = nodes.par_iter().map(|&node| supply.source.brick(node)).collect();
             for (&node, brick) in nodes.iter().zip(&bricks?) {
                 if !take(node, brick)? {
                     return Ok(());
                 }
             }
         }
-        Ok(())
     }
 
     /// Rows along x that a node shares with the part: the stored index of the first voxel in the brick, its place in
@@ -87,9 +96,9 @@ impl Part {
     }
 
     /// All voxels of it, x fastest.
-    pub fn samples(self, source: &dyn BrickSource, rounding: Rounding) -> Result<Samples, ExportError> {
+    pub fn samples(self, supply: Supply, rounding: Rounding) -> Result<Samples, ExportError> {
         let mut samples = Samples::new(rounding.element, self.voxels());
-        self.bricks(source, |node, brick| {
+        self.bricks(supply, |node, brick| {
             for (index, place, voxels) in self.rows(node) {
                 for i in 0..voxels {
                     samples.set(place + i, rounding.round(brick.value(index + i))?);

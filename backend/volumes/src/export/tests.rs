@@ -4,12 +4,14 @@ use super::*;
 use crate::{ImportOptions, import};
 use crate::{Selection, open};
 use bricks::store::Store;
-use bricks::volume::Element;
+use bricks::volume::{Element, MAX_EDGE_VOXELS};
 use bricks::volume::{Samples, Space, VolumeFrame, VolumeInfo};
 use bricks::{BRICK_VOXELS, Brick, BrickError, Codes, NodeKey, NodeSummary, OctreeShape};
 use glam::UVec3;
 use glam::{DMat3, DVec3};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 /// A volume whose bricks are made as they are asked for: value = x + 2 y + 3 z + `low` at the finest level, and the
 /// same by its own indices times `step` at coarser ones.
@@ -96,6 +98,10 @@ fn quietly(
     export(source, out, options, &|_, _| {})
 }
 
+fn supply_of(source: &dyn BrickSource) -> Supply<'_> {
+    Supply { source, out: Path::new("a"), stop: None }
+}
+
 #[test]
 fn nrrd_of_any_part_reads_back() {
     let folder = tempfile::tempdir().unwrap();
@@ -153,7 +159,7 @@ fn zarr_has_all_levels_or_one() {
 fn the_smallest_type_that_keeps_the_values_is_chosen() {
     let of = |low: f32, step: f32, dims: UVec3| {
         let grid = Grid { low, step, ..Grid::new(dims) };
-        numbers::smallest_element(&grid, &grid::all_levels(&grid)).unwrap()
+        numbers::smallest_element(supply_of(&grid), &grid::all_levels(&grid)).unwrap()
     };
     let small = UVec3::splat(40);
     assert_eq!(of(0.0, 1.0, small), Element::U8);
@@ -228,7 +234,7 @@ fn a_store_comes_back_as_it_is() {
     let data = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data").join(name);
     let imported = |input: PathBuf| {
         let (selection, options) = (Selection::default(), ImportOptions::default());
-        import(&input.to_string_lossy(), &selection, &store, &options, &|_, _| {}).unwrap();
+        import(&input, &selection, &store, &options, &|_, _| {}).unwrap();
         Store::open(&store).unwrap()
     };
     let opened = imported(data("zarr/sharded.zarr"));
@@ -242,4 +248,78 @@ fn a_store_comes_back_as_it_is() {
         let (info, values) = read(&again, &Selection::default());
         assert_eq!((info.dims, values), (UVec3::new(5, 6, 4), in_store.clone()), "{name}");
     }
+}
+
+/// A volume of one value, as large as can be, which asks to stop once so many bricks have been read.
+struct Endless {
+    stop: Arc<AtomicBool>,
+    read: AtomicU32,
+}
+
+const READ_BEFORE_STOP: u32 = 1000;
+
+impl BrickSource for Endless {
+    fn shape(&self) -> OctreeShape {
+        OctreeShape::new(UVec3::splat(MAX_EDGE_VOXELS))
+    }
+
+    fn frame(&self) -> VolumeFrame {
+        VolumeFrame::of_voxels(DVec3::splat(1e-3))
+    }
+
+    fn value_range(&self) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
+    fn summary(&self, _: NodeKey) -> NodeSummary {
+        NodeSummary { min: 0.0, max: 0.0 }
+    }
+
+    fn brick(&self, _: NodeKey) -> Result<Brick, BrickError> {
+        if self.read.fetch_add(1, Ordering::Relaxed) == READ_BEFORE_STOP {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+        Ok(Brick::new(Codes::U8(vec![0; BRICK_VOXELS]), 0.0, 0.0))
+    }
+}
+
+#[test]
+fn no_claim_takes_memory_and_any_export_can_be_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, element) in [("a.zarr", None), ("a.zarr", Some(Element::F64)), ("b.nrrd", Some(Element::U8))] {
+        let stop = Arc::new(AtomicBool::new(false));
+        let source = Endless { stop: stop.clone(), read: AtomicU32::new(0) };
+        let options = ExportOptions { element, stop: Some(stop), ..Default::default() };
+        let error = quietly(&source, &folder.path().join(name), &options).unwrap_err().to_string();
+        match name {
+            "a.zarr" => assert!(error.starts_with("stopped: nothing was written"), "{error}"),
+            _ => assert!(error.contains("1048576 × 1048576 voxels is too large"), "{error}"),
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{name}");
+    }
+    for name in ["a.nrrd", "a.zarr"] {
+        let stop = Arc::new(AtomicBool::new(false));
+        let source = Endless { stop: stop.clone(), read: AtomicU32::new(0) };
+        let (size, low) = (Some(UVec3::new(3000, 2000, 90)), Some(UVec3::new(5, 70, 0)));
+        let options = ExportOptions { size, low, level: Some(0), stop: Some(stop), ..Default::default() };
+        let error = quietly(&source, &folder.path().join(name), &options).unwrap_err().to_string();
+        assert!(error.starts_with("stopped: nothing was written"), "{error}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{name}");
+    }
+}
+
+/// Killed, an export leaves its working files, which the next one to the same name takes over.
+#[test]
+fn what_a_killed_export_left_is_taken_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at(".a.nrrd.part"), "left over").unwrap();
+    std::fs::write(at(".a.zarr.part"), "").unwrap();
+    std::fs::create_dir_all(at(".a.zarr.folder/0/c")).unwrap();
+    let grid = Grid::new(UVec3::splat(5));
+    for name in ["a.nrrd", "a.zarr"] {
+        quietly(&grid, &at(name), &ExportOptions::default()).unwrap();
+        assert_eq!(read(&at(name), &Selection::default()).0.dims, UVec3::splat(5));
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
 }

@@ -2,97 +2,109 @@
 
 use super::grid;
 use super::rounding::Rounding;
+use super::supply::Supply;
 use super::{ExportError, Part};
 use bricks::BrickSource;
-use bricks::temporary::temporary_folder_in;
 use bricks::volume::{ByteOrder, Element, Samples};
+use bricks::working_folder::WorkingFolder;
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// Edge of a chunk, if memory suffices, and if a layer of such chunks would be larger than the next constant.
-const CHUNK_EDGES: [u32; 2] = [64, 32];
-/// Largest layer of the large chunks.
-const MOST_LAYER_BYTES: u64 = 1 << 30;
+/// Edge of a chunk.
+const CHUNK_EDGE: u32 = 64;
+/// Bytes of the voxels that are put together at once.
+const MOST_TILE_BYTES: u64 = 1 << 30;
 /// As fast as zstd packs while it still packs well: its own choice.
 const ZSTD_LEVEL: i32 = 3;
 
 /// Writes parts as the levels of an image; returns the bytes of all files.
 pub(super) fn write(
-    source: &dyn BrickSource,
+    supply: Supply,
     parts: &[Part],
     element: Element,
-    out: &Path,
     wrote: &dyn Fn(u32),
 ) -> Result<u64, ExportError> {
-    let failed = ExportError::write(out);
-    let beside = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let working = temporary_folder_in(beside).map_err(&failed)?;
+    let (out, failed) = (supply.out, ExportError::write(supply.out));
+    let working = WorkingFolder::create(out).map_err(&failed)?;
     let mut bytes = 0;
     for (level, part) in parts.iter().enumerate() {
-        let level = Level { folder: &working.path().join(level.to_string()), out, part, element };
-        bytes += level.write(source, wrote)?;
+        let level = Level { folder: &working.path().join(level.to_string()), supply, part, element };
+        bytes += level.write(wrote)?;
     }
     let name = out.file_stem().unwrap_or_default().to_string_lossy();
-    bytes += write_json(working.path(), out, &group(source, parts, &name))?;
+    bytes += write_json(working.path(), out, &group(supply.source, parts, &name))?;
     // A rename would replace an empty folder that somebody made meanwhile; nothing is lost with that.
-    fs::rename(working.path(), out).map_err(&failed)?;
-    // What it would delete now has another name.
-    let _ = working.keep();
+    working.rename(out).map_err(failed)?;
     Ok(bytes)
 }
 
 /// One array being written.
 struct Level<'a> {
     folder: &'a Path,
-    /// What the errors name.
-    out: &'a Path,
+    supply: Supply<'a>,
     part: &'a Part,
     element: Element,
 }
 
+/// Chunks that are put together: the first one's place in the array, and how many there are.
+struct Tile {
+    first: UVec3,
+    chunks: UVec3,
+}
+
 impl Level<'_> {
-    fn write(&self, source: &dyn BrickSource, wrote: &dyn Fn(u32)) -> Result<u64, ExportError> {
-        let size = self.part.size;
-        let edge = chunk_edge(size, self.element);
-        fs::create_dir_all(self.folder).map_err(ExportError::write(self.out))?;
-        let mut bytes = write_json(self.folder, self.out, &array(size, self.element, edge))?;
+    fn write(&self, wrote: &dyn Fn(u32)) -> Result<u64, ExportError> {
+        let (size, out) = (self.part.size, self.supply.out);
+        fs::create_dir_all(self.folder).map_err(ExportError::write(out))?;
+        let mut bytes = write_json(self.folder, out, &array(size, self.element))?;
         let rounding = Rounding::new(self.element);
-        for layer in 0..size.z.div_ceil(edge) {
-            let z = layer * edge..((layer + 1) * edge).min(size.z);
-            let samples = self.part.planes(z.clone()).samples(source, rounding)?;
-            bytes += self.write_layer(layer, edge, &samples, z.end - z.start)?;
-            wrote(z.end - z.start);
+        for tile in tiles(size, self.element) {
+            let low = tile.first * CHUNK_EDGE;
+            let end = ((tile.first + tile.chunks) * CHUNK_EDGE).min(size);
+            let part = self.part.section(low, end - low);
+            let samples = part.samples(self.supply, rounding)?;
+            bytes += self.write_tile(&tile, &samples, part.size)?;
+            let is_last_of_layer = end.x == size.x && end.y == size.y;
+            if is_last_of_layer {
+                wrote(end.z - low.z);
+            }
         }
         Ok(bytes)
     }
 
-    /// Packs and writes the chunks of a layer; those of zeros alone are left out, as zero is the fill value.
-    fn write_layer(&self, layer: u32, edge: u32, samples: &Samples, planes: u32) -> Result<u64, ExportError> {
-        let (x, y) = (self.part.size.x.div_ceil(edge), self.part.size.y.div_ceil(edge));
-        let failed = ExportError::write(self.out);
-        let folder = self.folder.join("c").join(layer.to_string());
-        let write = |at: u32| -> std::io::Result<u64> {
-            let (i, j) = (at % x, at / x);
-            let chunk = self.chunk(samples, planes, edge, UVec3::new(i, j, 0) * edge);
+    /// Packs and writes the chunks of a tile of these voxels; those of zeros alone are left out, as zero is the fill
+    /// value.
+    fn write_tile(&self, tile: &Tile, samples: &Samples, size: UVec3) -> Result<u64, ExportError> {
+        let Tile { first, chunks } = *tile;
+        let failed = ExportError::write(self.supply.out);
+        let folder = self.folder.join("c").join(first.z.to_string());
+        let write = |at: u32| -> Result<u64, ExportError> {
+            self.supply.check_stop()?;
+            let at = UVec3::new(at % chunks.x, at / chunks.x, 0);
+            let chunk = self.chunk(samples, size, at * CHUNK_EDGE);
             if chunk.iter().all(|byte| *byte == 0) {
                 return Ok(0);
             }
-            let packed = zstd::bulk::compress(&chunk, ZSTD_LEVEL)?;
-            let row = folder.join(j.to_string());
-            fs::create_dir_all(&row)?;
-            fs::write(row.join(i.to_string()), &packed)?;
-            Ok(packed.len() as u64)
+            let place = first + at;
+            let row = folder.join(place.y.to_string());
+            let write = || -> std::io::Result<u64> {
+                let packed = zstd::bulk::compress(&chunk, ZSTD_LEVEL)?;
+                fs::create_dir_all(&row)?;
+                fs::write(row.join(place.x.to_string()), &packed)?;
+                Ok(packed.len() as u64)
+            };
+            write().map_err(&failed)
         };
-        (0..x * y).into_par_iter().map(write).sum::<std::io::Result<u64>>().map_err(failed)
+        (0..chunks.x * chunks.y).into_par_iter().map(write).sum()
     }
 
-    /// The little-endian numbers of a chunk that starts at `low` of the layer; zeros beyond the level's end.
-    fn chunk(&self, samples: &Samples, planes: u32, edge: u32, low: UVec3) -> Vec<u8> {
-        let (size, bytes) = (self.part.size, self.element.bytes());
-        let end = (low + edge).min(UVec3::new(size.x, size.y, planes));
+    /// The little-endian numbers of the chunk at `low` of some voxels; zeros beyond their end.
+    fn chunk(&self, samples: &Samples, size: UVec3, low: UVec3) -> Vec<u8> {
+        let (edge, bytes) = (CHUNK_EDGE, self.element.bytes());
+        let end = (low + edge).min(size);
         let mut chunk = Samples::new(self.element, (edge * edge * edge) as usize);
         for z in low.z..end.z {
             for y in low.y..end.y {
@@ -108,10 +120,19 @@ impl Level<'_> {
     }
 }
 
-fn chunk_edge(size: UVec3, element: Element) -> u32 {
-    let plane_bytes = u64::from(size.x) * u64::from(size.y) * element.bytes() as u64;
-    let [large, small] = CHUNK_EDGES;
-    if plane_bytes * u64::from(large) <= MOST_LAYER_BYTES { large } else { small }
+/// The chunks of an array, layer by layer, in tiles that fit into memory.
+fn tiles(size: UVec3, element: Element) -> impl Iterator<Item = Tile> {
+    let all = UVec3::from_array(size.to_array().map(|n| n.div_ceil(CHUNK_EDGE)));
+    let chunk_bytes = u64::from(CHUNK_EDGE).pow(3) * element.bytes() as u64;
+    let most = (MOST_TILE_BYTES / chunk_bytes) as u32;
+    let columns = all.x.min(most);
+    let rows = all.y.min(most / columns);
+    let tile = move |x: u32, y: u32, z: u32| Tile {
+        first: UVec3::new(x, y, z),
+        chunks: UVec3::new(columns.min(all.x - x), rows.min(all.y - y), 1),
+    };
+    let row = move |y, z| (0..all.x).step_by(columns as usize).map(move |x| tile(x, y, z));
+    (0..all.z).flat_map(move |z| (0..all.y).step_by(rows as usize).flat_map(move |y| row(y, z)))
 }
 
 fn write_json(folder: &Path, out: &Path, json: &Value) -> Result<u64, ExportError> {
@@ -120,7 +141,8 @@ fn write_json(folder: &Path, out: &Path, json: &Value) -> Result<u64, ExportErro
     Ok(text.len() as u64)
 }
 
-fn array(size: UVec3, element: Element, edge: u32) -> Value {
+fn array(size: UVec3, element: Element) -> Value {
+    let edge = CHUNK_EDGE;
     json!({
         "zarr_format": 3,
         "node_type": "array",
@@ -160,4 +182,29 @@ fn group(source: &dyn BrickSource, parts: &[Part], name: &str) -> Value {
     });
     let ome = json!({ "version": "0.5", "multiscales": [image] });
     json!({ "zarr_format": 3, "node_type": "group", "attributes": { "ome": ome } })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_cover_all_chunks_once_and_fit_into_memory() {
+        for size in [
+            UVec3::new(1, 1, 1),
+            UVec3::new(64, 65, 200),
+            UVec3::new(1 << 20, 700, 65),
+            UVec3::new(5, 1 << 20, 1),
+        ] {
+            let mut chunks = std::collections::HashSet::new();
+            for Tile { first, chunks: n } in tiles(size, Element::F64) {
+                assert!(u64::from(n.element_product()) * (64 * 64 * 64 * 8) <= MOST_TILE_BYTES && n.z == 1);
+                (0..n.x * n.y).for_each(|i| {
+                    assert!(chunks.insert(first + UVec3::new(i % n.x, i / n.x, 0)));
+                });
+            }
+            let all: usize = size.to_array().iter().map(|n| n.div_ceil(64) as usize).product();
+            assert_eq!(chunks.len(), all, "{size}");
+        }
+    }
 }

@@ -8,7 +8,8 @@ use glam::{DMat3, DVec3};
 ///
 /// The numbers are those of ITK's space, whose axes are left, posterior, superior where it is a patient's. ITK writes
 /// `AnatomicalOrientation` for every volume, derived from the matrix; the matrix says the same with more precision, so
-/// the letters only say that there is a patient. Without them (or as `???`) the space is unknown, its axes kept.
+/// the letters only say that there is a patient. Without them (or as `???`) the space is unknown, its axes kept. With a
+/// fourth axis ITK has no letters for what it writes letters for without it, and always writes `????`.
 pub(super) fn frame(header: &HeaderText, axes: usize) -> Result<VolumeFrame, VolumeError> {
     let unit_m = unit_m(header)?;
     let origin = match header.get(&["offset", "position", "origin"]) {
@@ -17,7 +18,7 @@ pub(super) fn frame(header: &HeaderText, axes: usize) -> Result<VolumeFrame, Vol
     };
     let directions = directions(header, axes)?;
     let axes_m = directions * DMat3::from_diagonal(spacing(header, axes)? * unit_m);
-    Ok(VolumeFrame { axes_m, origin_m: origin * unit_m, space: space(header) })
+    Ok(VolumeFrame { axes_m, origin_m: origin * unit_m, space: space(header, axes) })
 }
 
 /// Unit vectors along x, y, z: the matrix lists them one after the other (as SimpleITK's files show).
@@ -47,8 +48,9 @@ fn first_three(numbers: &[f64]) -> DVec3 {
     DVec3::new(numbers[0], numbers[1], numbers[2])
 }
 
-fn space(header: &HeaderText) -> Space {
+fn space(header: &HeaderText, axes: usize) -> Space {
     match header.get(&["anatomicalorientation"]) {
+        Some("????") if axes == 4 => Space::Patient,
         Some(letters) if letters.contains(|letter: char| "RLAPIS".contains(letter)) => Space::Patient,
         _ => Space::Unknown,
     }

@@ -6,6 +6,8 @@ use glam::{DMat3, DVec3};
 
 /// Smallest 1 − b² − c² − d² of a quaternion that is taken for more than a rounding error.
 const LEAST_SQUARE: f64 = 1e-7;
+/// Largest b² + c² + d² that rounding to single precision makes of a unit quaternion.
+const LARGEST_SQUARE: f64 = 1.0 + 1e-5;
 
 /// By the affine map if there is one (method 3 of nifti1.h), else by the rotation (method 2), else the voxels'
 /// edges alone (method 1), whose axes belong to no patient. An impossible map is ignored.
@@ -53,6 +55,9 @@ fn by_affine(header: &Header, unit_m: f64) -> VolumeFrame {
 /// where pixdim[0] is negative.
 fn by_rotation(header: &Header, unit_m: f64) -> VolumeFrame {
     let mut vector = DVec3::from_array(header.quaternion);
+    if vector.length_squared() > LARGEST_SQUARE {
+        tracing::warn!(path = %header.path.display(), "its rotation (quatern_b, c, d) is longer than 1, and is shortened");
+    }
     let mut a = 1.0 - vector.length_squared();
     if a < LEAST_SQUARE {
         vector = vector.normalize();

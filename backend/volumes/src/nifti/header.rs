@@ -58,6 +58,10 @@ impl Header {
         }
         let fields = Fields { bytes, byte_order };
         let is_single = is_single(path, &fields.bytes, version)?;
+        if !is_single {
+            // Nothing else reads a packed header to its end, where its checksum is.
+            std::io::copy(&mut stream, &mut std::io::sink()).map_err(VolumeError::read(path))?;
+        }
         Ok(match version {
             1 => fields.version_1(path, is_single),
             _ => fields.version_2(path, is_single),

@@ -22,7 +22,7 @@ pub(super) fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, V
     let shape =
         Shape::new(&axes(path, &header, selection)?).map_err(|what| VolumeError::header(path, what))?;
     let (file, packing) = place::voxels(&header)?;
-    let (slope, intercept) = scaling(&header);
+    let (slope, intercept) = scaling(path, &header);
     Ok(FileLayout {
         header_path: path.into(),
         files: file,
@@ -88,10 +88,17 @@ fn voxels_offset(path: &Path, header: &Header) -> Result<u64, VolumeError> {
     Ok((offset as u64).max(header.earliest_voxels()))
 }
 
-/// Slope and intercept; the standard says that a slope of zero, or none that is a number, means no scaling.
-fn scaling(header: &Header) -> (f64, f64) {
-    match header.slope == 0.0 || !header.slope.is_finite() {
+/// Slope and intercept. The standard says that a slope of zero means no scaling; programs also write NaN for both.
+fn scaling(path: &Path, header: &Header) -> (f64, f64) {
+    let (slope, intercept) = (header.slope, header.intercept);
+    let is_unset = slope == 0.0 || (slope.is_nan() && !intercept.is_infinite());
+    let is_usual = slope.is_finite() && intercept.is_finite();
+    if !is_unset && !is_usual {
+        let path = path.display();
+        tracing::warn!(%path, slope, intercept, "its scaling is not of numbers, and what is not is passed over");
+    }
+    match is_unset || !slope.is_finite() {
         true => (1.0, 0.0),
-        false => (header.slope, if header.intercept.is_finite() { header.intercept } else { 0.0 }),
+        false => (slope, if intercept.is_finite() { intercept } else { 0.0 }),
     }
 }

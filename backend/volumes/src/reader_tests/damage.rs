@@ -33,11 +33,74 @@ fn files_cut_short_at_any_place_are_an_error() {
         "nifti2_big.nii",
     ] {
         let bytes = std::fs::read(data(name)).unwrap();
-        // The last 18 bytes of a packed file are checksums and end marks, which need not be there.
-        for length in (0..bytes.len() - 18).step_by(7) {
+        // Nothing but a checksum tells that the last number of a text is cut short.
+        let is_packed = name.contains("gz") || name.contains("zlib");
+        let last = bytes.len() - 18..if is_packed { bytes.len() } else { bytes.len() - 18 };
+        for length in (0..bytes.len() - 18).step_by(7).chain(last) {
             complaint(name, &bytes[..length]);
         }
     }
+}
+
+/// A packed file of voxels that stay the same when a bit of it changes: only its checksum tells.
+#[test]
+fn the_checksum_of_a_packed_file_is_looked_at() {
+    for (name, checksum) in [
+        ("ushort_gzip.nrrd", 8),
+        ("short_big.nii.gz", 8),
+        ("nifti2.nii.gz", 8),
+        ("ushort_zlib.mha", 4),
+        ("all_uint8.mha", 4),
+    ] {
+        let bytes = std::fs::read(data(name)).unwrap();
+        for at in bytes.len() - checksum..bytes.len() {
+            let mut wrong = bytes.clone();
+            wrong[at] ^= 0x20;
+            let said = complaint(name, &wrong);
+            assert!(said.contains("may be damaged"), "byte {at} of {name}: {said}");
+        }
+    }
+}
+
+/// Of several volumes in a file one is read; that another one is damaged must be found, since it may be the file that is.
+#[test]
+fn a_packed_file_is_read_to_its_end_whatever_is_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("times.nii.gz");
+    let bytes = std::fs::read(data("times.nii.gz")).unwrap();
+    let read = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        open(&path, &chosen(None, Some(0))).and_then(|mut reader| values(reader.as_mut()))
+    };
+    read(&bytes).unwrap();
+    for at in bytes.len() - 8..bytes.len() {
+        let mut wrong = bytes.clone();
+        wrong[at] ^= 1;
+        assert!(read(&wrong).unwrap_err().to_string().contains("may be damaged"), "{at}");
+    }
+    // Members that are whole, and fewer than the header says.
+    let mut unpacked = Vec::new();
+    std::io::Read::read_to_end(&mut flate2::read::MultiGzDecoder::new(&bytes[..]), &mut unpacked).unwrap();
+    let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+    packed.write_all(&unpacked[..unpacked.len() - 1]).unwrap();
+    assert!(read(&packed.finish().unwrap()).unwrap_err().to_string().contains("bytes are there"));
+}
+
+/// The header of a pair is a file of its own, of which only the start is used.
+#[test]
+fn the_checksum_of_a_packed_header_is_looked_at() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(data("pair.img"), folder.path().join("pair.img")).unwrap();
+    let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+    packed.write_all(&std::fs::read(data("pair.hdr")).unwrap()).unwrap();
+    let mut packed = packed.finish().unwrap();
+    let path = folder.path().join("pair.hdr.gz");
+    std::fs::write(&path, &packed).unwrap();
+    open(&path, &Selection::default()).unwrap();
+    let checksum = packed.len() - 8;
+    packed[checksum] ^= 1;
+    std::fs::write(&path, &packed).unwrap();
+    assert!(open(&path, &Selection::default()).unwrap_err().to_string().contains("may be damaged"));
 }
 
 #[test]

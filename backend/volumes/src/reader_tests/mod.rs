@@ -2,6 +2,7 @@
 //!
 //! Most files hold value = x + 10 y + 100 z over 5 × 6 × 4 voxels of 0.5 × 0.75 × 2 mm.
 
+mod choices;
 mod damage;
 mod lies;
 mod metaimage;

@@ -56,3 +56,22 @@ fn places_are_those_of_nibabel_and_simple_itk() {
     // Neither is given: the voxels' edges alone.
     check_places("no_form.nii.gz", Space::Unknown, [[0.0; 3], [2.0, 3.75, 6.0]], EXACT_MM);
 }
+
+#[test]
+fn a_scaling_that_is_no_number_is_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scaled.nii");
+    let scaled = |slope: f32, intercept: f32| {
+        let mut bytes = std::fs::read(data("ushort.nii")).unwrap();
+        bytes[112..116].copy_from_slice(&slope.to_le_bytes());
+        bytes[116..120].copy_from_slice(&intercept.to_le_bytes());
+        std::fs::write(&path, bytes).unwrap();
+        let info = open(&path, &Selection::default()).unwrap().info().clone();
+        (info.slope, info.intercept)
+    };
+    for slope in [0.0, f32::NAN, f32::INFINITY] {
+        assert_eq!(scaled(slope, 7.0), (1.0, 0.0), "{slope}");
+    }
+    assert_eq!(scaled(2.0, f32::NAN), (2.0, 0.0));
+    assert_eq!(scaled(2.0, 7.0), (2.0, 7.0));
+}

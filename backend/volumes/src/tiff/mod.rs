@@ -1,5 +1,7 @@
 //! TIFF stacks: a file of many pages, or a folder of slices (TIFF 6.0, BigTIFF, ImageJ, OME-TIFF).
 
+mod ends;
+mod gaps;
 mod hyperstack;
 mod imagej;
 mod natural;
@@ -9,6 +11,7 @@ mod relabel;
 #[cfg(test)]
 mod tests;
 mod volume;
+mod xml_depth;
 
 use super::Selection;
 use bricks::volume::{VolumeError, VolumeReader};

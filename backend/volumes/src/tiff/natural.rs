@@ -10,6 +10,11 @@ pub(super) enum Run {
 
 /// What names are sorted by; the name itself is last, so that no two names are equal.
 pub(super) fn key(name: &str) -> (Vec<Run>, String) {
+    (runs(name), name.to_owned())
+}
+
+/// The numbers and letters of a name.
+pub(super) fn runs(name: &str) -> Vec<Run> {
     let mut runs = Vec::new();
     let mut rest = name;
     while let Some(first) = rest.chars().next() {
@@ -23,7 +28,7 @@ pub(super) fn key(name: &str) -> (Vec<Run>, String) {
             rest = &rest[digits..];
         }
     }
-    (runs, name.to_owned())
+    runs
 }
 
 #[cfg(test)]

@@ -1,10 +1,14 @@
 //! OME-XML in the first page's description: sizes, order of the pages, edges of a voxel (OME 2016-06).
 
 use super::hyperstack::{Hyperstack, unit_mm};
+use super::xml_depth::depth;
 use roxmltree::{Document, Node};
 
 /// Letters of the axes in the order of [`Hyperstack::counts`].
 const AXES: [char; 3] = ['C', 'Z', 'T'];
+
+/// Elements within each other that are believed; those of the format are some ten.
+const DEEPEST: usize = 64;
 
 /// Whether the description is OME-XML.
 pub(super) fn is_ome(description: &str) -> bool {
@@ -14,6 +18,11 @@ pub(super) fn is_ome(description: &str) -> bool {
 /// The stack; a sentence where it cannot be understood. A page holds `samples` of the channels.
 pub(super) fn hyperstack(description: &str, pages: u32, samples: u32) -> Result<Hyperstack, String> {
     let text = description.trim_end_matches(['\0', ' ', '\n']);
+    if depth(text) > DEEPEST {
+        return Err(format!(
+            "its OME-XML has elements more than {DEEPEST} deep in each other: save it again"
+        ));
+    }
     let document = Document::parse(text).map_err(|cause| format!("its OME-XML is damaged: {cause}"))?;
     let images: Vec<Node> = document.descendants().filter(|node| node.has_tag_name_any("Pixels")).collect();
     let [pixels] = images[..] else {
@@ -145,6 +154,17 @@ mod tests {
         let data = "<TiffData IFD=\"1\" FirstZ=\"0\"/><TiffData IFD=\"0\" FirstZ=\"1\" PlaneCount=\"1\"/>";
         let stack = hyperstack(&xml("SizeZ=\"2\"", data), 2, 1).unwrap();
         assert_eq!(stack.pages, [Some(1), Some(0)]);
+    }
+
+    /// The parser would overflow the stack.
+    #[test]
+    fn deep_xml_is_refused() {
+        let said = |depth: usize| {
+            let deep = format!("{}{}", "<a>".repeat(depth), "</a>".repeat(depth));
+            hyperstack(&xml("SizeZ=\"1\"", &deep), 1, 1)
+        };
+        assert!(said(50).is_ok());
+        assert!(said(1_000_000).unwrap_err().contains("64 deep"));
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! The pages of a TIFF file, decoded one at a time.
 
+use super::ends::Checked;
 use super::relabel::Relabelled;
 use bricks::volume::{Element, MAX_EDGE_VOXELS, VolumeError};
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use tiff::TiffError;
 use tiff::decoder::ifd::Value;
-use tiff::decoder::{Decoder, DecodingSampleType, Limits};
+use tiff::decoder::{ChunkType, Decoder, DecodingSampleType, Limits};
 use tiff::tags::{ByteOrder, CompressionMethod, PlanarConfiguration, Tag};
 
 /// Bytes of a tag's value that are believed: the description of a large OME file is a long text.
@@ -55,6 +56,8 @@ impl std::fmt::Display for PageFormat {
 pub(super) struct TiffFile {
     pub path: PathBuf,
     pub format: PageFormat,
+    /// Whether its numbers stand for the colours of a palette.
+    pub has_palette: bool,
     /// Numbers of the pages among all of the file.
     pub pages: Vec<usize>,
     decoder: Decoder<Relabelled>,
@@ -68,11 +71,18 @@ impl TiffFile {
     pub fn open(path: &Path) -> Result<Self, VolumeError> {
         let length = super::super::file::file_length(path)?;
         let (file, count) = Relabelled::open(path).map_err(VolumeError::read(path))?;
-        let limits = limits(length);
+        let (limits, has_palette) = (limits(length), file.has_palette);
         let decoder = Decoder::new(file).map_err(|cause| damaged(path, 0, &cause))?.with_limits(limits);
         let format = PageFormat { width: 0, height: 0, element: Element::U8, samples: 1, is_planar: false };
-        let mut file =
-            Self { path: path.into(), format, pages: Vec::new(), decoder, length, contiguous: None };
+        let mut file = Self {
+            path: path.into(),
+            format,
+            has_palette,
+            pages: Vec::new(),
+            decoder,
+            length,
+            contiguous: None,
+        };
         for page in 0..count {
             file.add_page(page)?;
         }
@@ -191,11 +201,27 @@ impl TiffFile {
         let decoded = match self.contiguous {
             None => {
                 self.go_to(page)?;
-                self.decoder.read_image_bytes(bytes)
+                self.decoder.read_image_bytes(bytes).and_then(|()| self.check_ends())
             }
             Some(start) => self.read_contiguous(start + (page * bytes.len()) as u64, bytes),
         };
         decoded.map_err(|cause| damaged(&self.path, page, &cause))
+    }
+
+    /// Checks the ends of what the page at hand is packed in.
+    fn check_ends(&mut self) -> Result<(), TiffError> {
+        let compression: Option<u16> = self.decoder.find_tag_unsigned(Tag::Compression)?;
+        let Some(checked) = compression.and_then(Checked::of) else { return Ok(()) };
+        let (offsets, bytes) = match self.decoder.get_chunk_type() {
+            ChunkType::Strip => (Tag::StripOffsets, Tag::StripByteCounts),
+            ChunkType::Tile => (Tag::TileOffsets, Tag::TileByteCounts),
+        };
+        let offsets = self.decoder.get_tag_u64_vec(offsets)?;
+        let places: Vec<_> = offsets.into_iter().zip(self.decoder.get_tag_u64_vec(bytes)?).collect();
+        let (width, height) = self.decoder.chunk_dimensions();
+        let samples = if self.format.is_planar { 1 } else { u64::from(self.format.samples) };
+        let most_bytes = u64::from(width) * u64::from(height) * samples * self.format.element.bytes() as u64;
+        Ok(checked.check(self.decoder.inner(), &places, most_bytes)?)
     }
 
     fn read_contiguous(&mut self, start: u64, bytes: &mut [u8]) -> Result<(), TiffError> {

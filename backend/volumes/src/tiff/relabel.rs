@@ -4,6 +4,7 @@
 //! refuses numbers that stand for colours of a palette. The numbers themselves are what a volume wants, so the one
 //! byte that says how to show them is replaced on its way to the decoder.
 
+use bricks::volume::open_file;
 use std::collections::HashSet;
 use std::fs::File;
 use std::io::{BufReader, Error, ErrorKind, Read, Result, Seek, SeekFrom};
@@ -23,6 +24,8 @@ pub(super) struct Relabelled {
     position: u64,
     /// Places of replaced bytes, in order.
     replaced: Vec<u64>,
+    /// Whether the numbers of a page stand for the colours of a palette.
+    pub has_palette: bool,
 }
 
 /// What differs between the two kinds of TIFF files, and between the byte orders.
@@ -34,7 +37,7 @@ struct Kind {
 impl Relabelled {
     /// Walks through the pages of a file; gives their number, too.
     pub fn open(path: &Path) -> Result<(Self, usize)> {
-        let file = File::open(path)?;
+        let file = open_file(path)?;
         let length = file.metadata()?.len();
         let mut file = BufReader::new(file);
         let mut start = [0; 8];
@@ -42,7 +45,7 @@ impl Relabelled {
         let kind = Kind { is_big_tiff: start.contains(&43), is_big_endian: start.starts_with(b"MM") };
         let mut next = if kind.is_big_tiff { kind.number(&mut file, 8)? } else { kind.value(&start[4..]) };
         let mut seen = HashSet::new();
-        let mut replaced = Vec::new();
+        let (mut replaced, mut has_palette) = (Vec::new(), false);
         // Bytes that the tags of further pages can take: they do not overlap.
         let mut left = length;
         while next != 0 {
@@ -53,11 +56,12 @@ impl Relabelled {
             page.check(&kind, length)?;
             left = left.checked_sub(page.tags.len() as u64).ok_or_else(|| wrong("its pages overlap"))?;
             replaced.extend(page.replaced(&kind));
+            has_palette |= page.photometric(&kind) == Some(PALETTE);
             next = page.next;
         }
         replaced.sort_unstable();
         file.rewind()?;
-        Ok((Self { inner: file, position: 0, replaced }, seen.len()))
+        Ok((Self { inner: file, position: 0, replaced, has_palette }, seen.len()))
     }
 }
 
@@ -92,6 +96,13 @@ impl Page {
             }
         }
         Ok(())
+    }
+
+    /// What its numbers mean, as far as it says so.
+    fn photometric(&self, kind: &Kind) -> Option<u64> {
+        let mut tags = self.tags.chunks_exact(kind.tag_bytes());
+        let tag = tags.find(|tag| kind.value(&tag[..2]) == PHOTOMETRIC_TAG)?;
+        Some(kind.value(&tag[4 + kind.word_bytes()..][..2]))
     }
 
     /// Places of the bytes to replace.

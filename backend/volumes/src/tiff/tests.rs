@@ -229,3 +229,92 @@ fn memory_is_not_taken_for_what_the_file_cannot_hold() {
     let said = read_bytes(folder.path(), &bytes).unwrap_err();
     assert!(said.contains("its pages overlap"), "{said}");
 }
+
+/// Adler's checksum (RFC 1950, 8.2).
+fn adler(bytes: &[u8]) -> [u8; 4] {
+    let (mut a, mut b) = (1u32, 0u32);
+    for &byte in bytes {
+        a = (a + u32::from(byte)) % 65521;
+        b = (b + a) % 65521;
+    }
+    (b << 16 | a).to_be_bytes()
+}
+
+fn read_file(path: &Path) -> Result<Vec<f64>, String> {
+    let read = open(path, &Selection::default()).and_then(|mut reader| values(reader.as_mut()));
+    read.map_err(|error| error.to_string())
+}
+
+#[test]
+fn the_checksum_of_every_deflated_strip_is_looked_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wrong.tif");
+    let bytes = std::fs::read(file("uint16_zlib.tif")).unwrap();
+    let plane = |z: u16| -> Vec<u8> {
+        (0..30).flat_map(|i| (i % 5 + 10 * (i / 5) + 100 * z).to_le_bytes()).collect()
+    };
+    for z in 0..4 {
+        let sum = adler(&plane(z));
+        let at = bytes.windows(4).position(|bytes| bytes == sum).expect("each page is a strip");
+        let mut wrong = bytes.clone();
+        wrong[at + 3] ^= 1;
+        std::fs::write(&path, wrong).unwrap();
+        let said = read_file(&path).unwrap_err();
+        assert!(said.contains(&format!("page {}", z + 1)) && said.contains("copy the file again"), "{said}");
+    }
+}
+
+/// A page of so many bytes in one strip, with a description, packed as the number says.
+fn tiff(width: u32, height: u32, compression: u32, strip: &[u8], description: &[u8]) -> Vec<u8> {
+    let strip_at = 8 + 2 + 10 * 12 + 4;
+    let description_at = strip_at + strip.len() as u32;
+    let tags: [(u16, u16, u32, u32); 10] = [
+        (256, 4, 1, width),
+        (257, 4, 1, height),
+        (258, 3, 1, 8),
+        (259, 3, 1, compression),
+        (262, 3, 1, 1),
+        (270, 2, description.len() as u32, description_at),
+        (273, 4, 1, strip_at),
+        (277, 3, 1, 1),
+        (278, 4, 1, height),
+        (279, 4, 1, strip.len() as u32),
+    ];
+    let entry = |&(tag, kind, count, value): &(u16, u16, u32, u32)| {
+        [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat()
+    };
+    let entries: Vec<u8> = tags.iter().flat_map(entry).collect();
+    [b"II*\0\x08\0\0\0\x0a\0", &entries[..], &[0; 4], strip, description].concat()
+}
+
+/// 4 × 2 bytes packed with Zstandard.
+fn zstd_tiff(strip: &[u8]) -> Vec<u8> {
+    tiff(4, 2, 50_000, strip, b"a picture\0")
+}
+
+/// More pages than memory could list, of which the file holds one.
+#[test]
+fn pages_that_are_promised_take_no_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stack.tif");
+    let description = b"ImageJ=1.54f\nimages=4294967295\nslices=4294967295\n\0";
+    std::fs::write(&path, tiff(1, 1, 1, &[7], description)).unwrap();
+    let said = read_file(&path).unwrap_err();
+    assert!(said.contains("4294967295 bytes of voxels are promised"), "{said}");
+}
+
+#[test]
+fn the_checksum_of_a_zstandard_strip_is_looked_at() {
+    use std::io::Write;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("zstd.tif");
+    let mut packed = zstd::Encoder::new(Vec::new(), 3).unwrap();
+    packed.include_checksum(true).unwrap();
+    packed.write_all(&[1, 2, 3, 4, 5, 6, 7, 8]).unwrap();
+    let mut strip = packed.finish().unwrap();
+    std::fs::write(&path, zstd_tiff(&strip)).unwrap();
+    assert_eq!(read_file(&path).unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+    *strip.last_mut().unwrap() ^= 1;
+    std::fs::write(&path, zstd_tiff(&strip)).unwrap();
+    assert!(read_file(&path).unwrap_err().contains("copy the file again"));
+}

@@ -1,5 +1,6 @@
 //! TIFF pages as a volume: one page is decoded at a time.
 
+use super::gaps::gap;
 use super::hyperstack::Hyperstack;
 use super::pages::TiffFile;
 use super::{imagej, ome};
@@ -7,6 +8,9 @@ use crate::Selection;
 use bricks::volume::{MAX_EDGE_VOXELS, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
 use glam::{DVec3, UVec3};
 use std::path::{Path, PathBuf};
+
+/// Largest page of several channels, unless the user allows more memory.
+const MOST_PAGE_BYTES: u64 = 2 << 30;
 
 /// Where the slices come from.
 enum Slices {
@@ -33,6 +37,7 @@ impl TiffVolume {
         let mut file = TiffFile::open(path)?;
         let stack = hyperstack(&mut file)?;
         let (pages, sample) = stack.choose(path, file.format.samples, selection)?;
+        check_page(&file, selection)?;
         let voxel_mm = selection.spacing_mm.unwrap_or_else(|| stack.voxel_mm(path));
         Self::new(path, file, Slices::Pages(pages), sample, voxel_mm)
     }
@@ -41,8 +46,9 @@ impl TiffVolume {
     pub fn of_files(folder: &Path, paths: Vec<PathBuf>, selection: &Selection) -> Result<Self, VolumeError> {
         let mut first = TiffFile::open(&paths[0])?;
         let mut stack = Hyperstack::of_slices(1);
-        stack.voxel_mm = description(&mut first)?.map_or([None; 3], |(stack, _)| stack.voxel_mm);
+        stack.voxel_mm = description(&mut first)?.map_or([None; 3], |stack| stack.voxel_mm);
         let (_, sample) = stack.choose(folder, first.format.samples, selection)?;
+        check_page(&first, selection)?;
         for path in &paths {
             let file = TiffFile::open(path)?;
             if file.pages.len() > 1 {
@@ -61,6 +67,7 @@ impl TiffVolume {
                 return Err(VolumeError::unsupported(path, what));
             }
         }
+        warn_of_gap(folder, &paths);
         let voxel_mm = selection.spacing_mm.unwrap_or_else(|| stack.voxel_mm(folder));
         Self::new(folder, first, Slices::Files(paths), sample, voxel_mm)
     }
@@ -76,9 +83,16 @@ impl TiffVolume {
             Slices::Pages(pages) => pages.len(),
             Slices::Files(paths) => paths.len(),
         };
+        if file.has_palette {
+            tracing::warn!(path = %path.display(), "its numbers stand for colours of a palette: they are taken as values");
+        }
         let frame = VolumeFrame::of_voxels(voxel_mm * 1e-3);
-        if count > MAX_EDGE_VOXELS as usize || !frame.is_sound() {
-            let what = format!("it has {count} slices with voxels of {voxel_mm} mm, and that cannot be");
+        if count > MAX_EDGE_VOXELS as usize {
+            let what = format!("it has {count} slices, and {MAX_EDGE_VOXELS} are the most");
+            return Err(VolumeError::unsupported(path, what));
+        }
+        if !frame.is_sound() {
+            let what = format!("the voxel size is {voxel_mm} mm, and {}", VolumeFrame::SOUND_EDGES);
             return Err(VolumeError::header(path, what));
         }
         let info = VolumeInfo {
@@ -130,27 +144,48 @@ impl VolumeReader for TiffVolume {
     }
 }
 
-/// What the description of a file says of all of its pages; None if it says nothing. Also how many pages there are.
-fn description(file: &mut TiffFile) -> Result<Option<(Hyperstack, u32)>, VolumeError> {
+/// A page of several channels is decoded whole, whichever of them is chosen.
+fn check_page(file: &TiffFile, selection: &Selection) -> Result<(), VolumeError> {
+    let bytes = file.format.bytes() as u64;
+    if file.format.samples == 1 || bytes <= MOST_PAGE_BYTES.max(selection.memory_bytes) {
+        return Ok(());
+    }
+    let what = format!("a page with all its channels takes {bytes} bytes: save the channels apart");
+    Err(VolumeError::unsupported(&file.path, what))
+}
+
+/// Files are slices in the order of their names, so a gap between these is all that tells of a missing one.
+fn warn_of_gap(folder: &Path, paths: &[PathBuf]) {
+    let names: Vec<_> =
+        paths.iter().map(|path| path.file_stem().unwrap_or_default().to_string_lossy()).collect();
+    let names: Vec<&str> = names.iter().map(|name| &**name).collect();
+    if let Some((before, after)) = gap(&names) {
+        let path = folder.display();
+        tracing::warn!(%path, before, after, "between these slices one may be missing, or another stack begins");
+    }
+}
+
+/// What the description of a file says of all of its pages; None if it says nothing. Pages that are not listed are
+/// found.
+fn description(file: &mut TiffFile) -> Result<Option<Hyperstack>, VolumeError> {
     let (text, pages) = (file.description(), file.pages.len() as u32);
     if ome::is_ome(&text) {
         let stack = ome::hyperstack(&text, pages, file.format.samples);
         let stack = stack.map_err(|what| VolumeError::unsupported(&file.path, what))?;
-        return Ok(Some((stack, pages)));
+        return Ok(Some(stack));
+    }
+    let Some(counts) = imagej::counts(&text, pages) else { return Ok(None) };
+    match Hyperstack::page_count(counts) {
+        Some(count) if count != pages => file.set_contiguous(count)?,
+        _ => {}
     }
     let resolution = file.resolution();
-    Ok(imagej::hyperstack(&text, pages, resolution))
+    Ok(Some(imagej::hyperstack(&text, counts, resolution)))
 }
 
 fn hyperstack(file: &mut TiffFile) -> Result<Hyperstack, VolumeError> {
     let pages = file.pages.len() as u32;
-    let (mut stack, count) = match description(file)? {
-        Some(told) => told,
-        None => (Hyperstack::of_slices(pages), pages),
-    };
-    if count != pages {
-        file.set_contiguous(count)?;
-    }
+    let mut stack = description(file)?.unwrap_or_else(|| Hyperstack::of_slices(pages));
     if stack.voxel_mm[..2] == [None; 2] {
         let [x, y] = super::hyperstack::printed_mm(file.resolution());
         (stack.voxel_mm[0], stack.voxel_mm[1]) = (x, y);

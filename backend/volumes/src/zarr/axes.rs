@@ -18,6 +18,8 @@ pub(super) struct Axes {
     pub time: Option<usize>,
     /// Metres of the unit of each dimension; 1 if it is not a length.
     pub unit_m: Vec<f64>,
+    /// Whether the unit of a length is not given or not known, and taken as [`UNKNOWN_UNIT_M`].
+    pub has_unknown_unit: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,18 +41,17 @@ impl Axes {
             VolumeError::unsupported(path, format!("its axes are {json}; only t, c, z, y and x are read"))
         })?;
         let unit = |(axis, role): (&Value, &Role)| match role {
-            Role::Channel | Role::Time => 1.0,
-            _ => unit_m(path, axis["unit"].as_str()),
+            Role::Channel | Role::Time => Some(1.0),
+            _ => axis["unit"].as_str().and_then(|unit| known_unit_m(unit.trim_end_matches('s'))),
         };
-        let unit_m = list.iter().zip(&roles).map(unit).collect();
-        Self::new(path, &roles, unit_m)
+        Self::new(path, &roles, list.iter().zip(&roles).map(unit).collect())
     }
 
     /// Axes of an array that does not name them: z, y, x with the last as many as there are; five as OME-Zarr has them.
     pub fn of_unnamed(path: &Path, count: usize) -> Result<Self, VolumeError> {
         let all = [Role::Time, Role::Channel, Role::Z, Role::Y, Role::X];
         match count {
-            2 | 3 | 5 => Self::new(path, &all[5 - count..], vec![UNKNOWN_UNIT_M; count]),
+            2 | 3 | 5 => Self::new(path, &all[5 - count..], vec![None; count]),
             _ => Err(VolumeError::unsupported(
                 path,
                 format!("it is an array of {count} dimensions without names; give one of 2, 3 or 5"),
@@ -58,7 +59,7 @@ impl Axes {
         }
     }
 
-    fn new(path: &Path, roles: &[Role], unit_m: Vec<f64>) -> Result<Self, VolumeError> {
+    fn new(path: &Path, roles: &[Role], units_m: Vec<Option<f64>>) -> Result<Self, VolumeError> {
         let place = |role| roles.iter().position(|&other| other == role);
         let twice = roles.iter().enumerate().any(|(at, &role)| place(role) != Some(at));
         match (place(Role::X), place(Role::Y), twice) {
@@ -69,7 +70,8 @@ impl Axes {
                 z: place(Role::Z),
                 channel: place(Role::Channel),
                 time: place(Role::Time),
-                unit_m,
+                has_unknown_unit: units_m.contains(&None),
+                unit_m: units_m.into_iter().map(|unit_m| unit_m.unwrap_or(UNKNOWN_UNIT_M)).collect(),
             }),
             _ => Err(VolumeError::header(path, "its axes must have one x, one y and no axis twice")),
         }
@@ -88,16 +90,7 @@ fn role(axis: &Value) -> Option<Role> {
     }
 }
 
-/// Metres of a unit of length as UDUNITS names it.
-fn unit_m(path: &Path, unit: Option<&str>) -> f64 {
-    let Some(unit) = unit else { return UNKNOWN_UNIT_M };
-    let known = known_unit_m(unit.trim_end_matches('s'));
-    if known.is_none() {
-        tracing::warn!(path = %path.display(), unit, "unknown unit of length: taken as millimetres");
-    }
-    known.unwrap_or(UNKNOWN_UNIT_M)
-}
-
+/// Metres of a unit of length as UDUNITS names it, without an s at its end.
 fn known_unit_m(unit: &str) -> Option<f64> {
     Some(match unit {
         "m" | "meter" | "metre" => 1.0,
@@ -151,7 +144,7 @@ mod tests {
         ]));
         let found = found.unwrap();
         assert_eq!((found.time, found.channel, found.z, found.y, found.x), (Some(0), Some(1), Some(2), 3, 4));
-        assert_eq!(found.unit_m, [1.0, 1.0, 1e-6, 1e-9, 1e-3]);
+        assert_eq!((&found.unit_m[..], found.has_unknown_unit), (&[1.0, 1.0, 1e-6, 1e-9, 1e-3][..], true));
         assert_eq!(axes(json!(["y", "x"])).unwrap().z, None);
     }
 

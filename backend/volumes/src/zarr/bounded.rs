@@ -3,7 +3,8 @@
 //! zarrs takes the memory that a packed chunk's own header asks for, or as much as comes out of it. A damaged or
 //! hostile chunk of some bytes would so end the program; here it is an error.
 
-use flate2::read::{MultiGzDecoder, ZlibDecoder};
+use super::super::gzip::Gzip;
+use flate2::bufread::ZlibDecoder;
 use std::borrow::Cow;
 use std::io::Read;
 use std::sync::{Arc, Once};
@@ -79,7 +80,7 @@ impl Bounded {
     ) -> Result<ArrayBytesRaw<'a>, CodecError> {
         let most = representation.size().unwrap_or(MOST_BYTES);
         let unpacked = match self.packing {
-            Packing::Gzip => read_at_most(MultiGzDecoder::new(&packed[..]), most)?,
+            Packing::Gzip => read_at_most(Gzip::new(&packed[..]), most)?,
             Packing::Zlib => read_at_most(ZlibDecoder::new(&packed[..]), most)?,
             Packing::Zstd => read_at_most(zstd::Decoder::with_buffer(&packed[..])?, most)?,
             Packing::Blosc => {

@@ -1,5 +1,6 @@
 //! The files of an array as zarrs asks for them, none larger than can be right.
 
+use bricks::volume::open_file;
 use std::fs::File;
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
 use std::path::PathBuf;
@@ -23,7 +24,7 @@ impl Files {
 
     fn open(&self, key: &StoreKey) -> Result<Option<(File, u64)>, StorageError> {
         let failed = |error| StorageError::IOError(Arc::new(error));
-        match File::open(self.path(key)) {
+        match open_file(&self.path(key)) {
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
             Err(error) => Err(failed(error)),
             Ok(file) => {

@@ -1,6 +1,7 @@
 //! From a Zarr folder to the image in it.
 
 use super::super::Selection;
+use super::super::choice::no_series;
 use super::image::Image;
 use super::node::Node;
 use bricks::volume::VolumeError;
@@ -15,10 +16,11 @@ const MOST_LISTED: usize = 20;
 pub(super) fn image(path: &Path, selection: &Selection) -> Result<Image, VolumeError> {
     let node = Node::read(path)?.ok_or_else(|| VolumeError::unsupported(path, "it is not a Zarr folder"))?;
     if node.shape.is_some() {
+        no_series(path, selection.series.as_deref())?;
         return Image::of_array(path, &node);
     }
     if node.is_image() {
-        return Image::of_group(path, &node);
+        return Image::of_group(path, &node, selection.series.as_deref());
     }
     let children = children(path)?;
     let images: Vec<_> = children.iter().filter(|(_, child)| child.is_image()).collect();
@@ -29,7 +31,7 @@ pub(super) fn image(path: &Path, selection: &Selection) -> Result<Image, VolumeE
         (_, Some(series)) => chosen(&images, series),
     };
     match chosen {
-        Some((folder, child)) => Image::of_group(folder, child),
+        Some((folder, child)) => Image::of_group(folder, child, None),
         None => Err(VolumeError::unsupported(
             path,
             format!(

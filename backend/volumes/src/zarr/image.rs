@@ -6,6 +6,9 @@ use bricks::volume::VolumeError;
 use serde_json::Value;
 use std::path::{Component, Path, PathBuf};
 
+/// Images that a sentence lists.
+const MOST_LISTED: usize = 20;
+
 /// An image.
 pub(super) struct Image {
     /// The group or array.
@@ -43,10 +46,10 @@ impl Image {
         Ok(Self { folder: folder.into(), levels: vec![level], axes, channels: Vec::new() })
     }
 
-    /// The first image of a group.
-    pub fn of_group(folder: &Path, node: &Node) -> Result<Self, VolumeError> {
+    /// An image of a group: the only one, or the one of that number (from 1) or name.
+    pub fn of_group(folder: &Path, node: &Node, series: Option<&str>) -> Result<Self, VolumeError> {
         let ome = node.ome();
-        let image = &ome["multiscales"][0];
+        let image = chosen(folder, &ome["multiscales"], series)?;
         let axes = Some(&image["axes"]).filter(|axes| !axes.is_null());
         let axes = axes.map(|axes| Axes::from_json(folder, axes)).transpose()?;
         let whole = placement(folder, &image["coordinateTransformations"])?;
@@ -81,6 +84,27 @@ impl Image {
         let levels = self.levels.iter().enumerate().map(|(k, level)| format!("{k} ({})", size(level)));
         levels.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// Of several images that one group describes, the chosen one.
+fn chosen<'a>(folder: &Path, images: &'a Value, series: Option<&str>) -> Result<&'a Value, VolumeError> {
+    let images = images.as_array().map_or(&[][..], Vec::as_slice);
+    let name = |image: &'a Value| image["name"].as_str();
+    if let ([only], None) = (images, series) {
+        return Ok(only);
+    }
+    let by_name = || images.iter().find(|image| series.is_some() && name(image) == series);
+    let by_number = || images.get(series?.trim().parse::<usize>().ok()?.checked_sub(1)?);
+    by_name().or_else(by_number).ok_or_else(|| {
+        let list = images.iter().enumerate().take(MOST_LISTED);
+        let list = list.map(|(i, image)| format!("{} ({})", i + 1, name(image).unwrap_or("without a name")));
+        let list = list.collect::<Vec<_>>().join(", ");
+        let what = format!(
+            "it holds {} images, {list}: choose one as a series, by its number or name",
+            images.len()
+        );
+        VolumeError::unsupported(folder, what)
+    })
 }
 
 fn level(folder: &Path, dataset: &Value, whole: Option<&Placement>) -> Result<Level, VolumeError> {

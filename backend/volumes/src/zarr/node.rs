@@ -1,8 +1,7 @@
 //! What the metadata files of a Zarr folder say: a group or an array, and its attributes.
 
-use bricks::volume::VolumeError;
+use bricks::volume::{VolumeError, open_file};
 use serde_json::Value;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -59,7 +58,7 @@ fn read_json(folder: &Path, name: &str) -> Result<Option<Value>, VolumeError> {
         return Ok(None);
     }
     let mut text = Vec::new();
-    let file = File::open(&path).map_err(VolumeError::open(&path))?;
+    let file = open_file(&path).map_err(VolumeError::open(&path))?;
     file.take(MOST_METADATA_BYTES).read_to_end(&mut text).map_err(VolumeError::read(&path))?;
     let json: Value = serde_json::from_slice(&text)
         .map_err(|error| VolumeError::header(&path, format!("it is not JSON: {error}")))?;

@@ -304,3 +304,42 @@ fn a_chunk_that_unpacks_to_too_much_is_refused() {
         assert!(said.contains("cannot be decoded"), "{said}");
     }
 }
+
+#[test]
+fn of_several_images_in_one_group_one_is_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for (array, from) in [("a", "type_u2.zarr"), ("b", "type_f4.zarr")] {
+        fs::create_dir_all(at(array).join("c/0/0")).unwrap();
+        for name in ["zarr.json", "c/0/0/0"] {
+            fs::copy(data(from).join(name), at(array).join(name)).unwrap();
+        }
+    }
+    let image = |name: &str| {
+        format!(
+            r#"{{ "name": "{name} image", "axes": ["z", "y", "x"], "datasets": [{{ "path": "{name}",
+                "coordinateTransformations": [{{ "type": "scale", "scale": [1, 1, 1] }}] }}] }}"#
+        )
+    };
+    let group = |images: &[String]| {
+        let images = images.join(",");
+        let json = format!(
+            r#"{{ "zarr_format": 3, "node_type": "group", "attributes": {{ "ome": {{ "version": "0.5",
+                "multiscales": [{images}] }} }} }}"#
+        );
+        fs::write(at("zarr.json"), json).unwrap();
+    };
+    group(&[image("a"), image("b")]);
+    let said = complaint(folder.path(), &Selection::default());
+    assert!(said.contains("2 images, 1 (a image), 2 (b image): choose one"), "{said}");
+    let of = |series: &str| Selection { series: Some(series.into()), ..Default::default() };
+    for (series, element) in
+        [("1", Element::U16), ("a image", Element::U16), ("2", Element::F32), ("b image", Element::F32)]
+    {
+        assert_eq!(read(folder.path(), &of(series)).unwrap().0.element, element, "{series}");
+    }
+    assert!(complaint(folder.path(), &of("3")).contains("choose one"));
+    group(&[image("b")]);
+    assert_eq!(read(folder.path(), &Selection::default()).unwrap().0.element, Element::F32);
+    assert!(complaint(folder.path(), &of("c image")).contains("1 images"));
+}

@@ -226,7 +226,11 @@ fn frame(
     selection: &Selection,
 ) -> Result<VolumeFrame, VolumeError> {
     if let Some(spacing_mm) = selection.spacing_mm {
-        return Ok(VolumeFrame::of_voxels(spacing_mm * 1e-3));
+        return sound(folder, VolumeFrame::of_voxels(spacing_mm * 1e-3));
+    }
+    if level.placement.is_none() || axes.has_unknown_unit {
+        let path = folder.display();
+        tracing::warn!(%path, "it does not give the edges of a voxel in a known unit: millimetres are assumed");
     }
     let at = |numbers: &[f64], axis: usize| numbers[axis] * axes.unit_m[axis];
     let (scale, translation) = match &level.placement {
@@ -241,12 +245,17 @@ fn frame(
     let z = axes.z.map_or((at(&scale, axes.x), 0.0), |z| (at(&scale, z), at(&translation, z)));
     let size = DVec3::new(at(&scale, axes.x), at(&scale, axes.y), z.0);
     let origin_m = DVec3::new(at(&translation, axes.x), at(&translation, axes.y), z.1);
-    let frame = VolumeFrame { origin_m, ..VolumeFrame::of_voxels(size) };
+    sound(folder, VolumeFrame { origin_m, ..VolumeFrame::of_voxels(size) })
+}
+
+/// The frame, if a volume can lie so.
+fn sound(folder: &Path, frame: VolumeFrame) -> Result<VolumeFrame, VolumeError> {
     match frame.is_sound() {
         true => Ok(frame),
-        false => Err(VolumeError::header(
-            folder,
-            format!("the voxel size is {} mm, and each edge must be positive", size * 1e3),
-        )),
+        false => {
+            let size_mm = frame.voxel_size_m() * 1e3;
+            let what = format!("the voxel size is {size_mm} mm, and {}", VolumeFrame::SOUND_EDGES);
+            Err(VolumeError::header(folder, what))
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! A file being written: beside its final place, locked, and removed if the work is abandoned.
 
-use super::bytes::checksum;
 use std::ffi::{OsStr, OsString};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io;
@@ -12,7 +11,7 @@ const ATTEMPTS: usize = 10;
 const LONGEST_NAME_BYTES: usize = 240;
 
 /// `.NAME.part` in the folder of NAME. One process writes it at a time; what a killed process left there is taken over.
-pub(super) struct WorkingFile {
+pub struct WorkingFile {
     path: PathBuf,
     is_renamed: bool,
     /// Keeps the lock until the file is renamed or removed.
@@ -21,6 +20,9 @@ pub(super) struct WorkingFile {
 
 impl WorkingFile {
     /// Starts the file for `target`, empty.
+    ///
+    /// # Errors
+    /// Those of the file system, and another process that writes it.
     pub fn create(target: &Path) -> io::Result<(Self, File)> {
         if target.is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
@@ -43,7 +45,15 @@ impl WorkingFile {
         Err(io::ErrorKind::ResourceBusy.into())
     }
 
+    /// Where it is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Gives the complete file its name; what had it before is replaced.
+    ///
+    /// # Errors
+    /// Those of the file system.
     pub fn rename(mut self, target: &Path) -> io::Result<()> {
         std::fs::rename(&self.path, target)?;
         self.is_renamed = true;
@@ -64,7 +74,7 @@ impl Drop for WorkingFile {
 fn working_name(name: &OsStr) -> OsString {
     let mut working = OsString::from(".");
     match name.len() > LONGEST_NAME_BYTES {
-        true => working.push(format!("{:08x}", checksum(name.as_encoded_bytes()))),
+        true => working.push(format!("{:08x}", crc32fast::hash(name.as_encoded_bytes()))),
         false => working.push(name),
     }
     working.push(".part");
