@@ -34,7 +34,7 @@ pub mod threads;
 mod watchdog;
 pub mod worker;
 
-pub use launch::{Launch, fail, launch, local_rank, printable, under_mpi};
+pub use launch::{Launch, fail, launch, local_rank, under_mpi};
 pub use link::{Link, LinkError, WorkerLink};
 pub use opened::Opened;
 pub use session::{Limits, Session, SessionError};
