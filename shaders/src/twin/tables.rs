@@ -12,7 +12,7 @@ pub struct Located<F> {
     /// The cell it lies in.
     cell: usize,
     /// (τ c, τ).
-    value: [F; 4],
+    pub(super) value: [F; 4],
 }
 
 /// Looks up a scalar in [0, 1].
