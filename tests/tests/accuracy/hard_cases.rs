@@ -4,22 +4,21 @@ use bricks::BrickSource;
 use display_config::Display;
 use glam::{DAffine3, DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::{ClosureVolume, bumps};
-use lightloom_tests::compare::{self, Limits, errors, truth};
+use lightloom_tests::compare::{self, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{Points, frame, optics, placed, with_raster};
 use optics::{Curve, Light, Mimda, MimdaForm};
 use protocol::{FrameState, ProjectorImage};
+use reference::Radiance;
 use shaders::tables::TABLE_ENTRIES;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// What default quality promises on every scene.
-const PROMISE: Limits = Limits::of_255(0.5, 4.0, 4.0);
+/// What default quality keeps in hard cases. Those that it does not keep it in say why, with limits of their own: a fifth above
+/// what was measured, as drivers round differently.
+const PROMISE: Limits = Limits::of_255(0.1, 1.0, 1.0);
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];
-
-/// One pixel may be wrong altogether, highlights included.
-const ALL: f64 = 400.0;
 
 struct Case {
     name: String,
@@ -27,8 +26,8 @@ struct Case {
     source: Arc<dyn BrickSource>,
     frame: FrameState,
     limits: Limits,
-    /// Whether the middle column and row are left out of the comparison.
-    is_middle_left_out: bool,
+    /// Whether rays of the middle column and row may miss the volume or meet it: f32 cannot say.
+    may_middle_miss: bool,
     /// Whether Mesa's llvmpipe cannot draw it: it leaves a shader's loops, silently, when an invocation has gone round them some
     /// 65,535 times in all, and one pair of steps counts three times (measured: 21,844 pairs per ray and no more).
     is_beyond_llvmpipe: bool,
@@ -63,7 +62,7 @@ impl Case {
             source,
             frame,
             limits: PROMISE,
-            is_middle_left_out: false,
+            may_middle_miss: false,
             is_beyond_llvmpipe: false,
         }
     }
@@ -125,7 +124,7 @@ fn along_axes() -> Vec<Case> {
         case("grazing the volume by 1e-3", DVec3::new(-28.0 + 1e-3, 28.0 - 1e-3, 0.0)),
         // The middle column and row run in a face of the volume, 1e-6 voxels within: f32 puts them in or out.
         Case {
-            is_middle_left_out: true,
+            may_middle_miss: true,
             ..case("grazing the volume by 1e-6", DVec3::new(-28.0 + 1e-6, 28.0 - 1e-6, 0.0))
         },
         far_viewer(case("a viewer 10 km away", DVec3::ZERO)),
@@ -179,18 +178,22 @@ fn transfer_functions() -> Vec<Case> {
     let spike = |height: f64| vec![(peak - entry, 0.0), (peak, height), (peak + entry, 0.0)];
     let case = |name: String, extinction| Case::new(&name, source([56, 40, 30], bumps), extinction);
     let mut cases = vec![
-        case("a spike of 1 per voxel".into(), spike(1.0)),
+        case("a spike of 1 per voxel".into(), spike(1.0)).within(0.1, 1.0, 5.0),
         // Opaque skins a hundredth of a voxel thick. Between two samples the kernel takes the scalar as straight; where it turns
         // just short of the spike, or just within, a pixel shows the skin or what lies behind.
-        case("a spike of 1e3 per voxel".into(), spike(1e3)).within(0.2, 4.0, ALL),
-        case("a spike of 1e6 per voxel".into(), spike(1e6)).within(0.2, 4.0, ALL),
+        case("a spike of 1e3 per voxel".into(), spike(1e3)).within(0.1, 1.0, 7.0),
+        case("a spike of 1e6 per voxel".into(), spike(1e6)).within(0.1, 1.0, 1.0),
     ];
     for exponent in [-6, -4, -2, 0, 2, 4, 6] {
         let scale = 10f64.powi(exponent);
         let ramp = vec![(0.3, 0.0), (0.9, scale)];
         let case = case(format!("up to 1e{exponent} per voxel"), ramp);
         // Opaque at a threshold: on its outline a pixel shows it or does not.
-        cases.push(if exponent >= 4 { case.within(1.0, 4.0, ALL) } else { case });
+        cases.push(match exponent {
+            4 => case.within(0.1, 1.3, 7.0),
+            6 => case.within(0.6, 1.3, 85.0),
+            _ => case,
+        });
     }
     cases
 }
@@ -219,17 +222,17 @@ fn other() -> Vec<Case> {
         case("eta 0.5").with(|f| f.eta = 0.5),
         in_viewers_plane,
         // On the outline of the jump a pixel loses all that lies before it or nothing.
-        case("importance that jumps").with(|f| f.optics.mimda = mimda(0.8)).within(0.8, 4.0, ALL),
-        case("importance that jumps, gamma 1").with(|f| f.optics.mimda = mimda(1.0)).within(0.8, 4.0, ALL),
+        case("importance that jumps").with(|f| f.optics.mimda = mimda(0.8)).within(0.5, 2.1, 70.0),
+        case("importance that jumps, gamma 1").with(|f| f.optics.mimda = mimda(1.0)).within(0.6, 2.3, 90.0),
         // Where the ray turns below the peak, between two samples, the kernel keeps a little of what the truth erases, and
         // where it meets the peak once more it erases that.
         case("importance that rises to 1, gamma 1")
             .with(|f| f.optics.mimda = rising())
-            .within(0.5, 6.0, 80.0),
-        case("3e4 steps").with(|f| f.quality.step_voxels = 2.4e-3).within(0.05, 0.3, 1.0).few_pixels(),
+            .within(0.25, 2.8, 30.0),
+        case("3e4 steps").with(|f| f.quality.step_voxels = 2.4e-3).within(0.01, 0.1, 0.1).few_pixels(),
         Case {
             is_beyond_llvmpipe: true,
-            ..case("1e5 steps").with(|f| f.quality.step_voxels = 7e-4).within(0.05, 0.3, 1.0).few_pixels()
+            ..case("1e5 steps").with(|f| f.quality.step_voxels = 7e-4).within(0.01, 0.1, 0.1).few_pixels()
         },
         case("never ending early").with(|f| f.quality.termination = 0.0),
     ]
@@ -238,6 +241,22 @@ fn other() -> Vec<Case> {
 fn assert_is_light(name: &str, images: &[ProjectorImage]) {
     let worst = images.iter().flat_map(|image| &image.rgba).find(|n| !(n.is_finite() && **n >= 0.0));
     assert!(worst.is_none(), "{name}: {worst:?} is no light");
+}
+
+/// The truth, but for rays of the middle column and row that met nothing at all: for those it is that.
+fn as_met(images: &[ProjectorImage], truth: &[TruePixel]) -> Vec<TruePixel> {
+    let met_nothing = |pixel: &TruePixel| {
+        let image = images.iter().find(|image| image.projector == pixel.projector);
+        image.is_some_and(|image| {
+            let at = 4 * (pixel.y * image.width + pixel.x) as usize;
+            image.rgba[at..at + 4] == [0.0; 4]
+        })
+    };
+    let seen = |pixel: &TruePixel| match (pixel.x == 48 || pixel.y == 36) && met_nothing(pixel) {
+        true => TruePixel { truth: Radiance::NOTHING, ..*pixel },
+        false => *pixel,
+    };
+    truth.iter().map(seen).collect()
 }
 
 /// The pictures with every other column dark.
@@ -254,9 +273,8 @@ fn half_dark(images: &[ProjectorImage]) -> Vec<ProjectorImage> {
 fn check(cases: Vec<Case>) {
     let _turn = draw::turn();
     let mut failed = Vec::new();
-    for Case { name, display, source, frame, limits, is_middle_left_out, is_beyond_llvmpipe } in cases {
-        let mut truth = truth(&display, &frame, &source, &PROJECTORS, 1);
-        truth.retain(|pixel| !(is_middle_left_out && (pixel.x == 48 || pixel.y == 36)));
+    for Case { name, display, source, frame, limits, may_middle_miss, is_beyond_llvmpipe } in cases {
+        let truth = truth(&display, &frame, &source, &PROJECTORS, 1);
         for device in draw::devices() {
             let drawn = draw(&display, &frame, &source, &PROJECTORS, With::device(device));
             if is_beyond_llvmpipe && drawn.info.adapter.contains("llvmpipe") {
@@ -264,6 +282,7 @@ fn check(cases: Vec<Case>) {
                 continue;
             }
             assert_is_light(&name, &drawn.images);
+            let truth = if may_middle_miss { as_met(&drawn.images, &truth) } else { truth.clone() };
             let errors = errors(&drawn.images, &truth);
             println!("{name:36} {device:?}: {errors}");
             if !limits.hold(&errors) {
