@@ -8,6 +8,8 @@
 //! | `enhancers` | chains of enhancers within the volume |
 //! | `view` | placement, viewer, quality |
 //! | `difference` | how far two pictures are apart |
+//! | `truth` | what every pixel should show, and how well it is conditioned |
+//! | `judge` | a picture against the truth, each pixel by its own condition |
 //! | `check` | a scene drawn by every device, against the others and the truth |
 //! | `run` | many of them |
 
@@ -15,14 +17,18 @@ mod check;
 mod curves;
 mod difference;
 mod enhancers;
+mod judge;
 mod look;
 mod run;
+mod truth;
 mod view;
 mod volume;
 
 pub use check::{Found, check, display};
 pub use difference::{Difference, Limit};
+pub use judge::{Judge, Verdict};
 pub use run::{Plan, Summary, run};
+pub use truth::Truth;
 pub use view::Stand;
 pub use volume::{RandomField, RandomVolume};
 
@@ -156,10 +162,10 @@ impl RandomScene {
     }
 
     /// Whether a reference tells its picture: MImDA as published depends on the step, which has no limit to compare with
-    /// but its own, and rays in strong refraction part where they differ by rounding.
+    /// but its own, and steps longer than by default promise nothing.
     pub fn has_truth(&self) -> bool {
         let is_paper = |m: &optics::Mimda| m.form == MimdaForm::Paper && m.gamma > 0.0;
-        !self.optics.mimda.as_ref().is_some_and(is_paper) && self.is_gentle && !self.has_coarse_quality()
+        !self.optics.mimda.as_ref().is_some_and(is_paper) && !self.has_coarse_quality()
     }
 
     /// Whether it asks for less than default quality.
