@@ -3,23 +3,20 @@
 use super::RandomScene;
 use super::difference::{Difference, Limit, difference};
 use super::judge::{Judge, Verdict};
-use super::truth::Truth;
+use super::truth::{LIT, Truth};
 use crate::draw::{self, With};
 use crate::remembered::Remembered;
 use crate::scenes::with_raster;
 use bricks::BrickSource;
 use display_config::Display;
 use optics::Quality;
-use protocol::FrameState;
-use protocol::{DeviceChoice, ProjectorImage};
+use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use std::sync::Arc;
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];
 /// Odd, so that one column and one row look straight ahead.
-const RASTER: [u32; 2] = [33, 25];
-/// Opacity from which a pixel shows anything.
-pub(super) const LIT: f64 = 0.01;
+const RASTER: [u32; 2] = [25, 19];
 /// Pixels that show anything per one that is asked how sharply it is judged.
 const SHARP_STRIDE: usize = 16;
 /// A spoilt picture that differs on average by this much more than is allowed must be found out.
@@ -54,7 +51,7 @@ fn limit_of_rounding(scene: &RandomScene) -> Limit {
     match (scene.is_tame(), scene.optics.refraction.is_some()) {
         (true, false) => Limit { pixel: 1.0 / 255.0, share: 0.0, mean: 0.004 / 255.0 },
         (true, true) => Limit { pixel: 1.0 / 255.0, share: 0.005, mean: 0.02 / 255.0 },
-        (false, _) => Limit { pixel: 4.0 / 255.0, share: 0.02, mean: 0.3 / 255.0 },
+        (false, _) => Limit { pixel: 1.0 / 255.0, share: 0.01, mean: 0.05 / 255.0 },
     }
 }
 

@@ -75,7 +75,7 @@ pub struct RandomScene {
     pub most_per_voxel: f64,
     /// Whether its transfer functions are without jumps and spikes, refraction apart.
     pub is_even: bool,
-    /// Whether its refraction, if any, is gentle enough for a comparison.
+    /// Whether its refraction, if any, is gentle enough to compare kernel and twin.
     pub is_gentle: bool,
     /// Its light.
     pub light: Option<Light>,
@@ -194,7 +194,7 @@ mod tests {
         let mut draw = |wanted| scenes(wanted).new_tree(&mut runner).unwrap().current();
         let some: Vec<RandomScene> = (0..300).map(|_| draw(Wanted::ALL)).collect();
         assert!(some.iter().all(|scene| scene.optics.check() == Ok(())));
-        let features: [fn(&RandomScene) -> bool; 8] = [
+        let features: [fn(&RandomScene) -> bool; 9] = [
             |s| s.optics.refraction.is_some() && s.is_gentle && s.has_truth(),
             |s| s.optics.refraction.is_some() && !s.is_gentle,
             |s| s.optics.materials.is_some() && s.light.is_some(),
@@ -203,6 +203,7 @@ mod tests {
             |s| s.light.is_some_and(|light| light.detail != optics::Detail::None),
             |s| s.optics.mimda.as_ref().is_some_and(|mimda| mimda.gamma == 1.0),
             RandomScene::is_tame,
+            |s| s.volume.has_deviation && s.quality.lod_scale > 2.0,
         ];
         for (i, has) in features.iter().enumerate() {
             assert!(some.iter().filter(|scene| has(scene)).count() > 3, "feature {i} is too rare");

@@ -7,7 +7,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Times that a case that fails is made simpler, and drawn again.
-const SIMPLER: usize = 0;
+const SIMPLER: usize = 60;
 
 /// Share of the pixels whose truth the reference may fail to find: rays that strong refraction scatters.
 const UNKNOWN: f64 = 0.02;
@@ -74,17 +74,7 @@ pub fn run(plan: &Plan) -> Summary {
     for case in plan.first..plan.first + plan.cases {
         let mut tree = tree(plan, case);
         let scene = tree.current();
-        let start = std::time::Instant::now();
         let found = drawn(&display, &scene);
-        println!(
-            "CASE {case} {:?} tame {} truth {:?} lit {} sharp {:?} {}",
-            start.elapsed(),
-            scene.is_tame(),
-            found.truth,
-            found.lit,
-            found.sharp,
-            found.verdicts.iter().map(|v| format!(" [{v}]")).collect::<String>()
-        );
         if !found.wrong.is_empty() {
             let simplest = simplest(&display, &mut tree);
             summary.failed.push(told(plan, case, &found, simplest.as_ref()));

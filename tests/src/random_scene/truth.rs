@@ -9,6 +9,8 @@ use rayon::prelude::*;
 use reference::{Integrator, Radiance, Ray, Reference};
 use std::sync::{Arc, OnceLock};
 
+/// Opacity from which a pixel shows anything.
+pub(super) const LIT: f64 = 0.01;
 /// How far rounding takes a sample from its place, voxels: a texture unit is asked at 1/4096 of a texel, and f32 holds a place
 /// a thousand voxels away to as much; several of these add up.
 const PLACE_VOXELS: f64 = 1.0 / 2048.0;
