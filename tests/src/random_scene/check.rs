@@ -2,16 +2,23 @@
 
 use super::RandomScene;
 use super::difference::{Difference, Limit, difference};
-use crate::compare::{self, TruePixel};
+use super::judge::{Judge, Verdict};
+use super::truth::{LIT, Truth};
 use crate::draw::{self, With};
+use crate::remembered::Remembered;
 use crate::scenes::with_raster;
+use bricks::BrickSource;
 use display_config::Display;
-use protocol::{DeviceChoice, ProjectorImage};
+use optics::Quality;
+use protocol::{DeviceChoice, FrameState, ProjectorImage};
+use std::sync::Arc;
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];
 /// Odd, so that one column and one row look straight ahead.
-const RASTER: [u32; 2] = [17, 13];
+const RASTER: [u32; 2] = [25, 19];
+/// Pixels that show anything per one that is asked how sharply it is judged.
+const SHARP_STRIDE: usize = 16;
 /// A spoilt picture that differs on average by this much more than is allowed must be found out.
 const CANARY_MARGIN: f64 = 1.5;
 /// Opacities are composited in f32: a few hundred steps of 1e-7 each.
@@ -22,8 +29,12 @@ const OPACITY_ROUNDING: f32 = 1e-5;
 pub struct Found {
     /// The GPU against the twin.
     pub rounding: Option<Difference>,
-    /// The worst of the devices against the truth.
-    pub truth: Option<Difference>,
+    /// Pixels whose truth is known, and those of which it is not.
+    pub truth: Option<[usize; 2]>,
+    /// Every device against the truth.
+    pub verdicts: Vec<Verdict>,
+    /// Of some pixels that show anything, those of which a fault of a code would be seen, and all.
+    pub sharp: [usize; 2],
     /// Pixels that show anything.
     pub lit: usize,
     /// What is wrong, a sentence each.
@@ -40,22 +51,7 @@ fn limit_of_rounding(scene: &RandomScene) -> Limit {
     match (scene.is_tame(), scene.optics.refraction.is_some()) {
         (true, false) => Limit { pixel: 1.0 / 255.0, share: 0.0, mean: 0.004 / 255.0 },
         (true, true) => Limit { pixel: 1.0 / 255.0, share: 0.005, mean: 0.02 / 255.0 },
-        (false, _) => Limit { pixel: 4.0 / 255.0, share: 0.02, mean: 0.3 / 255.0 },
-    }
-}
-
-/// Device and truth. Where nothing is steep it is what default quality promises at the worst pixel, and half a code on
-/// average. Between two samples the kernel takes the scalar as straight. So where it turns just beyond a sample, importance
-/// is met too low, and what lies before is erased too little: a pixel in two hundred. As many bent rays pass a corner of
-/// the volume that they should have met. And where importance has a peak, the scalar jumps from voxel to voxel, or a transfer function has
-/// a jump or a spike or makes a skin thinner than a step, a pixel on an outline shows what is there or what lies behind.
-/// White noise under a spike has such outlines in every voxel, and a skin of 1e-5 voxels shows the mean colour of the part
-/// of a step that it begins in.
-fn limit_of_truth(scene: &RandomScene) -> Limit {
-    match (scene.is_tame(), scene.optics.mimda.is_some() || scene.optics.refraction.is_some()) {
-        (true, false) => Limit { pixel: 4.0 / 255.0, share: 0.0, mean: 0.5 / 255.0 },
-        (true, true) => Limit { pixel: 4.0 / 255.0, share: 0.005, mean: 0.5 / 255.0 },
-        (false, _) => Limit { pixel: 4.0 / 255.0, share: 0.15, mean: 4.0 / 255.0 },
+        (false, _) => Limit { pixel: 1.0 / 255.0, share: 0.01, mean: 0.05 / 255.0 },
     }
 }
 
@@ -66,7 +62,8 @@ pub fn display() -> Display {
 
 /// Draws a scene on every device there is, and compares.
 pub fn check(display: &Display, scene: &RandomScene) -> Found {
-    let (source, frame) = (scene.volume.source(), scene.frame(display));
+    let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(scene.volume.source()));
+    let frame = scene.frame(display);
     let mut found = Found::default();
     let mut all: Vec<(DeviceChoice, Vec<ProjectorImage>)> = Vec::new();
     for device in draw::devices() {
@@ -83,11 +80,23 @@ pub fn check(display: &Display, scene: &RandomScene) -> Found {
     {
         found.compare_kernel(scene, kernel, twin);
     }
-    if scene.has_truth() {
-        let mut truth = compare::traced(display, &frame, &source, &PROJECTORS, 1);
-        truth.retain(|pixel| pixel.truth.reached);
-        found.lit = truth.iter().filter(|pixel| pixel.truth.opacity > 0.01).count();
-        all.iter().for_each(|(device, images)| found.compare_with_truth(scene, *device, images, &truth));
+    found.lit = all.iter().flat_map(|(_, images)| numbers(images)).filter(|p| p[3] > LIT).count() / all.len();
+    if scene.has_truth() && found.lit > 0 {
+        let truth = Truth::new(display, &frame, &source, &PROJECTORS);
+        let judge = Judge::new(&truth, 1.0 / brightest(scene), &scene.quality);
+        found.truth = Some(truth.known());
+        found.sharp = judge.sharp(SHARP_STRIDE);
+        for (device, images) in all {
+            let again = |quality: Quality| {
+                let frame = FrameState { quality, ..frame.clone() };
+                draw::draw(display, &frame, &source, &PROJECTORS, With::device(device)).images
+            };
+            let verdict = judge.judge(&images, again);
+            if !verdict.holds() {
+                found.wrong.push(format!("{device:?} is off the truth: {verdict}"));
+            }
+            found.verdicts.push(verdict);
+        }
     }
     found
 }
@@ -105,31 +114,6 @@ impl Found {
         let brighter = difference(kernel().map(|p| p.map(|n| 1.001 * n)).zip(kernel()), scale, limit.pixel);
         if 1e-3 * mean_light(kernel(), scale) > CANARY_MARGIN * limit.mean && limit.holds(&brighter) {
             self.wrong.push("a picture brighter by a thousandth passes for the twin's".into());
-        }
-    }
-
-    fn compare_with_truth(
-        &mut self,
-        scene: &RandomScene,
-        device: DeviceChoice,
-        images: &[ProjectorImage],
-        truth: &[TruePixel],
-    ) {
-        let (limit, scale) = (limit_of_truth(scene), 1.0 / brightest(scene));
-        let pairs = || against(images, truth);
-        let found = difference(pairs(), scale, limit.pixel);
-        if !limit.holds(&found) {
-            self.wrong.push(format!("{device:?} is off the truth: {found}"));
-        }
-        // The canary: every other pixel dark, where that is more than is allowed on average.
-        let dark = |(i, (found, truth))| (if i % 2 == 0 { [0.0; 4] } else { found }, truth);
-        let half = difference(pairs().enumerate().map(dark), scale, limit.pixel);
-        let true_light = pairs().map(|(_, truth)| truth);
-        if 0.25 * mean_light(true_light, scale) > CANARY_MARGIN * limit.mean && limit.holds(&half) {
-            self.wrong.push(format!("{device:?}: half a picture passes"));
-        }
-        if self.truth.is_none_or(|worst| worst.mean < found.mean) {
-            self.truth = Some(found);
         }
     }
 }
@@ -162,17 +146,6 @@ fn numbers(images: &[ProjectorImage]) -> impl Iterator<Item = [f64; 4]> {
         .iter()
         .flat_map(|image| image.rgba.chunks_exact(4))
         .map(|p| std::array::from_fn(|c| f64::from(p[c])))
-}
-
-/// Pairs (found, true).
-fn against(images: &[ProjectorImage], truth: &[TruePixel]) -> impl Iterator<Item = ([f64; 4], [f64; 4])> {
-    truth.iter().map(|pixel| {
-        let image = images.iter().find(|image| image.projector == pixel.projector);
-        let image = image.expect("every projector with truth has a picture");
-        let at = 4 * (pixel.y as usize * image.width as usize + pixel.x as usize);
-        let [r, g, b] = pixel.truth.rgb.to_array();
-        (std::array::from_fn(|c| f64::from(image.rgba[at + c])), [r, g, b, pixel.truth.opacity])
-    })
 }
 
 #[cfg(test)]

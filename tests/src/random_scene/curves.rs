@@ -28,16 +28,28 @@ pub(super) struct Colours {
     pub(super) is_even: bool,
 }
 
-/// Extinctions of 1e-6 to 1e6 per voxel, most of them such as pictures have.
+/// Extinctions of 1e-6 to 1e6 per voxel, most of them such as pictures have; few so thin that they show nothing.
 pub(super) fn shapes() -> impl Strategy<Value = Shape> {
-    let exponent = prop_oneof![3 => -2.0..0.3, 2 => -6.0..6.0];
+    let exponent = prop_oneof![7 => -1.7..0.3, 3 => -1.0..6.0, 1 => -6.0..-1.7];
     let spike = sometimes(0.15, (1..TABLE_ENTRIES - 1, 0.0..3.0));
     (points(0.3), exponent, spike).prop_map(|((points, has_jump), exponent, spike)| Shape {
-        points,
+        points: reaching_one(points),
         has_jump,
         spike: spike.map(|(node, decades): (usize, f64)| (node, 10f64.powf(decades))),
         most: 10f64.powf(exponent),
     })
+}
+
+/// The same points, the highest of them at 1.
+fn reaching_one(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let most = points.iter().map(|p| p.1).fold(0.0, f64::max);
+    if most > 0.0 {
+        points.iter_mut().for_each(|p| p.1 /= most);
+    } else {
+        let middle = points.len() / 2;
+        points[middle].1 = 1.0;
+    }
+    points
 }
 
 /// Rising positions with values from 0 to 1, of which some are 0; perhaps with a jump.

@@ -44,7 +44,7 @@ pub(super) fn looks(wanted: Wanted) -> impl Strategy<Value = Look> {
 /// Importance, and whether it is even: a ray may turn within a peak, or pass it between two samples.
 fn importances() -> impl Strategy<Value = (Mimda, bool)> {
     let gamma = prop_oneof![1 => Just(0.0), 1 => Just(1.0), 3 => 0.0..=1.0];
-    let form = prop_oneof![2 => Just(MimdaForm::Consistent), 1 => Just(MimdaForm::Paper)];
+    let form = prop_oneof![3 => Just(MimdaForm::Consistent), 1 => Just(MimdaForm::Paper)];
     (points(0.3), gamma, form).prop_map(|((points, has_jump), gamma, form)| {
         let has_peak = points.windows(3).any(|three| three[1].1 > three[0].1 && three[1].1 > three[2].1);
         (Mimda { importance: curve(points), gamma, form }, gamma == 0.0 || !(has_jump || has_peak))

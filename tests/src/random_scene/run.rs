@@ -1,6 +1,6 @@
 //! Many random scenes: each can be made again from seed and number.
 
-use super::{Difference, Found, RandomScene, Wanted, check, display, scenes};
+use super::{Difference, Found, RandomScene, Verdict, Wanted, check, display, scenes};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::fmt;
@@ -8,6 +8,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Times that a case that fails is made simpler, and drawn again.
 const SIMPLER: usize = 60;
+
+/// Share of the pixels whose truth the reference may fail to find: rays that strong refraction scatters.
+const UNKNOWN: f64 = 0.02;
+/// Share of the pixels that may be excused by their condition.
+const ILL: f64 = 0.02;
+/// Share of the pixels that may need shorter steps.
+const UNSEEN: f64 = 0.01;
+/// Share of the lit pixels of which a fault of a code may go unseen.
+const BLUNT: f64 = 0.15;
 
 /// Which scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,25 +36,33 @@ pub struct Plan {
 pub struct Summary {
     /// Scenes drawn.
     pub cases: u64,
-    /// Of them compared with the truth, and with something to see.
+    /// Of them with something to see.
+    pub lit: u64,
+    /// Of these compared with the truth.
     pub compared: u64,
     /// Of these with nothing steep.
     pub tame: u64,
+    /// Pixels whose truth is known, and those of which it is not.
+    pub known: [usize; 2],
+    /// Of some pixels that show anything, those of which a fault of a code would be seen, and all.
+    pub sharp: [usize; 2],
+    /// All devices' pixels together.
+    pub verdict: Verdict,
     /// The scene whose kernel and twin differ most, of all and of those with nothing steep.
-    pub rounding: [Option<Worst>; 2],
-    /// The scene farthest from the truth, likewise.
-    pub truth: [Option<Worst>; 2],
+    pub rounding: [Option<Worst<Difference>>; 2],
+    /// The scene with most pixels off the truth.
+    pub truth: Option<Worst<Verdict>>,
     /// Cases that failed, with what is wrong.
     pub failed: Vec<String>,
 }
 
 /// The worst case of a kind.
 #[derive(Clone, Debug)]
-pub struct Worst {
+pub struct Worst<D> {
     /// Its number.
     pub case: u64,
     /// By how much.
-    pub difference: Difference,
+    pub difference: D,
     /// The scene.
     pub scene: RandomScene,
 }
@@ -116,36 +133,62 @@ fn told(plan: &Plan, case: u64, found: &Found, simplest: Option<&RandomScene>) -
 
 impl Summary {
     fn add(&mut self, case: u64, scene: RandomScene, found: &Found) {
-        let (is_tame, is_lit) = (scene.is_tame(), found.lit > 0);
+        let is_tame = scene.is_tame();
         self.cases += 1;
-        self.compared += u64::from(is_lit);
-        self.tame += u64::from(is_lit && is_tame);
-        let keep = |worst: &mut Option<Worst>, difference: Option<Difference>| {
-            let Some(difference) = difference else { return };
-            if worst.as_ref().is_none_or(|worst| worst.difference.mean < difference.mean) {
-                *worst = Some(Worst { case, difference, scene: scene.clone() });
+        self.lit += u64::from(found.lit > 0);
+        self.compared += u64::from(found.truth.is_some());
+        self.tame += u64::from(found.truth.is_some() && is_tame);
+        for i in 0..2 {
+            self.known[i] += found.truth.map_or(0, |known| known[i]);
+            self.sharp[i] += found.sharp[i];
+        }
+        let worst = &mut self.rounding[usize::from(is_tame)];
+        if let Some(difference) = found.rounding
+            && worst.as_ref().is_none_or(|worst| worst.difference.mean < difference.mean)
+        {
+            *worst = Some(Worst { case, difference, scene: scene.clone() });
+        }
+        for &verdict in &found.verdicts {
+            self.verdict = self.verdict.and(&verdict);
+            if self.truth.as_ref().is_none_or(|worst| worst.difference.off() < verdict.off()) {
+                self.truth = Some(Worst { case, difference: verdict, scene: scene.clone() });
             }
-        };
-        keep(&mut self.rounding[usize::from(is_tame)], found.rounding);
-        keep(&mut self.truth[usize::from(is_tame)], found.truth);
+        }
+    }
+
+    /// What too many scenes have for the comparison to mean anything, a sentence each.
+    pub fn shortcomings(&self) -> Vec<&'static str> {
+        let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
+        let Self { cases, lit, known: [known, unknown], sharp: [sharp, asked], verdict, .. } = *self;
+        let all = [
+            (4 * lit < 3 * cases, "too few show anything"),
+            (share(unknown, known + unknown) > UNKNOWN, "too many pixels have no truth"),
+            (share(verdict.ill, verdict.pixels) > ILL, "too many pixels are ill-conditioned"),
+            (share(verdict.unseen, verdict.pixels) > UNSEEN, "too many pixels need shorter steps"),
+            (share(asked - sharp, asked) > BLUNT, "too few pixels would show a fault of a code"),
+        ];
+        all.into_iter().filter(|(is_short, _)| *is_short).map(|(_, what)| what).collect()
     }
 }
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { cases, compared, tame, failed, .. } = self;
+        let Self { cases, lit, compared, tame, failed, known: [known, unknown], sharp, verdict, .. } = self;
         let fails = failed.len();
         writeln!(
             f,
-            "{cases} scenes, {compared} lit and compared with the truth, {tame} of these tame, {fails} failed"
+            "{cases} scenes, {lit} lit, {compared} of these compared with the truth, {tame} of these tame, {fails} failed"
         )?;
-        let kinds = [("kernel and twin", &self.rounding), ("truth", &self.truth)];
-        for (what, worst) in kinds {
-            for (worst, of) in worst.iter().zip(["steep", "tame"]) {
-                if let Some(Worst { case, difference, .. }) = worst {
-                    writeln!(f, "{what}, worst of the {of} scenes: case {case}: {difference}")?;
-                }
+        writeln!(f, "truth known of {known} pixels, unknown of {unknown}")?;
+        writeln!(f, "of {} lit pixels a fault of a code would be seen in {}", sharp[1], sharp[0])?;
+        writeln!(f, "all devices: {verdict}")?;
+        for (worst, of) in self.rounding.iter().zip(["steep", "tame"]) {
+            if let Some(Worst { case, difference, .. }) = worst {
+                writeln!(f, "kernel and twin, worst of the {of} scenes: case {case}: {difference}")?;
             }
+        }
+        if let Some(Worst { case, difference, .. }) = &self.truth {
+            writeln!(f, "truth, worst: case {case}: {difference}")?;
         }
         Ok(())
     }

@@ -41,7 +41,7 @@ pub(super) fn stands() -> impl Strategy<Value = Stand> {
     ];
     let is_around_viewer = prop::bool::weighted(0.15);
     let small = || -0.1..0.1;
-    (eta, observer, is_around_viewer, 0.08..0.5, (small(), small(), small()), rotations(), spacings())
+    (eta, observer, is_around_viewer, 0.12..0.5, (small(), small(), small()), rotations(), spacings())
         .prop_map(|(eta, observer, is_around_viewer, size_m, shift, rotation, spacing)| {
             let shift = DVec3::from(shift);
             let (longest_m, centre) =
@@ -84,7 +84,7 @@ pub(super) fn qualities(has_quadrilinear: bool) -> impl Strategy<Value = Quality
         ..default
     };
     let closeness =
-        prop_oneof![6 => Just(default), 1 => better.prop_map(number), 1 => worse.prop_map(number)];
+        prop_oneof![10 => Just(default), 2 => better.prop_map(number), 1 => worse.prop_map(number)];
     let lod_scale = prop_oneof![2 => Just(0.0), 1 => Just(1.0), 3 => 1.0..16.0];
     (closeness, lod_scale, prop::bool::ANY).prop_map(move |(closeness, lod_scale, quadrilinear)| Quality {
         lod_scale,

@@ -61,17 +61,23 @@ pub struct RandomVolume {
     pub field: RandomField,
     /// Bits per stored voxel; a formula's has 16.
     pub bits: CodeBits,
+    /// Whether coarse voxels have standard deviations; a formula's have none.
+    pub has_deviation: bool,
 }
 
 /// Volumes of 1 to 70 voxels along each axis.
 pub(super) fn volumes() -> impl Strategy<Value = RandomVolume> {
     let edge = || prop_oneof![6 => 1u32..=70, 1 => Just(1), 1 => Just(28), 1 => Just(29), 1 => Just(56)];
     let bits = prop_oneof![Just(CodeBits::Eight), Just(CodeBits::Sixteen)];
-    ([edge(), edge(), edge()], fields(), bits).prop_map(|(dims, field, bits)| RandomVolume {
-        dims: UVec3::from(dims),
-        field,
-        bits,
-    })
+    let has_deviation = prop::bool::ANY;
+    ([edge(), edge(), edge()], fields(), bits, has_deviation).prop_map(
+        |(dims, field, bits, has_deviation)| RandomVolume {
+            dims: UVec3::from(dims),
+            field,
+            bits,
+            has_deviation,
+        },
+    )
 }
 
 fn fields() -> impl Strategy<Value = RandomField> {
@@ -131,7 +137,8 @@ impl RandomVolume {
     }
 
     fn closure(&self, value: impl Fn(DVec3) -> f64 + Send + Sync + 'static) -> Arc<dyn BrickSource> {
-        Arc::new(ClosureVolume::new(self.dims, (0.0, 1.0), value).with_bits(self.bits))
+        let volume = ClosureVolume::new(self.dims, (0.0, 1.0), value);
+        Arc::new(volume.with_bits(self.bits).with_deviation(self.has_deviation))
     }
 }
 

@@ -18,6 +18,7 @@ mod layers;
 mod non_finite;
 mod paper;
 mod random;
+mod random_canaries;
 mod reference;
 mod refraction;
 mod round_trip;

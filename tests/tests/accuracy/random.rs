@@ -27,10 +27,15 @@ fn random_scenes_are_light_by_every_device_and_near_the_truth() {
     let summary = run(&plan);
     println!("{summary}");
     if std::env::var_os("LIGHTLOOM_RANDOM_CASES").is_some() {
-        let worst = summary.truth.iter().chain(&summary.rounding).flatten();
-        worst.for_each(|worst| println!("case {}: {:#?}", worst.case, worst.scene));
+        for worst in summary.rounding.iter().flatten() {
+            println!("case {}: {:#?}", worst.case, worst.scene);
+        }
+        if let Some(worst) = &summary.truth {
+            println!("case {}: {:#?}", worst.case, worst.scene);
+        }
     }
     assert!(summary.failed.is_empty(), "{}", summary.failed.join("\n\n"));
-    // The canary: scenes that show nothing are compared with nothing.
-    assert!(plan.cases < CASES || 3 * summary.compared >= plan.cases, "too few show anything: {summary}");
+    // The canary: scenes that show nothing, and pixels that are excused, are compared with nothing.
+    let shortcomings = if plan.cases < CASES { Vec::new() } else { summary.shortcomings() };
+    assert!(shortcomings.is_empty(), "{shortcomings:?}: {summary}");
 }
