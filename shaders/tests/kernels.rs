@@ -118,7 +118,7 @@ fn host_structs_and_wgsl_structs_agree() {
         neighbours,
         most_extinction,
         weights,
-        padding
+        deviation_scale
     );
     assert_layout!(&module, OpticsEntry, value, integral, integral_rest);
     assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);

@@ -37,7 +37,7 @@ pub mod threads;
 mod watchdog;
 pub mod worker;
 
-pub use launch::{Launch, fail, launch, local_rank, printable, under_mpi};
+pub use launch::{Launch, fail, launch, local_rank, under_mpi};
 pub use limits::Limits;
 pub use link::{Link, LinkError, WorkerLink};
 pub use opened::Opened;

@@ -6,7 +6,7 @@ use crate::FrontendError;
 use crate::adapter::{self, StoreSummary};
 use crate::cli::InfoArgs;
 use crate::report::units;
-use transport::printable;
+use transport::launch::printable;
 
 /// Prints what a store holds.
 pub(super) fn info(args: &InfoArgs) -> Result<(), FrontendError> {

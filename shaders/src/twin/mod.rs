@@ -29,6 +29,7 @@ pub mod refine;
 pub mod sample;
 mod scene;
 pub mod shade;
+mod spread;
 pub mod tables;
 pub mod traverse;
 pub mod vector;

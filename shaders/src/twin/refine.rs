@@ -6,7 +6,8 @@ use super::importance::MOST_PARTS;
 use super::kernel::Kernel;
 use super::levels::Brick;
 use super::shade::Shade;
-use super::tables::{Located, locate, optics_over};
+use super::spread::sample_over;
+use super::tables::locate;
 use super::traverse::voxel_edge;
 use super::{Casting, Real, ray::Ray};
 use layout::NodeRecord;
@@ -51,22 +52,6 @@ impl<F: Real> Voxel<F> {
         let edge = if has_fractions { self.edge * brick.fraction(casting, ray, t).exp2() } else { self.edge };
         let (scene, safe) = (casting.scene, F::of(K::Shade::safe_depth(casting.needs)));
         step_voxels(scene.step_voxels, self.most_extinction * edge, safe, scene.tolerance) * edge
-    }
-}
-
-/// What a segment between two scalars shows, each of which stands for those within `spread` of it.
-#[inline(always)]
-pub fn sample_over<F: Real, C: Composite>(
-    casting: &Casting<F>,
-    located: [&Located<F>; 2],
-    scalars: (F, F),
-    spread: F,
-) -> Sample<F> {
-    let sample = C::sample_between(casting, located, scalars);
-    if spread > F::ZERO {
-        Sample { k: optics_over(&casting.tables.optics, scalars, spread), ..sample }
-    } else {
-        sample
     }
 }
 

@@ -12,7 +12,7 @@ pub struct Located<F> {
     /// The cell it lies in.
     cell: usize,
     /// (τ c, τ).
-    value: [F; 4],
+    pub(super) value: [F; 4],
 }
 
 /// Looks up a scalar in [0, 1].
@@ -53,31 +53,6 @@ pub fn optics_between<F: Real>(table: &[OpticsEntry], a: &Located<F>, b: &Locate
         let ends = (first.value[C] + F::of_f32(after.value[C])) * left;
         (ends + whole + (F::of_f32(before.value[C]) + last.value[C]) * right) * per_width
     })
-}
-
-/// Mean of (τ c, τ) over the scalars within `reach` of `middle`; beyond [0, 1] they are what they are at its ends.
-#[inline(always)]
-fn optics_around<F: Real>(table: &[OpticsEntry], middle: F, reach: F) -> [F; 4] {
-    let (from, to) = (middle - reach, middle + reach);
-    let (low, high) = (locate(table, from.most(F::ZERO)), locate(table, to.least(F::ONE)));
-    let inside = optics_between(table, &low, &high);
-    let (below, above) = ((-from).most(F::ZERO), (to - F::ONE).most(F::ZERO));
-    if below + above == F::ZERO {
-        return inside;
-    }
-    let width = F::of(2.0) * reach;
-    each!(C => {
-        let outside = low.value[C] * below + high.value[C] * above;
-        (inside[C] * (width - below - above) + outside) / width
-    })
-}
-
-/// Mean of (τ c, τ) over a segment between two scalars, each of which stands for those within `spread` of it; see the WGSL.
-#[inline(always)]
-pub fn optics_over<F: Real>(table: &[OpticsEntry], (s0, s1): (F, F), spread: F) -> [F; 4] {
-    let half = F::of(0.5);
-    let along = half * (s1 - s0);
-    optics_around(table, half * (s0 + s1), (along * along + spread * spread).sqrt())
 }
 
 /// Whether nothing within scalars [low, high] changes a picture; `occupied` as [`crate::tables::occupancy`] counts.

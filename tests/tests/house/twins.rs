@@ -5,7 +5,7 @@ use crate::sources::sources;
 use std::collections::BTreeSet;
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 16] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 19] = [
     ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
     ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),
@@ -25,6 +25,9 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 16] = [
         Some("shaders/src/twin/sample.rs"),
         "the twin has one way to sample: there is no choice to name",
     ),
+    ("spread/none", Some("shaders/src/twin/spread/level.rs"), "a branch in the twin"),
+    ("spread/one", Some("shaders/src/twin/spread/three.rs"), "the twin of three without ancestors"),
+    ("spread/two", Some("shaders/src/twin/spread/three.rs"), "the twin of three without a grandparent"),
     ("sample/hardware", None, "the texture unit does it; its precision is measured instead"),
 ];
 

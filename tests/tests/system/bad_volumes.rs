@@ -166,6 +166,17 @@ fn names_need_not_be_text() {
     }
 }
 
+/// The parser's own complaints of what is missing would be as many as slices.
+#[test]
+fn dicom_without_a_meta_group_is_read_in_silence() {
+    let bench = Bench::new();
+    let bytes = fs::read(test_data("dicom/padded.dcm")).unwrap();
+    let elements = bytes.windows(6).position(|part| part == b"\x08\0\x16\0UI").unwrap();
+    fs::write(bench.at("bare.dcm"), &bytes[elements..]).unwrap();
+    let ran = bench.import(&bench.path("bare.dcm"), &["--spacing-mm", "1,1,1"]).succeeded();
+    assert!(!ran.stderr.contains("missing"), "{ran:?}");
+}
+
 /// A name that would set the title of a terminal, and colours.
 #[test]
 fn no_command_of_a_terminal_is_printed() {

@@ -29,8 +29,9 @@ impl Bench {
 
     /// A store of 5 × 6 × 4 voxels.
     fn store(&self, name: &str) -> String {
-        let store = self.path(name);
-        run(&mut lightloom(&["import", &test_data("short.nrrd"), "-o", &store, "--quiet"])).succeeded();
+        let (made, store) = (self.path("made.lloom"), self.path(name));
+        run(&mut lightloom(&["import", &test_data("short.nrrd"), "-o", &made, "--quiet"])).succeeded();
+        fs::rename(made, &store).unwrap();
         store
     }
 }
@@ -151,7 +152,10 @@ fn endless_inputs_are_refused_at_once() {
     run(&mut lightloom(&bench.simulate(&zero, &out, &[]))).refused(&[&zero, "no regular file"]);
     let display = ["simulate", "procedural:shells@16", "--display", &zero, "--out", &out];
     run(&mut lightloom(&display)).refused(&[&zero, "no regular file"]);
-    run(&mut lightloom(&["replay", &zero])).refused(&[&zero, "too long for a trace"]);
+    run(&mut lightloom(&["replay", &zero])).refused(&[&zero, "a pipe or a device"]);
+    let long = bench.path("long.trace");
+    fs::write(&long, vec![b'x'; 64 << 20]).unwrap();
+    run(&mut lightloom(&["replay", &long])).refused(&[&long, "too long for a trace"]);
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn json_of(ran: &Ran) -> Value {
 #[test]
 fn info_tells_what_an_import_made() {
     let bench = Bench::new();
-    let made = bench.import("procedural:shells@100", "a.lloom", &["--bits", "16", "--deviation"]);
+    let made = bench.import("procedural:shells@100", "a.lloom", &["--bits", "16"]);
     let info = json_of(&run(&mut lightloom(&["info", &bench.path("a.lloom"), "--json"])).succeeded());
     for key in ["dims", "frame", "value_range", "stored_bricks", "level_errors"] {
         assert_eq!(info[key], made[key], "{key}");
@@ -83,6 +83,8 @@ fn info_tells_what_an_import_made() {
     assert_eq!((&info["nodes"], &info["levels"]), (&json!(64 + 8 + 1), &json!(3)));
     assert_eq!((&info["bytes"], &info["has_deviation"]), (&made["store_bytes"], &json!(true)));
     assert_eq!(info["bytes"], fs::metadata(bench.path("a.lloom")).unwrap().len());
+    let plain = bench.import("procedural:shells@100", "plain.lloom", &["--bits", "16", "--no-deviation"]);
+    assert!(plain["store_bytes"].as_u64() < made["store_bytes"].as_u64());
     let levels = info["level_errors"].as_array().unwrap();
     assert_eq!(levels.len(), 3);
     let rms = |level: &Value| level["rms_error"].as_f64().unwrap();

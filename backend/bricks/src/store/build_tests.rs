@@ -127,8 +127,10 @@ fn check_deviation(brick: &Brick, grid: &Grid, node: NodeKey, edge: u32) {
         let mean = covered.iter().sum::<f64>() / covered.len() as f64;
         let variance = covered.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / covered.len() as f64;
         let kept = f64::from(deviation.codes[index]) * f64::from(deviation.step);
-        // Half a code, and f32.
-        assert!((kept - variance.sqrt()).abs() <= f64::from(deviation.step) * 0.51, "{node} {p}: {kept}");
+        // Half a code, and the rounding of every voxel to f32, which the deviation of a coarse one takes over.
+        let rounding = mean.abs() * f64::from(f32::EPSILON);
+        let allowed = f64::from(deviation.step) * 0.51 + rounding;
+        assert!((kept - variance.sqrt()).abs() <= allowed, "{node} {p}: {kept}");
     }
 }
 

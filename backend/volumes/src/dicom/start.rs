@@ -66,8 +66,10 @@ impl Start {
             Self::Whole { .. } => Vec::new(),
             Self::Meta => MAGIC.to_vec(),
             Self::Elements { syntax } => {
-                let element = transfer_syntax(syntax);
-                [MAGIC, META_START, &(element.len() as u32).to_le_bytes(), &element].concat()
+                // The parser misses the first two aloud: what class and instance of image it is.
+                let elements =
+                    [(2, ""), (3, ""), (0x10, syntax)].map(|(place, uid)| identifier(place, uid)).concat();
+                [MAGIC, META_START, &(elements.len() as u32).to_le_bytes(), &elements].concat()
             }
         }
     }
@@ -78,10 +80,10 @@ impl Start {
     }
 }
 
-/// The element of a meta group that names the transfer syntax, filled up to an even length.
-fn transfer_syntax(uid: &str) -> Vec<u8> {
+/// An element of a meta group whose value is an identifier, filled up to an even length.
+fn identifier(element: u8, uid: &str) -> Vec<u8> {
     let length = uid.len().next_multiple_of(2);
-    let mut bytes = [&[2, 0, 0x10, 0, b'U', b'I', length as u8, 0], uid.as_bytes()].concat();
+    let mut bytes = [&[2, 0, element, 0, b'U', b'I', length as u8, 0], uid.as_bytes()].concat();
     bytes.resize(8 + length, 0);
     bytes
 }

@@ -119,24 +119,6 @@ impl<'a, F: Real> Brick<'a, F> {
         s.most(F::ZERO).least(F::ONE)
     }
 
-    /// Half-width at t of the scalars that samples stand for; see `wgsl/spread/three.wgsl`.
-    #[inline(always)]
-    pub fn spread_at<K: Features>(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {
-        if !(K::BLENDS && casting.needs.spreads) {
-            return F::ZERO;
-        }
-        let f = if self.has_fractions::<K>() { self.fraction(casting, ray, t) } else { F::ZERO };
-        if f <= F::ZERO {
-            return self.own.spread(t);
-        }
-        let parent = self.parent.spread(t);
-        if f < F::ONE {
-            let own = self.own.spread(t);
-            return own + (parent - own) * f;
-        }
-        if f <= F::ONE { parent } else { parent + (self.grandparent.spread(t) - parent) * (f - F::ONE) }
-    }
-
     /// Not inlined: it is called from many places.
     #[inline(never)]
     fn scalar_over_levels(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> F {

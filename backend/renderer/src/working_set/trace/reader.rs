@@ -43,7 +43,7 @@ impl TraceReader {
     /// # Errors
     /// The file cannot be read, or does not begin as a trace of this version.
     pub fn open(path: &Path) -> Result<Self, TraceError> {
-        let file = File::open(path).map_err(|e| TraceError::read(path, e))?;
+        let file = bricks::volume::open_file(path).map_err(|e| TraceError::read(path, e))?;
         let mut file = BufReader::new(file);
         let first = next_line(&mut file, MOST_OF_HEADER).map_err(|e| TraceError::read(path, e))?;
         let text = first.unwrap_or_default();

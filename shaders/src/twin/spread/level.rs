@@ -1,0 +1,48 @@
+//! A segment whose scalars stand for those within a standard deviation of them.
+
+use crate::twin::composite::{Composite, Sample};
+use crate::twin::four::each;
+use crate::twin::tables::{Located, locate, optics_between};
+use crate::twin::{Casting, Real};
+use layout::OpticsEntry;
+
+/// What a segment between two scalars shows, each of which stands for those within `spread` of it.
+#[inline(always)]
+pub fn sample_over<F: Real, C: Composite>(
+    casting: &Casting<F>,
+    located: [&Located<F>; 2],
+    scalars: (F, F),
+    spread: F,
+) -> Sample<F> {
+    let sample = C::sample_between(casting, located, scalars);
+    if spread > F::ZERO {
+        Sample { k: optics_over(&casting.tables.optics, scalars, spread), ..sample }
+    } else {
+        sample
+    }
+}
+
+/// Mean of (τ c, τ) over the scalars within `reach` of `middle`; beyond [0, 1] they are what they are at its ends.
+#[inline(always)]
+fn optics_around<F: Real>(table: &[OpticsEntry], middle: F, reach: F) -> [F; 4] {
+    let (from, to) = (middle - reach, middle + reach);
+    let (low, high) = (locate(table, from.most(F::ZERO)), locate(table, to.least(F::ONE)));
+    let inside = optics_between(table, &low, &high);
+    let (below, above) = ((-from).most(F::ZERO), (to - F::ONE).most(F::ZERO));
+    if below + above == F::ZERO {
+        return inside;
+    }
+    let width = F::of(2.0) * reach;
+    each!(C => {
+        let outside = low.value[C] * below + high.value[C] * above;
+        (inside[C] * (width - below - above) + outside) / width
+    })
+}
+
+/// Mean of (τ c, τ) over a segment between two scalars, each of which stands for those within `spread` of it; see the WGSL.
+#[inline(always)]
+fn optics_over<F: Real>(table: &[OpticsEntry], (s0, s1): (F, F), spread: F) -> [F; 4] {
+    let half = F::of(0.5);
+    let along = half * (s1 - s0);
+    optics_around(table, half * (s0 + s1), (along * along + spread * spread).sqrt())
+}

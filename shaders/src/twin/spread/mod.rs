@@ -1,0 +1,6 @@
+//! What samples of coarse levels stand for.
+
+mod level;
+mod three;
+
+pub use level::sample_over;
