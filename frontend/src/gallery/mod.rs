@@ -10,7 +10,7 @@ mod technique;
 #[cfg(test)]
 mod tests;
 
-pub use looks::{LOOKS_HTML, LooksPage};
+pub use looks::LooksPage;
 pub use plan::{EYES, Gallery, HTML};
 pub use shot::{Exhibit, Shot};
 pub use subject::Subject;

@@ -45,7 +45,7 @@ impl Gallery {
 }
 
 /// Takes files away that an earlier run may have left in the output folder.
-pub(super) fn remove_earlier(
+pub(in crate::gallery) fn remove_earlier(
     out: &Path,
     names: impl IntoIterator<Item = String>,
 ) -> Result<(), FrontendError> {

@@ -1,6 +1,7 @@
 //! Looks as one self-contained page.
 
-use super::{LooksPage, Trial, file};
+use super::LooksPage;
+use super::plan::{Trial, file};
 use crate::report::html::{embedded_image, escape};
 use crate::report::page::STYLE;
 use protocol::DeviceInfo;

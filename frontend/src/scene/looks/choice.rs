@@ -96,7 +96,8 @@ fn are_hounsfield(values: &Values) -> bool {
     let (air_density, soft_density) = (values.density(-1100.0, -850.0), values.density(-150.0, 150.0));
     let has_range = (-3100.0..=-850.0).contains(&least) && values.quantile(1.0) >= 100.0;
     let has_peaks = air_density > 2.0 * between && soft_density > 2.0 * between;
-    has_range && air >= 0.02 && values.share(-150.0, 150.0) >= 0.05 && has_peaks
+    let soft = values.share(0.0, 100.0);
+    has_range && has_peaks && air >= 0.02 && soft >= 0.03
 }
 
 fn has_lungs(values: &Values) -> bool {

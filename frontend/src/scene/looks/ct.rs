@@ -1,7 +1,7 @@
 //! Looks of computed tomography, in Hounsfield units: air -1000, lung -850 to -500, fat -100, water 0, soft tissue 20 to 80,
 //! vessels with a contrast agent 150 to 450, bone above 250.
 
-use super::made::{Draft, Per};
+use super::draft::{Draft, Per};
 use optics::Light;
 
 /// Scanners of 12 bits write these.

@@ -1,7 +1,7 @@
 //! Looks that are fitted to the histogram.
 
 use super::Values;
-use super::made::{Draft, Per, Points};
+use super::draft::{Draft, Per, Points};
 use optics::Light;
 
 /// A light that responds to the edges that the volume has, whose domain is `width` wide.

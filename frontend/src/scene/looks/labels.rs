@@ -1,7 +1,7 @@
 //! The look of a segmentation.
 
 use super::Values;
-use super::made::{Draft, Per, Points};
+use super::draft::{Draft, Per, Points};
 use optics::Light;
 
 /// Optical depth of a region as long as the volume.

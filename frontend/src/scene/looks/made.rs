@@ -1,12 +1,10 @@
 //! A look of the library for one volume.
 
+use super::draft::{Draft, Per, Points};
 use super::{LookName, Values, ct, fitted, labels};
 use crate::scene::DataLook;
 use glam::{DVec3, UVec3};
 use optics::{Curve, ExtinctionUnit, Light};
-
-/// Control points: a data value, extinction, and linear red, green, blue.
-pub(super) type Points = Vec<(f64, f64, [f64; 3])>;
 
 /// The voxels that a look is for.
 #[derive(Clone, Copy, Debug)]
@@ -23,24 +21,6 @@ pub struct MadeLook {
     /// The transfer functions.
     pub look: DataLook,
     /// Gradient shading; None shows the plain colours.
-    pub light: Option<Light>,
-}
-
-/// What extinctions are per.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Per {
-    /// A metre of the patient.
-    Metre,
-    /// The volume's longest edge.
-    Volume,
-}
-
-/// A look before it knows the voxels.
-pub(super) struct Draft {
-    pub points: Points,
-    pub per: Per,
-    /// None takes the whole range of the volume.
-    pub domain: Option<(f64, f64)>,
     pub light: Option<Light>,
 }
 

@@ -2,6 +2,7 @@
 
 mod choice;
 mod ct;
+mod draft;
 mod fitted;
 mod histogram;
 mod labels;

@@ -86,7 +86,8 @@ impl Values {
 }
 
 fn whole_numbers(values: &[f32]) -> Option<Vec<f32>> {
-    if values.iter().any(|v| (v - v.round()).abs() > WHOLE) {
+    // What is not finite fails this, too.
+    if !values.iter().all(|v| (v - v.round()).abs() <= WHOLE) {
         return None;
     }
     let mut found: Vec<f32> = values.iter().map(|v| v.round()).collect();
@@ -109,7 +110,8 @@ fn flat(pairs: &[Pair], background: f64) -> f64 {
 /// The middle one of the changes that are edges; the whole range if there is none.
 fn slope(pairs: &[Pair], width: f64) -> f64 {
     let changes = pairs.iter().map(|pair| (pair.here - pair.beside).abs());
-    let mut edges: Vec<f32> = changes.filter(|&change| f64::from(change) > LEAST_EDGE * width).collect();
+    let mut edges: Vec<f32> =
+        changes.filter(|&change| change.is_finite() && f64::from(change) > LEAST_EDGE * width).collect();
     edges.sort_unstable_by(f32::total_cmp);
     edges.get(edges.len() / 2).map_or(width, |&edge| f64::from(edge))
 }
