@@ -12,10 +12,10 @@ fn main() -> Result<(), FrontendError> {
     let out = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "pictures".to_owned()));
 
     // A scene is a volume, its place and its look: a TOML file, a store, or, as here, a built-in volume.
-    let scene = Scene::load("procedural:shells@64")?;
+    let mut scene = Scene::load("procedural:shells@64")?;
     let display = adapter::load_display("desk8")?;
     // Only an open volume knows its size and values, which placement and transfer functions depend on.
-    let facts = adapter::scene_facts(&scene)?;
+    let (facts, _) = adapter::meet_volume(&mut scene)?;
 
     // One back-end in this process draws all projectors.
     let backends = Backends::connect(Some(1), &display)?;

@@ -18,4 +18,4 @@ pub use levels::LevelSummary;
 pub use replay::{ReplayRow, Traces};
 pub use store::{StoreSummary, VerifySummary, store_summary, verify};
 pub use trace::TraceFolder;
-pub use volume::{open_scene_volume, scene_facts};
+pub use volume::{meet_volume, open_scene_volume};

@@ -1,14 +1,15 @@
 //! Volumes, opened for work in this process.
 
 use crate::FrontendError;
-use crate::scene::{Scene, VolumeFacts};
+use crate::scene::{LookChoice, Scene, VolumeFacts};
 use bricks::BrickSource;
 use protocol::VolumeRef;
 use std::sync::Arc;
 
-/// Opens the volume of a scene just to learn what it is.
-pub fn scene_facts(scene: &Scene) -> Result<VolumeFacts, FrontendError> {
-    Ok(VolumeFacts::of(open_scene_volume(scene)?.as_ref()))
+/// Opens the volume of a scene to learn what it is, and gives the scene the look that it wishes for.
+pub fn meet_volume(scene: &mut Scene) -> Result<(VolumeFacts, Option<LookChoice>), FrontendError> {
+    let volume = open_scene_volume(scene)?;
+    Ok((VolumeFacts::of(volume.as_ref()), scene.fit_look(volume.as_ref())))
 }
 
 /// Opens the volume of a scene for work in this process. What is wrong with it is told with the place that names it.

@@ -2,7 +2,7 @@
 
 use super::BackendArgs;
 use super::parse::picture_size;
-use crate::scene::QualityPreset;
+use crate::scene::{LookName, QualityPreset};
 use clap::Args;
 use glam::UVec2;
 use std::path::PathBuf;
@@ -21,6 +21,9 @@ pub struct GalleryArgs {
     /// Pixels of each projector, and so of each picture, overriding the display's.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = picture_size, allow_hyphen_values = true)]
     pub size: Option<UVec2>,
+    /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub look: Option<LookName>,
     /// Quality, overriding the scene's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,

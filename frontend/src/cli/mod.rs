@@ -8,6 +8,7 @@ mod gallery;
 mod import;
 mod info;
 mod live;
+mod looks;
 mod parse;
 mod replay;
 mod simulate;
@@ -23,6 +24,7 @@ pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
 pub use live::LiveArgs;
+pub use looks::LooksArgs;
 pub use replay::{DiskArg, FetchOrderArg, ReplayArgs};
 pub use simulate::SimulateArgs;
 pub use verify::VerifyArgs;
@@ -45,6 +47,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Show each illustrative technique off and on, as eyes in front of a display see it, on one page.
     Gallery(GalleryArgs),
+    /// Show a volume in every look of the library, on one page.
+    Looks(LooksArgs),
     /// Turn a volume file, or a folder of slices, into a store of bricks.
     Import(ImportArgs),
     /// Write a level of a store, or a part of it, as NRRD or OME-Zarr.

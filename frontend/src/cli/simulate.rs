@@ -2,7 +2,7 @@
 
 use super::parse::point;
 use super::{BackendArgs, DebugViewArg, LiveArgs};
-use crate::scene::QualityPreset;
+use crate::scene::{LookName, QualityPreset};
 use clap::Args;
 use glam::DVec3;
 use std::path::PathBuf;
@@ -27,12 +27,18 @@ pub struct SimulateArgs {
     /// Write linear OpenEXR pictures too.
     #[arg(long)]
     pub exr: bool,
+    /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub look: Option<LookName>,
     /// Quality, overriding the scene's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
     /// Frames A to B − 1 of the scene instead of all.
     #[arg(long, value_name = "A..B", value_parser = frame_range, allow_hyphen_values = true)]
     pub frames: Option<(u32, u32)>,
+    /// Write the scene that is drawn as a scene file, with its look, to change and to draw again.
+    #[arg(long, value_name = "SCENE.toml")]
+    pub save_scene: Option<PathBuf>,
     /// How frames get their detail.
     #[command(flatten)]
     pub live: LiveArgs,

@@ -18,8 +18,8 @@ use std::time::Instant;
 pub(super) fn accuracy(args: &AccuracyArgs) -> Result<(), FrontendError> {
     let started = Instant::now();
     let stop = interrupt::stop_flag()?;
-    let scene = Scene::load(&args.scene)?;
-    let (study, facts) = study(args, &scene)?;
+    let mut scene = Scene::load(&args.scene)?;
+    let (study, facts) = study(args, &mut scene)?;
     can_write_into(&args.out)?;
     let study = Arc::new(study);
     let of_worker = Arc::clone(&study);
@@ -30,7 +30,7 @@ pub(super) fn accuracy(args: &AccuracyArgs) -> Result<(), FrontendError> {
     tell(args, &report)
 }
 
-fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), FrontendError> {
+fn study(args: &AccuracyArgs, scene: &mut Scene) -> Result<(Study, VolumeFacts), FrontendError> {
     let display = adapter::load_display(&args.display)?;
     let count = scene.frame_count;
     if args.frame >= count {
@@ -39,6 +39,7 @@ fn study(args: &AccuracyArgs, scene: &Scene) -> Result<(Study, VolumeFacts), Fro
     check_projectors(&display, &args.projectors)?;
     let source = adapter::open_scene_volume(scene)?;
     let facts = VolumeFacts::of(source.as_ref());
+    scene.fit_look(source.as_ref());
     let study = Study {
         frame: scene.frame(args.frame, &display, &facts)?,
         source,

@@ -1,5 +1,6 @@
 //! `lightloom gallery`.
 
+use super::look::{ask_for_look, tell_look};
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter::{self, Backends};
@@ -18,10 +19,14 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = adapter::load_display(&args.display)?;
     let display = args.size.map_or(display.clone(), |size| with_picture_size(display, size));
-    let facts = adapter::scene_facts(&scene)?;
+    ask_for_look(&mut scene, args.look);
+    let (facts, look) = adapter::meet_volume(&mut scene)?;
     let subject = Subject::new(&scene, &display, &facts)?;
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;
+    if !args.quiet {
+        tell_look(look.as_ref())?;
+    }
     let backends = Backends::connect(args.drawing.backends, &gallery.display)?;
     backends.wiring.warning().iter().for_each(|warning| warn(warning));
     let options = args.drawing.options(None);

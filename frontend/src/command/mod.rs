@@ -6,6 +6,8 @@ mod export;
 mod gallery;
 mod import;
 mod info;
+mod look;
+mod looks;
 mod replay;
 mod say;
 mod simulate;
@@ -20,12 +22,13 @@ use crate::{FrontendError, adapter};
 /// Does what the command line asks for. Back-ends that a launcher started and that have nothing to draw are let go
 /// before that.
 pub fn run(command: &Command) -> Result<(), FrontendError> {
-    if !matches!(command, Command::Simulate(_) | Command::Gallery(_)) {
+    if !matches!(command, Command::Simulate(_) | Command::Gallery(_) | Command::Looks(_)) {
         adapter::dismiss_backends()?;
     }
     match command {
         Command::Simulate(args) => simulate::simulate(args),
         Command::Gallery(args) => gallery::gallery(args),
+        Command::Looks(args) => looks::looks(args),
         Command::Import(args) => import::import(args),
         Command::Info(args) => info::info(args),
         Command::Verify(args) => verify::verify(args),

@@ -1,5 +1,6 @@
 //! `lightloom simulate`.
 
+use super::look::{ask_for_look, tell_look};
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter::{self, Backends, TraceFolder};
@@ -21,9 +22,11 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let mut scene = Scene::load(&args.scene)?;
     scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
     let display = adapter::load_display(&args.display)?;
-    let facts = adapter::scene_facts(&scene)?;
+    ask_for_look(&mut scene, args.look);
+    let (facts, look) = adapter::meet_volume(&mut scene)?;
     let frames = frames(args, &scene)?;
     scene.check_frames(frames.clone(), &display, &facts)?;
+    let saved = args.save_scene.as_deref().map(|path| scene.saved(&args.scene, path)).transpose()?;
     let job = Job {
         frames,
         pace: args.live.pace(),
@@ -36,6 +39,12 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         exr: args.exr,
     };
     Job::prepare_output(&args.out)?;
+    if let Some((path, text)) = args.save_scene.as_deref().zip(saved) {
+        report::write_text(path, &text)?;
+    }
+    if !args.quiet && !args.json {
+        tell_look(look.as_ref())?;
+    }
     let trace_folder = traces.map(TraceFolder::prepare).transpose()?;
     let backends = Backends::connect(args.drawing.backends, &job.display)?;
     let wiring = backends.wiring.clone();

@@ -1,6 +1,7 @@
 //! A gallery: each illustrative technique off and on, as eyes in front of a display see it.
 
 mod curves;
+mod looks;
 mod page;
 mod plan;
 mod shot;
@@ -9,6 +10,7 @@ mod technique;
 #[cfg(test)]
 mod tests;
 
+pub use looks::LooksPage;
 pub use plan::{EYES, Gallery, HTML};
 pub use shot::{Exhibit, Shot};
 pub use subject::Subject;
@@ -19,6 +21,7 @@ use crate::progress::Progress;
 use crate::report::write_text;
 use display_config::{Display, Homography};
 use glam::{DMat3, DVec3, UVec2};
+use plan::files;
 use protocol::{DeviceInfo, Draw};
 use std::path::PathBuf;
 
@@ -29,7 +32,7 @@ impl Gallery {
         source: &mut dyn Draw,
         progress: &mut Progress,
     ) -> Result<Vec<Exhibit>, FrontendError> {
-        let mut darkroom = shot::Darkroom::new(self);
+        let mut darkroom = shot::Darkroom::new(&self.display, &self.eyes, &self.out);
         let mut exhibits = Vec::with_capacity(TECHNIQUES.len());
         for (place, technique) in TECHNIQUES.iter().enumerate() {
             progress.set(place as f64 / TECHNIQUES.len() as f64, technique.name);
@@ -39,8 +42,8 @@ impl Gallery {
             let [off_name, on_name] = technique.shots();
             exhibits.push(Exhibit {
                 technique,
-                off: darkroom.shot(source, off, &off_name)?,
-                on: darkroom.shot(source, on, &on_name)?,
+                off: darkroom.shot(source, off, &files(&off_name))?,
+                on: darkroom.shot(source, on, &files(&on_name))?,
             });
         }
         Ok(exhibits)

@@ -40,17 +40,25 @@ impl Gallery {
         Job::prepare_output(&self.out)?;
         let pictures =
             TECHNIQUES.iter().flat_map(|technique| technique.shots()).flat_map(|shot| files(&shot));
-        for name in pictures.chain([HTML.to_owned()]) {
-            let path = self.out.join(name);
-            match std::fs::remove_file(&path) {
-                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(OutputError::Write { path, source }.into());
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+        remove_earlier(&self.out, pictures.chain([HTML.to_owned()]))
     }
+}
+
+/// Takes files away that an earlier run may have left in the output folder.
+pub(in crate::gallery) fn remove_earlier(
+    out: &Path,
+    names: impl IntoIterator<Item = String>,
+) -> Result<(), FrontendError> {
+    for name in names {
+        let path = out.join(name);
+        match std::fs::remove_file(&path) {
+            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                return Err(OutputError::Write { path, source }.into());
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// The pictures of a shot, one for each eye, from left to right.

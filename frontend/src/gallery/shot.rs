@@ -1,12 +1,13 @@
 //! The pictures of one frame as the eyes see it.
 
-use super::plan::files;
-use super::{Gallery, Technique};
+use super::Technique;
 use crate::FrontendError;
 use crate::report::Totals;
-use crate::simulate::EyeViews;
+use crate::simulate::{Eye, EyeViews};
+use display_config::Display;
 use protocol::{Draw, FrameState, RenderEvent};
 use renderer::output::{OutputError, write_png};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// A technique with its pictures.
@@ -39,33 +40,40 @@ impl Shot {
 
 /// Draws frames, and remembers those that it has drawn.
 pub(super) struct Darkroom<'a> {
-    gallery: &'a Gallery,
+    display: &'a Display,
+    eyes: &'a [Eye],
+    out: &'a Path,
     drawn: Vec<(FrameState, Shot)>,
 }
 
 impl<'a> Darkroom<'a> {
-    pub fn new(gallery: &'a Gallery) -> Self {
-        Self { gallery, drawn: Vec::new() }
+    pub fn new(display: &'a Display, eyes: &'a [Eye], out: &'a Path) -> Self {
+        Self { display, eyes, out, drawn: Vec::new() }
     }
 
-    /// The pictures of a frame; new ones are written to files whose names begin so.
+    /// The pictures of a frame; new ones are written to these files, one per eye.
     pub fn shot(
         &mut self,
         source: &mut dyn Draw,
         frame: FrameState,
-        name: &str,
+        files: &[String],
     ) -> Result<Shot, FrontendError> {
         if let Some((_, shot)) = self.drawn.iter().find(|(drawn, _)| *drawn == frame) {
             return Ok(shot.clone());
         }
-        let shot = self.draw(source, &frame, name)?;
+        let shot = self.draw(source, &frame, files)?;
         self.drawn.push((frame, shot.clone()));
         Ok(shot)
     }
 
-    fn draw(&self, source: &mut dyn Draw, frame: &FrameState, name: &str) -> Result<Shot, FrontendError> {
+    fn draw(
+        &self,
+        source: &mut dyn Draw,
+        frame: &FrameState,
+        files: &[String],
+    ) -> Result<Shot, FrontendError> {
         let started = Instant::now();
-        let views = EyeViews::new(&self.gallery.display, &self.gallery.eyes);
+        let views = EyeViews::new(self.display, self.eyes);
         let mut failure: Option<OutputError> = None;
         let reports = source.draw(frame, &mut |event| {
             if let RenderEvent::Image(image) = event
@@ -76,10 +84,9 @@ impl<'a> Darkroom<'a> {
         })?;
         failure.map_or(Ok(()), Err)?;
         let wall = started.elapsed();
-        let files = files(name);
-        for (picture, file) in views.finish(frame.index)?.iter().zip(&files) {
-            write_png(&self.gallery.out.join(file), picture.view()?)?;
+        for (picture, file) in views.finish(frame.index)?.iter().zip(files) {
+            write_png(&self.out.join(file), picture.view()?)?;
         }
-        Ok(Shot { files: files.into(), wall, total: Totals::of(&reports) })
+        Ok(Shot { files: files.to_vec(), wall, total: Totals::of(&reports) })
     }
 }

@@ -1,6 +1,6 @@
 //! Scenes that need no file.
 
-use super::{Edits, Look, Motion, Placement, Scene, Size, VolumeSource, placement};
+use super::{Edits, Look, LookWish, Motion, Placement, Scene, Size, VolumeSource, WishedLook, placement};
 use glam::DVec3;
 use optics::{Curve, Light, Quality};
 use std::path::Path;
@@ -47,7 +47,7 @@ const SPARSE_VESSELS: Points = &[
     (1.0, 900.0, [1.0, 0.75, 0.4]),
 ];
 
-/// Any volume: nothing low, then a cool veil, then warm and solid toward the high values.
+/// Any volume that nothing is known of: nothing low, then a cool veil, then warm and solid toward the high values.
 const ANY_VOLUME: Points = &[
     (0.0, 0.0, [0.02, 0.12, 0.4]),
     (0.15, 0.0, [0.03, 0.2, 0.55]),
@@ -62,7 +62,7 @@ pub(super) fn procedural_scene(argument: &str, volume: VolumeSource) -> Scene {
     Scene { name: argument.to_owned(), ..default_scene(volume) }
 }
 
-/// The scene of a store, with a look made from its value range.
+/// The scene of a store, whose look is chosen by its values.
 pub(super) fn store_scene(path: &Path) -> Scene {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     Scene { name, ..default_scene(VolumeSource::Store(path.to_owned())) }
@@ -75,6 +75,7 @@ pub(super) fn default_scene(volume: VolumeSource) -> Scene {
         voxel_size_m: None,
         placement: default_placement(&volume),
         look: default_look(&volume),
+        wish: default_wish(&volume),
         bands: Vec::new(),
         enhancers: Vec::new(),
         light: Some(default_light(&volume)),
@@ -116,6 +117,15 @@ fn default_placement(volume: &VolumeSource) -> Placement {
     };
     let (rotation, size) = (placement::rotation_from_deg(deg), Size::ScreenShare(share));
     Placement { rotation, size, ..Placement::default() }
+}
+
+/// Volumes that are not made here wish for a look of the library.
+fn default_wish(volume: &VolumeSource) -> LookWish {
+    let look = match volume {
+        VolumeSource::Store(_) => WishedLook::Best,
+        VolumeSource::Procedural { .. } => WishedLook::BuiltIn,
+    };
+    LookWish { look, keeps_light: false }
 }
 
 /// The look of a volume that no scene file describes.

@@ -2,7 +2,9 @@
 
 use super::band::normalised_band;
 use super::volume::PROCEDURAL_VOXEL_M;
-use super::{Band, Edits, Look, Motion, Placement, SceneEnhancer, SceneError, VolumeFacts, VolumeSource};
+use super::{
+    Band, Edits, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError, VolumeFacts, VolumeSource,
+};
 use display_config::{Display, Place};
 use glam::DVec3;
 use optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
@@ -25,6 +27,8 @@ pub struct Scene {
     pub placement: Placement,
     /// What scalars look like.
     pub look: Look,
+    /// Where the look is to come from: see [`Scene::fit_look`].
+    pub wish: LookWish,
     /// Bands of data values that have a name.
     pub bands: Vec<Band>,
     /// The chain of enhancers, in order.

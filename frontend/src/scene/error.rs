@@ -86,6 +86,24 @@ pub enum SceneError {
         /// What is wrong with its look.
         reason: String,
     },
+    /// A scene is to be written under a name that no scene has.
+    #[error("`{}` would not be read as a scene; give it a name that ends in .toml", path.display())]
+    SavedName {
+        /// Where it was to go.
+        path: PathBuf,
+    },
+    /// A scene is to be written over the file that it comes from.
+    #[error("{} is the scene that is drawn; write what was used of it to another file", path.display())]
+    SavedOverItself {
+        /// The scene file.
+        path: PathBuf,
+    },
+    /// A scene file cannot name its volume.
+    #[error("a scene file cannot name {}, which is no text or begins like a built-in volume; rename it", path.display())]
+    SavedVolume {
+        /// The volume.
+        path: PathBuf,
+    },
     /// The look does not fit the volume.
     #[error(
         "the look of the scene `{}` does not fit the volume, whose values run from {} to {}: {reason}",

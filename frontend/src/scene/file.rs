@@ -1,6 +1,6 @@
 //! A scene file as TOML has it, before it is checked.
 
-use super::{QualityPreset, VolumeAxis};
+use super::{LookName, QualityPreset, VolumeAxis};
 use display_config::text::ListOf;
 use optics::{ExtinctionUnit, MimdaForm};
 use protocol::ToolKind;
@@ -29,6 +29,7 @@ pub(super) type Points = Spanned<Vec<Spanned<Vec<f64>>>>;
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneFile {
     pub name: Option<String>,
+    pub look: Option<Spanned<LookName>>,
     pub volume: VolumeTable,
     pub placement: Option<Spanned<PlacementTable>>,
     pub optics: Option<OpticsTable>,

@@ -13,6 +13,7 @@ mod export;
 mod idle_backends;
 mod import;
 mod live;
+mod looks;
 mod lost_backend;
 mod pipeline_cache;
 mod replay;

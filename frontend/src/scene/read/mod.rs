@@ -10,7 +10,7 @@ use super::contents::tool_at_rest;
 use super::error::Checked;
 use super::file::{DisplayTable, FramesTable, SceneFile, ToolTable};
 use super::text::SceneText;
-use super::{Look, Scene, SceneEnhancer, SceneError, VolumeSource, builtin};
+use super::{Look, LookWish, Scene, SceneEnhancer, SceneError, VolumeSource, WishedLook, builtin};
 use ::optics::Enhancer;
 use display_config::text::read_text;
 use glam::DVec3;
@@ -62,6 +62,7 @@ pub(super) fn scene_from_text(text: &SceneText, name: &str, folder: &Path) -> Ch
         name: file.name.clone().unwrap_or_else(|| name.to_owned()),
         voxel_size_m: file.volume.voxel_size_m.as_ref().map(|v| text.voxel_size(v)).transpose()?,
         placement: file.placement.as_ref().map_or(Ok(still.placement), |p| text.placement(p))?,
+        wish: text.wish(&file, still.wish)?,
         look: look.map_or(still.look, Look::InDataUnits),
         bands,
         enhancers,
@@ -88,6 +89,20 @@ fn is_picker(enhancer: &SceneEnhancer) -> bool {
 }
 
 impl SceneText {
+    /// Where the look is to come from, if the file does not say what `otherwise` does.
+    fn wish(&self, file: &SceneFile, otherwise: LookWish) -> Checked<LookWish> {
+        let look = match (&file.look, &file.optics) {
+            (Some(name), Some(_)) => {
+                return Err(self.wrong(name.span(), "the scene has [optics] too; keep one of the two"));
+            }
+            (Some(name), None) => WishedLook::Named(*name.get_ref()),
+            (None, Some(_)) => WishedLook::Own,
+            (None, None) => otherwise.look,
+        };
+        // Only a look of the library brings a light.
+        Ok(LookWish { look, keeps_light: file.light.is_some() })
+    }
+
     fn observer(&self, table: &DisplayTable) -> Checked<Option<DVec3>> {
         table.observer_m.as_ref().map(|observer| self.before_screen(observer)).transpose()
     }
