@@ -92,7 +92,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Pixels that are compared.
-    pub fn pixels(&self) -> usize {
+    fn pixels(&self) -> usize {
         self.truth.pixels.len()
     }
 
