@@ -24,9 +24,6 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     let subject = Subject::new(&scene, &display, &facts)?;
     let gallery = Gallery::new(&scene.name, subject, display, &args.out)?;
     gallery.prepare_output()?;
-    if !args.quiet {
-        tell_look(look.as_ref())?;
-    }
     let backends = Backends::connect(args.drawing.backends, &gallery.display)?;
     backends.wiring.warning().iter().for_each(|warning| warn(warning));
     let options = args.drawing.options(None);
@@ -38,6 +35,7 @@ pub(super) fn gallery(args: &GalleryArgs) -> Result<(), FrontendError> {
     let page = gallery.write_page(&exhibits, &drawing.devices)?;
     exhibits.iter().for_each(warn_of_missing);
     if !args.quiet {
+        tell_look(look.as_ref())?;
         let time = units::milliseconds(1e3 * started.elapsed().as_secs_f64());
         say(&format!("{} techniques, {time}: {}", exhibits.len(), page.display()))?;
     }

@@ -42,9 +42,6 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     if let Some((path, text)) = args.save_scene.as_deref().zip(saved) {
         report::write_text(path, &text)?;
     }
-    if !args.quiet && !args.json {
-        tell_look(look.as_ref())?;
-    }
     let trace_folder = traces.map(TraceFolder::prepare).transpose()?;
     let backends = Backends::connect(args.drawing.backends, &job.display)?;
     let wiring = backends.wiring.clone();
@@ -58,6 +55,9 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     trace_folder.map_or(Ok(()), |folder| folder.settle(wiring.shares.len()))?;
     let report = job.report(BackendSummary::all(&wiring, drawing.devices), drawn?, started.elapsed())?;
     report::write(&report, &args.out)?;
+    if !args.quiet && !args.json {
+        tell_look(look.as_ref())?;
+    }
     tell(args, &report)
 }
 

@@ -4,8 +4,9 @@ use super::Values;
 use super::draft::{Draft, Per, Points};
 use optics::Light;
 
-/// Optical depth of a region as long as the volume.
-const DEPTH: f64 = 300.0;
+/// Optical depth of a region as long as the volume: so little that a voxel is not yet solid, since a region's own colour must
+/// outweigh the other labels that shine up at its border.
+const DEPTH: f64 = 40.0;
 /// A value belongs to a label that is this near, in parts of the way to the next one: between two regions, all labels that lie
 /// between theirs in number would shine up.
 const NEAR: f64 = 0.15;
