@@ -31,8 +31,8 @@ pub struct ImportArgs {
     /// Leave out bricks that the transfer functions of this scene do not show.
     #[arg(long, value_name = "SCENE.toml")]
     pub empty_for: Option<PathBuf>,
-    /// Keep the mean of the voxels that each coarse voxel represents, but not their standard deviation: the store is up to a
-    /// tenth smaller, and coarse levels show less of what they hold.
+    /// Keep the mean of the voxels that each coarse voxel represents, but not their standard deviation: the store is about an
+    /// eighth smaller, and coarse levels show less of what they hold.
     #[arg(long)]
     pub no_deviation: bool,
     /// Which volume, if the input holds several.
