@@ -89,14 +89,7 @@ fn frame(
     sight: &Range<f64>,
 ) -> [f64; PARTS] {
     let summary = |_: NodeKey| NodeSummary { min: 0.4, max: 0.6 };
-    let rules = IndexRules {
-        shape,
-        lod: rule,
-        optics,
-        is_quadrilinear: false,
-        blank_slot: Some(AMPLE),
-        deviations: &[],
-    };
+    let rules = IndexRules { blank_slot: Some(AMPLE), ..IndexRules::new(shape, rule, optics) };
     let moment =
         Moment { rules, summary: &summary, now_s, is_still: false, fade_s: 0.3, most_in_flight: 1 << 20 };
     let table: Vec<FeedbackEntry> = rays_found(set, shape, sight);

@@ -77,14 +77,7 @@ impl Presented {
         let tables = Tables::new(&frame.optics, &needs);
         let (shape, lod) = (self.source.shape(), lod_rule(display, frame));
         let is_quadrilinear = frame.quality.quadrilinear;
-        let rules = IndexRules {
-            shape: &shape,
-            lod: &lod,
-            optics: &frame.optics,
-            is_quadrilinear,
-            blank_slot: None,
-            deviations: &[],
-        };
+        let rules = IndexRules { is_quadrilinear, ..IndexRules::new(&shape, &lod, &frame.optics) };
         let (mut cut, mut atlas) = (Cut::new(self.source.summary(NodeKey::ROOT)), Vec::new());
         let mut places = vec![0];
         while let Some(place) = places.pop() {

@@ -56,14 +56,7 @@ impl TwinScene {
         let is_quadrilinear = frame.quality.quadrilinear;
         let blends = frame.quality.blended && !lod.is_uniform(&shape);
         let needs = Needs { blends, ..needs };
-        let mut rules = IndexRules {
-            shape: &shape,
-            lod: &lod,
-            optics: &frame.optics,
-            is_quadrilinear,
-            blank_slot: None,
-            deviations: &[],
-        };
+        let mut rules = IndexRules { is_quadrilinear, ..IndexRules::new(&shape, &lod, &frame.optics) };
         let mut cut = Cut::new(source.summary(NodeKey::ROOT));
         let (mut atlas, mut deviations, mut largest) = (Vec::new(), Vec::new(), Vec::new());
         let spreads = frame.quality.deviation && source.has_deviation();

@@ -98,14 +98,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let needs = Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality);
     let tables = Tables::new(&frame.optics, &needs);
     let lod = LodRule::new(&display, frame.display_from_volume, frame.quality.lod_scale);
-    let rules = IndexRules {
-        shape: &shape,
-        lod: &lod,
-        optics: &frame.optics,
-        is_quadrilinear: false,
-        blank_slot: None,
-        deviations: &[],
-    };
+    let rules = IndexRules::new(&shape, &lod, &frame.optics);
     let frame_rules = FrameRules {
         lod,
         optics: &frame.optics,

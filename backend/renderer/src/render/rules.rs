@@ -29,12 +29,9 @@ impl FrameRules<'_> {
     /// What the index is made from.
     pub(super) fn for_index<'a>(&'a self, shape: &'a OctreeShape, blank_slot: u32) -> IndexRules<'a> {
         IndexRules {
-            shape,
-            lod: &self.lod,
-            optics: self.optics,
             is_quadrilinear: self.is_quadrilinear,
             blank_slot: self.blends.then_some(blank_slot),
-            deviations: &[],
+            ..IndexRules::new(shape, &self.lod, self.optics)
         }
     }
 

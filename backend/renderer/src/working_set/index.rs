@@ -39,7 +39,12 @@ impl Content {
     const EMPTY: Self = Self { slot: NO_SLOT, offset: 0.0, scale: 0.0, weights: FULL_WEIGHTS };
 }
 
-impl IndexRules<'_> {
+impl<'a> IndexRules<'a> {
+    /// Nodes show their own samples alone, and these stand for themselves.
+    pub fn new(shape: &'a OctreeShape, lod: &'a LodRule, optics: &'a Optics) -> Self {
+        Self { shape, lod, optics, is_quadrilinear: false, blank_slot: None, deviations: &[] }
+    }
+
     /// Whether a node leaves the picture as it is: outside the volume, or nothing visible in its range.
     pub fn is_empty(&self, node: &CutNode) -> bool {
         node.summary.is_none_or(|summary| !is_shown(self.optics, summary))
@@ -216,8 +221,7 @@ mod tests {
                 }
             }
             let optics = optics();
-            let rules = IndexRules {
-                shape: &shape, lod: &lod, optics: &optics, is_quadrilinear: false, blank_slot: None, deviations: &[] };
+            let rules = IndexRules::new(&shape, &lod, &optics);
             let order: Vec<u32> = cut.walk().collect();
             refresh(&mut cut, &rules, &order);
             order.iter().for_each(|&place| cut.set_brick(place, ResidentBrick { slot: 0, low: 0.0, span: 1.0 }));

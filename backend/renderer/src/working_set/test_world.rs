@@ -82,7 +82,7 @@ pub(super) fn rule(shape: &OctreeShape, z: f64) -> LodRule {
 
 /// The rules of a frame in which nothing is filtered over levels.
 pub(super) fn rules<'a>(shape: &'a OctreeShape, lod: &'a LodRule, optics: &'a Optics) -> IndexRules<'a> {
-    IndexRules { shape, lod, optics, is_quadrilinear: false, blank_slot: None, deviations: &[] }
+    IndexRules::new(shape, lod, optics)
 }
 
 /// The weights of a cut of which nothing is lost.

@@ -105,14 +105,7 @@ impl<'a> Replay<'a> {
         let (shape, lod) = (self.shape, frame.lod_rule(self.header));
         let is_still = self.last.is_some_and(|last| is_same_view(last, frame));
         let moment = Moment {
-            rules: IndexRules {
-                shape: &shape,
-                lod: &lod,
-                optics: &frame.optics,
-                is_quadrilinear: false,
-                blank_slot: None,
-                deviations: &[],
-            },
+            rules: IndexRules::new(&shape, &lod, &frame.optics),
             summary: self.volume.summary,
             now_s: frame.time_s,
             is_still,
