@@ -27,12 +27,11 @@ fn deviation_of(base: vec3<i32>, x: i32, y: i32, z: i32) -> f32 {
 // A segment between two scalars, each of which stands for those within `spread` of it. The mean over all of them is taken
 // as that over an interval: of the same middle, and as wide as has the same variance.
 fn sample_over(a: Located, b: Located, s0: f32, s1: f32, spread: f32) -> Sample {
-    var sample = sample_between(a, b, s0, s1);
     if spread > 0.0 {
         let along = 0.5 * (s1 - s0);
-        sample.k = optics_around(0.5 * (s0 + s1), sqrt(along * along + spread * spread));
+        return sample_of(optics_around(0.5 * (s0 + s1), sqrt(along * along + spread * spread)), s0, s1);
     }
-    return sample;
+    return sample_of(optics_between(a, b), s0, s1);
 }
 
 // Mean of (τ c, τ) over the scalars within `reach` of one; beyond [0, 1] they are what they are at its ends.

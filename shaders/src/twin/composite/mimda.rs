@@ -2,7 +2,6 @@
 
 use super::{Accumulated, Composite, Light, Sample};
 use crate::twin::importance::importance_between;
-use crate::twin::tables::{Located, optics_between};
 use crate::twin::{Casting, Real};
 use std::marker::PhantomData;
 
@@ -34,14 +33,10 @@ impl<M: Form> Composite for Mimda<M> {
     const ONCE_PER_STEP: bool = M::ONCE_PER_STEP;
 
     #[inline(always)]
-    fn sample_between<F: Real>(
-        casting: &Casting<F>,
-        [a, b]: [&Located<F>; 2],
-        (s0, s1): (F, F),
-    ) -> Sample<F> {
+    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], (s0, s1): (F, F)) -> Sample<F> {
         let tables = casting.tables;
         Sample {
-            k: optics_between(&tables.optics, a, b),
+            k,
             lit: F::ONE,
             brightness: F::ONE,
             importance: importance_between(&tables.importance, &tables.importance_most, s0, s1),

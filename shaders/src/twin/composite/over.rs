@@ -2,7 +2,6 @@
 
 use super::{Accumulated, Composite, Light, Sample};
 use crate::twin::importance::Importance;
-use crate::twin::tables::{Located, optics_between};
 use crate::twin::{Casting, Real};
 
 /// Twin of `wgsl/composite/over.wgsl`.
@@ -13,8 +12,7 @@ impl Composite for Over {
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]
-    fn sample_between<F: Real>(casting: &Casting<F>, [a, b]: [&Located<F>; 2], _: (F, F)) -> Sample<F> {
-        let k = optics_between(&casting.tables.optics, a, b);
+    fn sample_of<F: Real>(_: &Casting<F>, k: [F; 4], _: (F, F)) -> Sample<F> {
         Sample { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
     }
 

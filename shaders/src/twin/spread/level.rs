@@ -10,16 +10,13 @@ use layout::OpticsEntry;
 #[inline(always)]
 pub fn sample_over<F: Real, C: Composite>(
     casting: &Casting<F>,
-    located: [&Located<F>; 2],
+    [a, b]: [&Located<F>; 2],
     scalars: (F, F),
     spread: F,
 ) -> Sample<F> {
-    let sample = C::sample_between(casting, located, scalars);
-    if spread > F::ZERO {
-        Sample { k: optics_over(&casting.tables.optics, scalars, spread), ..sample }
-    } else {
-        sample
-    }
+    let table = &casting.tables.optics;
+    let k = if spread > F::ZERO { optics_over(table, scalars, spread) } else { optics_between(table, a, b) };
+    C::sample_of(casting, k, scalars)
 }
 
 /// Mean of (τ c, τ) over the scalars within `reach` of `middle`; beyond [0, 1] they are what they are at its ends.
