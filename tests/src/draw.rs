@@ -8,7 +8,7 @@ use protocol::{
     RenderEvent, RendererOptions,
 };
 use renderer::Renderer;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 /// What a device made of a frame.
 #[derive(Clone, Debug)]
@@ -96,11 +96,31 @@ pub fn draw_with(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorI
     (images, report)
 }
 
-/// A turn: tests that hold one run one after the other. A device uses all cores, and a GPU is not shared.
-pub fn turn() -> MutexGuard<'static, ()> {
-    static TURN: Mutex<()> = Mutex::new(());
-    // A test that failed while it held the turn has said so itself.
-    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+/// How many tests draw at once. One would leave cores idle while it compiles a kernel or makes a volume.
+const TURNS: usize = 2;
+
+/// The turns that nobody holds.
+static FREE_TURNS: (Mutex<usize>, Condvar) = (Mutex::new(TURNS), Condvar::new());
+
+/// A turn to draw, until it is dropped.
+#[must_use = "a turn ends when it is dropped"]
+pub struct Turn(());
+
+/// Waits for a turn. A drawing takes all cores: many tests at once would only need more memory.
+pub fn turn() -> Turn {
+    let (free, one_ended) = &FREE_TURNS;
+    let free = free.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut free = one_ended.wait_while(free, |free| *free == 0).unwrap_or_else(PoisonError::into_inner);
+    *free -= 1;
+    Turn(())
+}
+
+impl Drop for Turn {
+    fn drop(&mut self) {
+        let (free, one_ended) = &FREE_TURNS;
+        *free.lock().unwrap_or_else(PoisonError::into_inner) += 1;
+        one_ended.notify_one();
+    }
 }
 
 /// Whether there is a GPU to test. Its lack is announced, and is a failure where LIGHTLOOM_REQUIRE_GPU=1.

@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Things of one kind by their keys, for a `static`. A key has to say everything that the thing depends on.
-pub struct MadeOnce<V>(Mutex<BTreeMap<String, Arc<V>>>);
+pub struct MadeOnce<V>(Mutex<BTreeMap<String, Place<V>>>);
+
+/// Where a thing will lie; locked while it is made.
+type Place<V> = Arc<Mutex<Option<Arc<V>>>>;
 
 impl<V> MadeOnce<V> {
     /// Nothing yet.
@@ -13,10 +16,15 @@ impl<V> MadeOnce<V> {
         Self(Mutex::new(BTreeMap::new()))
     }
 
-    /// The thing of this key. Others who ask meanwhile wait until it is made; where making it panics, they try again.
+    /// The thing of this key. Others who ask for it meanwhile wait until it is made; where making it panics, they try
+    /// again.
     pub fn get(&self, key: String, make: impl FnOnce() -> V) -> Arc<V> {
-        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(made.entry(key).or_insert_with(|| Arc::new(make())))
+        let place = {
+            let mut places = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(places.entry(key).or_default())
+        };
+        let mut thing = place.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(thing.get_or_insert_with(|| Arc::new(make())))
     }
 }
 
