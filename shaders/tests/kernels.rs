@@ -1,6 +1,8 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
-use layout::{FeedbackEntry, ImportanceEntry, Link, NodeRecord, OpticsEntry, SceneBlock, ViewBlock, binding};
+use layout::{
+    FeedbackEntry, ImportanceEntry, Link, NodeRecord, SceneBlock, TableCell, TableEntry, ViewBlock, binding,
+};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shaders::compose::KernelKey;
 use std::mem::{offset_of, size_of};
@@ -120,7 +122,8 @@ fn host_structs_and_wgsl_structs_agree() {
         weights,
         deviation_scale
     );
-    assert_layout!(&module, OpticsEntry, value, integral, integral_rest);
+    assert_layout!(&module, TableCell, first, occupied);
+    assert_layout!(&module, TableEntry, value, integral, integral_rest, position, padding);
     assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);
     assert_layout!(&module, FeedbackEntry, deficit_code, rays);
     assert_layout!(&module, Link, a, b, c, d);

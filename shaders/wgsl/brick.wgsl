@@ -46,9 +46,9 @@ struct Lighting {
 }
 
 // The light on a segment at t, where there is extinction to be lit.
-fn light_on(sample: Sample, gradients: Gradients, ray: Ray, s: f32) -> Lighting {
+fn light_on(sample: Sample, gradients: Gradients, ray: Ray, s0: f32, s1: f32) -> Lighting {
     if sample.k.w > 0.0 {
-        return lighting(gradients, ray, material_at(s));
+        return lighting(gradients, ray, material_between(s0, s1));
     }
     return Lighting(1.0, 0.0);
 }
@@ -105,7 +105,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
                 gradients = gradients_at(brick, ray, middle);
             }
             let sample = enhance(plain, ray, middle, from_s, to_s, gradients);
-            let lit = light_on(sample, gradients, ray, 0.5 * (from_s + to_s));
+            let lit = light_on(sample, gradients, ray, from_s, to_s);
             let light = debug_light(segment_light(sample, thickness, lit), ray, middle);
             if ONCE_PER_STEP {
                 alone += light * (1.0 - alone.w);
@@ -147,7 +147,8 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
         if SHADES && !enhancers_look && max(pair.first.k.w, pair.second.k.w) > 0.0 {
             gradients = gradients_at(brick, ray, middle);
         }
-        let light = lighting(gradients, ray, material_at(s1));
+        let material = 0.5 * (material_between(s0, s1) + material_between(s1, s2));
+        let light = lighting(gradients, ray, material);
         *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
         *front = add_whole(*front, pair.second, thickness, light, next_ray, t1 + 0.5 * step);
     } else {

@@ -13,30 +13,34 @@ struct Importance {
     most: f32,
 }
 
-fn importance_at(u: f32, cell: u32) -> f32 {
-    return mix(importance_table[cell].value, importance_table[cell + 1u].value, u - f32(cell));
+fn importance_at(place: TablePlace) -> f32 {
+    return mix(importance_table[place.node].value, importance_table[place.node + 1u].value, place.part);
 }
 
-fn importance_between(s0: f32, s1: f32) -> Importance {
-    let entries = scene.tables.y;
-    let u0 = min(s0, s1) * f32(entries - 1u);
-    let u1 = max(s0, s1) * f32(entries - 1u);
-    let c0 = min(u32(u0), entries - 2u);
-    let c1 = min(u32(u1), entries - 2u);
-    let first = importance_at(u0, c0);
-    let last = importance_at(u1, c1);
+fn importance_between(a: TablePlace, b: TablePlace) -> Importance {
+    var low = a;
+    var high = b;
+    if b.node < a.node {
+        low = b;
+        high = a;
+    }
+    let first = importance_at(low);
+    let last = importance_at(high);
     let at_ends = max(first, last);
-    if c0 == c1 {
+    if low.node == high.node {
         return Importance(0.5 * (first + last), at_ends);
     }
-    // The nodes between are covered by two spans of a power of two.
-    let row = firstLeadingBit(c1 - c0);
-    let inside = max(importance_most[row * entries + c0 + 1u], importance_most[row * entries + c1 + 1u - (1u << row)]);
-    let left = (first + importance_table[c0 + 1u].value) * (0.5 * (f32(c0 + 1u) - u0));
-    let right = (importance_table[c1].value + last) * (0.5 * (u1 - f32(c1)));
-    let whole = (importance_table[c1].integral - importance_table[c0 + 1u].integral)
-        + (importance_table[c1].integral_rest - importance_table[c0 + 1u].integral_rest);
+    let after = low.node + 1u;
+    let before = high.node;
+    // The nodes between are covered by two spans of a power of two; a row of spans has as many entries as there are nodes.
+    let span = firstLeadingBit(high.node - low.node);
+    let row = span * (table_cells[scene.tables.x].first + 1u);
+    let inside = max(importance_most[row + after], importance_most[row + before + 1u - (1u << span)]);
+    let left = (first + importance_table[after].value) * (0.5 * (optics_table[after].position - low.u));
+    let right = (importance_table[before].value + last) * (0.5 * (high.u - optics_table[before].position));
+    let whole = (importance_table[before].integral - importance_table[after].integral)
+        + (importance_table[before].integral_rest - importance_table[after].integral_rest);
     // The mean is a rounded quotient.
     let most = max(at_ends, inside);
-    return Importance(min((left + whole + right) / (u1 - u0), most), most);
+    return Importance(min((left + whole + right) / (high.u - low.u), most), most);
 }

@@ -38,10 +38,17 @@ struct NodeRecord {
     deviation_scale: f32,
 }
 
-struct OpticsEntry {
+struct TableCell {
+    first: u32,
+    occupied: u32,
+}
+
+struct TableEntry {
     value: vec4<f32>,
     integral: vec4<f32>,
     integral_rest: vec4<f32>,
+    position: f32,
+    padding: array<f32, 3>,
 }
 
 struct ImportanceEntry {
@@ -59,13 +66,12 @@ struct FeedbackEntry {
 @group(0) @binding(BINDING_SCENE) var<uniform> scene: SceneBlock;
 @group(0) @binding(BINDING_VIEW) var<uniform> projector: ViewBlock;
 @group(0) @binding(BINDING_NODES) var<storage, read> nodes: array<NodeRecord>;
-@group(0) @binding(BINDING_OPTICS) var<storage, read> optics_table: array<OpticsEntry>;
+@group(0) @binding(BINDING_OPTICS) var<storage, read> optics_table: array<TableEntry>;
 @group(0) @binding(BINDING_TILES) var<storage, read> tiles: array<u32>;
 @group(0) @binding(BINDING_PIXELS) var<storage, read_write> pixels: array<vec4<f32>>;
 @group(0) @binding(BINDING_COUNTS) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(BINDING_FEEDBACK) var<storage, read_write> feedback: array<FeedbackEntry>;
 @group(0) @binding(BINDING_ATLAS) var atlas: texture_3d<f32>;
-// How many table cells below each node change a picture.
-@group(0) @binding(BINDING_OCCUPIED) var<storage, read> occupied: array<u32>;
+@group(0) @binding(BINDING_TABLE_CELLS) var<storage, read> table_cells: array<TableCell>;
 // Which 4³ cells of each slot's brick show anything: 16 words a slot, cell (x, y, z) is bit (z 8 + y) 8 + x.
 @group(0) @binding(BINDING_CELLS) var<storage, read> cells: array<u32>;

@@ -1,47 +1,87 @@
 // Averages of the transfer functions over a segment, from tables of f and F = ∫ f.
 
-// A scalar's place in the tables, and the values there: looked up once, used for every mean that ends at it.
-struct Located {
-    // Position in cells, and the cell.
+// A scalar's place in the tables.
+struct TablePlace {
+    // Position in cells.
     u: f32,
-    cell: u32,
-    // (τ c, τ).
+    // The node at or below it, and how far it is from there to the next.
+    node: u32,
+    part: f32,
+}
+
+// A scalar's place, and the values of (τ c, τ) there: looked up once, used for every mean that ends at it.
+struct Located {
+    place: TablePlace,
     value: vec4<f32>,
 }
 
-fn locate(s: f32) -> Located {
-    let entries = scene.tables.x;
-    let u = s * f32(entries - 1u);
-    let cell = min(u32(u), entries - 2u);
-    return Located(u, cell, mix(optics_table[cell].value, optics_table[cell + 1u].value, u - f32(cell)));
+fn place_of(s: f32) -> TablePlace {
+    let cells = scene.tables.x;
+    let u = s * f32(cells);
+    let cell = min(u32(u), cells - 1u);
+    let first = table_cells[cell].first;
+    let next = table_cells[cell + 1u].first;
+    if next - first == 1u {
+        return TablePlace(u, first, u - f32(cell));
+    }
+    return place_among_knots(u, first, next);
 }
 
-// Mean of (τ c, τ) between two scalars. Within one table cell f is linear, so the mean is that of the ends; over several
-// cells the end pieces are trapezoids and only whole cells use the difference of integrals, kept as the sum of two
-// floats: nothing cancels.
+// The same in a cell with knots: among the nodes from its lower border to its upper one, the last at or below u.
+fn place_among_knots(u: f32, first: u32, next: u32) -> TablePlace {
+    var low = first;
+    var high = next;
+    while high - low > 1u {
+        let middle = (low + high) / 2u;
+        if optics_table[middle].position <= u {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let from_u = optics_table[low].position;
+    let width = optics_table[low + 1u].position - from_u;
+    // The end of the last cell may lie on a jump: it is what it is there.
+    var part = 1.0;
+    if width > 0.0 {
+        part = (u - from_u) / width;
+    }
+    return TablePlace(u, low, part);
+}
+
+fn locate(s: f32) -> Located {
+    let place = place_of(s);
+    return Located(place, mix(optics_table[place.node].value, optics_table[place.node + 1u].value, place.part));
+}
+
+// Mean of (τ c, τ) between two scalars. Between two nodes f is linear, so the mean is that of the ends; over several
+// nodes the end pieces are trapezoids and only what lies between nodes uses the difference of integrals, kept as the sum
+// of two floats: nothing cancels.
 fn optics_between(a: Located, b: Located) -> vec4<f32> {
-    if a.cell == b.cell {
+    if a.place.node == b.place.node {
         return 0.5 * (a.value + b.value);
     }
     var first = a;
     var last = b;
-    if b.cell < a.cell {
+    if b.place.node < a.place.node {
         first = b;
         last = a;
     }
-    let left = (first.value + optics_table[first.cell + 1u].value) * (0.5 * (f32(first.cell + 1u) - first.u));
-    let right = (optics_table[last.cell].value + last.value) * (0.5 * (last.u - f32(last.cell)));
-    let whole = (optics_table[last.cell].integral - optics_table[first.cell + 1u].integral)
-        + (optics_table[last.cell].integral_rest - optics_table[first.cell + 1u].integral_rest);
-    return (left + whole + right) / (last.u - first.u);
+    let after = first.place.node + 1u;
+    let before = last.place.node;
+    let left = (first.value + optics_table[after].value) * (0.5 * (optics_table[after].position - first.place.u));
+    let right = (optics_table[before].value + last.value) * (0.5 * (last.place.u - optics_table[before].position));
+    let whole = (optics_table[before].integral - optics_table[after].integral)
+        + (optics_table[before].integral_rest - optics_table[after].integral_rest);
+    return (left + whole + right) / (last.place.u - first.place.u);
 }
 
 // Whether nothing within scalars [low, high] changes a picture.
 fn is_vacant(low: f32, high: f32) -> bool {
-    let entries = scene.tables.x;
-    let c0 = min(u32(low * f32(entries - 1u)), entries - 2u);
-    let c1 = min(u32(high * f32(entries - 1u)), entries - 2u);
-    return occupied[c0] == occupied[c1 + 1u];
+    let cells = scene.tables.x;
+    let c0 = min(u32(low * f32(cells)), cells - 1u);
+    let c1 = min(u32(high * f32(cells)), cells - 1u);
+    return table_cells[c0].occupied == table_cells[c1 + 1u].occupied;
 }
 
 // Whether nothing within `spread` of a range of scalars changes a picture.

@@ -24,17 +24,17 @@ bindings! {
     ATLAS = 5;
     /// Its trilinear sampler.
     SAMPLER = 6;
-    /// The table of [`OpticsEntry`](crate::OpticsEntry)s.
+    /// The [`TableEntry`](crate::TableEntry)s of the optics.
     OPTICS = 7;
-    /// How many table cells below each node change a picture.
-    OCCUPIED = 8;
+    /// The [`TableCell`](crate::TableCell)s.
+    TABLE_CELLS = 8;
     /// The table of [`ImportanceEntry`](crate::ImportanceEntry)s.
     IMPORTANCE = 9;
     /// The largest importances of spans of nodes.
     IMPORTANCE_MOST = 10;
     /// The table of refraction indices.
     INDEX = 11;
-    /// The table of materials.
+    /// The [`TableEntry`](crate::TableEntry)s of the materials.
     MATERIALS = 12;
     /// The numbers of the tiles to cast.
     TILES = 13;

@@ -23,7 +23,7 @@ pub struct SceneBlock {
     pub texel: [f32; 4],
     /// Slots of the atlas along x, y, z, then the depth of the finest level.
     pub atlas: [u32; 4],
-    /// Table entries of the optics, of the importance, unused, unused.
+    /// Cells of the tables, unused, unused, unused.
     pub tables: [u32; 4],
     /// c0 and c1 of the wanted level above the finest, log2(c0 + c1 |z|); strength of the shading of detail; diagonal of
     /// the volume in metres.

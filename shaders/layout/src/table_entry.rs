@@ -1,21 +1,36 @@
-//! An entry of a pre-integrated transfer function.
+//! Entries of pre-integrated transfer functions.
 
 use bytemuck::{Pod, Zeroable};
 
-/// f and F = ∫ f of (k red, k green, k blue, τ) at one node of the table. F is the sum of two f32, so that the
-/// difference of two integrals keeps its digits where a spike stands beside an almost empty range. 48 bytes.
+/// A cell of the scalars, by which nodes of tables are found.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct OpticsEntry {
+pub struct TableCell {
+    /// The node at its lower border. Nodes between that and the next cell's are knots of transfer functions.
+    pub first: u32,
+    /// How many cells below it change a picture: so cells a to b together change nothing if those of a and b + 1 are equal.
+    pub occupied: u32,
+}
+
+/// f and F = ∫ f of four functions at one node of a table: (k red, k green, k blue, τ), or the factors of a material.
+/// F is the sum of two f32, so that the difference of two integrals keeps its digits where a spike stands beside an
+/// almost empty range. 64 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct TableEntry {
     /// f at the node.
     pub value: [f32; 4],
     /// F at the node, rounded to f32; in units of table cells.
     pub integral: [f32; 4],
     /// What the rounding left of F.
     pub integral_rest: [f32; 4],
+    /// Where the node is, in table cells.
+    pub position: f32,
+    /// Fills the struct to 64 bytes.
+    pub padding: [f32; 3],
 }
 
-/// The same for the importance alone, padded to 16 bytes.
+/// The same for the importance alone, at the same nodes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ImportanceEntry {

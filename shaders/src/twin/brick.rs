@@ -3,10 +3,11 @@
 use super::composite::{Accumulated, Composite, Light, Sample};
 use super::debug::debug_light;
 use super::enhance::Chain;
+use super::four::each;
 use super::gradient::Gradients;
 use super::kernel::Kernel;
 use super::levels::Brick;
-use super::material::material_at;
+use super::material::material_between;
 use super::refine::{Pair, parts_of_step};
 use super::shade::{Lighting, Shade};
 use super::spread::sample_over;
@@ -170,12 +171,12 @@ fn add_parts_here<F: Real, K: Kernel>(
     let half = F::of(0.5);
     let mut alone = Light::NONE;
     let (mut from, end) = step.scalars;
-    let mut from_located = locate(&casting.tables.optics, from);
+    let mut from_located = locate(casting.tables, from);
     let count = parts.to_index();
     for j in 1..=count {
         let t = step.t0 + F::of_u32(j) * part;
         let to = if j < count { brick.scalar_at::<K>(casting, ray, t) } else { end };
-        let to_located = locate(&casting.tables.optics, to);
+        let to_located = locate(casting.tables, to);
         let middle = t - half * part;
         let spread = brick.spread_at::<K>(casting, ray, middle);
         let located = [&from_located, &to_located];
@@ -188,7 +189,7 @@ fn add_parts_here<F: Real, K: Kernel>(
             }
             let sample = chain.enhance::<K>(casting, plain, (ray, middle), (from, to), &gradients);
             let light = if sample.k[3] > F::ZERO {
-                let material = material_at::<F, K>(casting, half * (from + to));
+                let material = material_between::<F, K>(casting, from, to);
                 K::Shade::lighting(casting, &gradients, ray, material)
             } else {
                 Lighting::NONE
@@ -251,7 +252,9 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
         if !enhancers_look {
             gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
         }
-        light = K::Shade::lighting(casting, &gradients, first.ray, material_at::<F, K>(casting, s1));
+        let [before, after] = [(s0, s1), (s1, s2)].map(|(a, b)| material_between::<F, K>(casting, a, b));
+        let material = each!(C => F::of(0.5) * (before[C] + after[C]));
+        light = K::Shade::lighting(casting, &gradients, first.ray, material);
     }
     let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray, t0 + half));
     (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray, t1 + half)), parts)

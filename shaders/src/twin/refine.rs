@@ -78,9 +78,9 @@ impl<F: Real> Pair<F> {
         reach: (F, F),
         spreads: [F; 2],
     ) -> Self {
-        let table = &casting.tables.optics;
-        let (l0, l1, l2) = (locate(table, s0), locate(table, s1), locate(table, s2));
-        let (low, high) = (locate(table, reach.0), locate(table, reach.1));
+        let tables = casting.tables;
+        let (l0, l1, l2) = (locate(tables, s0), locate(tables, s1), locate(tables, s2));
+        let (low, high) = (locate(tables, reach.0), locate(tables, reach.1));
         Self {
             first: sample_over::<F, C>(casting, [&l0, &l1], (s0, s1), spreads[0]),
             second: sample_over::<F, C>(casting, [&l1, &l2], (s1, s2), spreads[1]),

@@ -1,7 +1,7 @@
 //! The numbers of a scene that all projectors share, as [`SceneBlock`] holds them for a kernel.
 
 use super::vector::Vec3;
-use crate::tables::TABLE_ENTRIES;
+use crate::tables::TABLE_CELLS;
 use layout::{Link, SceneBlock, brick};
 use optics::MOST_ENHANCERS;
 
@@ -79,7 +79,6 @@ impl SceneNumbers<f32> {
         let column = |v: Vec3<f32>| [v.0[0], v.0[1], v.0[2], 0.0];
         let with = |v: Vec3<f32>, w: f32| [v.0[0], v.0[1], v.0[2], w];
         let texels = atlas_slots.map(|n| 1.0 / (n * brick::EDGE as u32) as f32);
-        let entries = TABLE_ENTRIES as u32;
         SceneBlock {
             volume_from_display: self.volume_from_display.map(column),
             volume: with(self.dims, self.voxel_m),
@@ -89,7 +88,7 @@ impl SceneNumbers<f32> {
             mimda: [self.gamma, self.largest_importance, 0.0, 0.0],
             texel: [texels[0], texels[1], texels[2], 0.0],
             atlas: [atlas_slots[0], atlas_slots[1], atlas_slots[2], self.finest_depth],
-            tables: [entries, entries, 0, 0],
+            tables: [TABLE_CELLS as u32, 0, 0, 0],
             resolution: [self.resolution[0], self.resolution[1], self.detail, self.diagonal_m],
         }
     }

@@ -2,50 +2,101 @@
 
 use super::Real;
 use super::four::{each, mix, widen};
-use layout::OpticsEntry;
+use crate::tables::{TABLE_CELLS, Tables};
+use layout::{TableCell, TableEntry};
 
-/// A scalar's place in a table, and the values there: looked up once, used for every mean that ends at it.
+/// A scalar's place in the tables.
+#[derive(Clone, Copy, Debug)]
+pub struct TablePlace<F> {
+    /// Position in cells.
+    pub(super) u: F,
+    /// The node at or below it.
+    pub(super) node: usize,
+    /// How far it is from there to the next.
+    pub(super) part: F,
+}
+
+/// A scalar's place, and the values of (τ c, τ) there: looked up once, used for every mean that ends at it.
 #[derive(Clone, Copy, Debug)]
 pub struct Located<F> {
-    /// Position in cells.
-    u: F,
-    /// The cell it lies in.
-    cell: usize,
+    /// The place.
+    pub(super) place: TablePlace<F>,
     /// (τ c, τ).
     pub(super) value: [F; 4],
 }
 
-/// Looks up a scalar in [0, 1].
+/// Position in cells, and the cell.
 #[inline(always)]
-pub fn locate<F: Real>(table: &[OpticsEntry], s: F) -> Located<F> {
-    let u = s * F::of_u32(table.len() as u32 - 1);
-    let cell = (u.to_index() as usize).min(table.len() - 2);
-    let f = u - F::of_u32(cell as u32);
-    let ends = &table[cell..cell + 2];
-    Located { u, cell, value: mix(widen(&ends[0].value), widen(&ends[1].value), f) }
+fn cell_of<F: Real>(s: F) -> (F, usize) {
+    let u = s * F::of_u32(TABLE_CELLS as u32);
+    (u, (u.to_index() as usize).min(TABLE_CELLS - 1))
 }
 
-/// The part of a table that two scalars span: positions in cells, smaller first, and the cells they lie in.
+/// The place of a scalar in [0, 1].
 #[inline(always)]
-pub(super) fn span<F: Real>(entries: usize, s0: F, s1: F) -> (F, F, usize, usize) {
-    let cells = F::of_u32(entries as u32 - 1);
-    let (u0, u1) = (s0.least(s1) * cells, s0.most(s1) * cells);
-    let last = entries - 2;
-    (u0, u1, (u0.to_index() as usize).min(last), (u1.to_index() as usize).min(last))
+pub(super) fn place_of<F: Real>(tables: &Tables, s: F) -> TablePlace<F> {
+    let (u, cell) = cell_of(s);
+    let ends = &tables.cells[cell..cell + 2];
+    let (first, next) = (ends[0].first as usize, ends[1].first as usize);
+    if next - first == 1 {
+        return TablePlace { u, node: first, part: u - F::of_u32(cell as u32) };
+    }
+    place_among_knots(&tables.optics[first..=next], u, first)
+}
+
+/// The same in a cell with knots: among the nodes from its lower border to its upper one, the last at or below u.
+#[inline(never)]
+fn place_among_knots<F: Real>(nodes: &[TableEntry], u: F, first: usize) -> TablePlace<F> {
+    let position = |node: usize| F::of_f32(nodes[node].position);
+    let inside = &nodes[1..nodes.len() - 1];
+    let low = inside.partition_point(|node| F::of_f32(node.position) <= u);
+    let width = position(low + 1) - position(low);
+    // The end of the last cell may lie on a jump: it is what it is there.
+    let part = if width > F::ZERO { (u - position(low)) / width } else { F::ONE };
+    TablePlace { u, node: first + low, part }
+}
+
+/// Looks up a scalar in [0, 1].
+#[inline(always)]
+pub fn locate<F: Real>(tables: &Tables, s: F) -> Located<F> {
+    let place = place_of(tables, s);
+    Located { place, value: value_at(&tables.optics, &place) }
+}
+
+#[inline(always)]
+fn value_at<F: Real>(table: &[TableEntry], place: &TablePlace<F>) -> [F; 4] {
+    let ends = &table[place.node..place.node + 2];
+    mix(widen(&ends[0].value), widen(&ends[1].value), place.part)
 }
 
 /// Mean of (τ c, τ) between two scalars; see the WGSL for why nothing cancels.
 #[inline(always)]
-pub fn optics_between<F: Real>(table: &[OpticsEntry], a: &Located<F>, b: &Located<F>) -> [F; 4] {
+pub fn optics_between<F: Real>(tables: &Tables, a: &Located<F>, b: &Located<F>) -> [F; 4] {
+    mean_between(&tables.optics, a, b)
+}
+
+/// Mean of a material's factors between two scalars.
+#[inline(always)]
+pub(super) fn materials_between<F: Real>(tables: &Tables, s0: F, s1: F) -> [F; 4] {
+    let table = &tables.materials;
+    let [a, b] = [s0, s1].map(|s| {
+        let place = place_of(tables, s);
+        Located { place, value: value_at(table, &place) }
+    });
+    mean_between(table, &a, &b)
+}
+
+#[inline(always)]
+fn mean_between<F: Real>(table: &[TableEntry], a: &Located<F>, b: &Located<F>) -> [F; 4] {
     let half = F::of(0.5);
-    if a.cell == b.cell {
+    if a.place.node == b.place.node {
         return each!(C => half * (a.value[C] + b.value[C]));
     }
-    let (first, last) = if a.cell < b.cell { (a, b) } else { (b, a) };
-    let (after, before) = (&table[first.cell + 1], &table[last.cell]);
-    let left = half * (F::of_u32(first.cell as u32 + 1) - first.u);
-    let right = half * (last.u - F::of_u32(last.cell as u32));
-    let width = last.u - first.u;
+    let (first, last) = if a.place.node < b.place.node { (a, b) } else { (b, a) };
+    let (after, before) = (&table[first.place.node + 1], &table[last.place.node]);
+    let left = half * (F::of_f32(after.position) - first.place.u);
+    let right = half * (last.place.u - F::of_f32(before.position));
+    let width = last.place.u - first.place.u;
     let per_width = F::ONE / width;
     each!(C => {
         let whole = (F::of_f32(before.integral[C]) - F::of_f32(after.integral[C]))
@@ -55,17 +106,17 @@ pub fn optics_between<F: Real>(table: &[OpticsEntry], a: &Located<F>, b: &Locate
     })
 }
 
-/// Whether nothing within scalars [low, high] changes a picture; `occupied` as [`crate::tables::occupancy`] counts.
+/// Whether nothing within scalars [low, high] changes a picture.
 #[inline(always)]
-fn is_vacant<F: Real>(occupied: &[u32], low: F, high: F) -> bool {
-    let (_, _, c0, c1) = span(occupied.len(), low, high);
-    occupied[c0] == occupied[c1 + 1]
+fn is_vacant<F: Real>(cells: &[TableCell], low: F, high: F) -> bool {
+    let [(_, c0), (_, c1)] = [low, high].map(cell_of);
+    cells[c0].occupied == cells[c1 + 1].occupied
 }
 
 /// Whether nothing within `spread` of scalars [low, high] changes a picture.
 #[inline(always)]
-pub fn is_vacant_around<F: Real>(occupied: &[u32], (low, high): (F, F), spread: F) -> bool {
-    is_vacant(occupied, (low - spread).most(F::ZERO), (high + spread).least(F::ONE))
+pub fn is_vacant_around<F: Real>(cells: &[TableCell], (low, high): (F, F), spread: F) -> bool {
+    is_vacant(cells, (low - spread).most(F::ZERO), (high + spread).least(F::ONE))
 }
 
 /// φ(x) = (1 − e^−x) / x; a series where the difference would cancel.
@@ -81,19 +132,19 @@ pub fn attenuation_mean<F: Real>(x: F) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tables::optics_table;
+    use crate::needs::Needs;
     use optics::{Curve, Optics};
     use proptest::prelude::*;
 
     /// Six terms of the series, cut off at x = 1/4: the next term is x⁶/5040.
     const SERIES_ERROR: f64 = 0.25 * 0.25 * 0.25 * 0.25 * 0.25 * 0.25 / 5040.0;
 
-    fn mean(table: &[OpticsEntry], s0: f32, s1: f32) -> f32 {
-        optics_between(table, &locate(table, s0), &locate(table, s1))[3]
+    fn mean(tables: &Tables, s0: f32, s1: f32) -> f32 {
+        optics_between(tables, &locate(tables, s0), &locate(tables, s1))[3]
     }
 
-    fn table(points: Vec<(f64, f64)>) -> Vec<OpticsEntry> {
-        optics_table(&Optics::grey(Curve::new(points).unwrap()))
+    fn tables(points: Vec<(f64, f64)>) -> Tables {
+        Tables::new(&Optics::grey(Curve::new(points).unwrap()), &Needs::PLAIN)
     }
 
     #[test]
@@ -114,19 +165,54 @@ mod tests {
 
     #[test]
     fn a_low_range_beside_a_spike_keeps_its_digits() {
-        let mut table = table(vec![(0.0, 1e6), (0.1, 1e6), (0.1, 1e-6), (1.0, 1e-6)]);
-        let worst = |table: &[OpticsEntry]| {
+        let mut tables = tables(vec![(0.0, 1e6), (0.1, 1e6), (0.1, 1e-6), (1.0, 1e-6)]);
+        let worst = |tables: &Tables| {
             [(0.2f32, 0.9f32), (0.5, 0.503), (0.9, 0.8999)].into_iter().fold(0.0f64, |worst, (s0, s1)| {
-                let error = (f64::from(mean(table, s0, s1)) - 1e-6).abs();
-                let cells = f64::from((s1 - s0).abs()) * (table.len() - 1) as f64;
-                let whole = f64::from(table[table.len() - 1].integral[3]);
+                let error = (f64::from(mean(tables, s0, s1)) - 1e-6).abs();
+                let cells = f64::from((s1 - s0).abs()) * TABLE_CELLS as f64;
+                let whole = f64::from(tables.optics.last().unwrap().integral[3]);
                 worst.max(error / (TWO_FLOATS * whole / cells + 1e-12))
             })
         };
-        assert!(worst(&table) <= 1.0, "{}", worst(&table));
+        assert!(worst(&tables) <= 1.0, "{}", worst(&tables));
         // The canary: one f32 alone does not do.
-        table.iter_mut().for_each(|entry| entry.integral_rest = [0.0; 4]);
-        assert!(worst(&table) > 100.0, "{}", worst(&table));
+        tables.optics.iter_mut().for_each(|entry| entry.integral_rest = [0.0; 4]);
+        assert!(worst(&tables) > 100.0, "{}", worst(&tables));
+    }
+
+    /// A spike of a hundredth of a cell, and a jump, both within a cell.
+    #[test]
+    fn features_within_a_cell_are_seen_from_within() {
+        let cell = 1.0 / TABLE_CELLS as f64;
+        let at = |u: f64| (500.0 + u) * cell;
+        let points =
+            [(0.30, 0.0), (0.305, 1e3), (0.31, 0.0), (0.6, 0.0), (0.6, 2.0)].map(|(u, v)| (at(u), v));
+        let curve = Curve::new(points.to_vec()).unwrap();
+        let tables = tables(points.to_vec());
+        for (from, to) in
+            [(0.1, 0.9), (0.2, 0.304), (0.302, 0.309), (0.4, 0.5), (0.59, 0.61), (0.65, 0.7), (0.31, 3.0)]
+        {
+            let (s0, s1) = (at(from), at(to));
+            let parts = 200_000;
+            let width = (s1 - s0) / f64::from(parts);
+            let sum: f64 = (0..parts).map(|i| curve.at(s0 + (f64::from(i) + 0.5) * width)).sum();
+            let truth = sum / f64::from(parts);
+            let of = |found: f64| (found - truth).abs() / (truth + 1e-3);
+            let in_f64 = optics_between(&tables, &locate(&tables, s0), &locate(&tables, s1))[3];
+            // Nodes stand at numbers of f32, here to 3e-5 of a cell.
+            assert!(of(in_f64) < 0.02, "{from} to {to}: {in_f64} for {truth}");
+            let in_f32 = f64::from(mean(&tables, s0 as f32, s1 as f32));
+            assert!(of(in_f32) < 0.05, "{from} to {to}: {in_f32} for {truth}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_the_range_is_what_it_jumps_to() {
+        let tables = tables(vec![(0.5, 1.0), (1.0, 1.0), (1.0, 7.0)]);
+        assert_eq!(locate(&tables, 1.0f32).value[3], 7.0);
+        assert_eq!(mean(&tables, 1.0, 1.0), 7.0);
+        assert_eq!(locate(&tables, 0.999_999f32).value[3], 1.0);
+        assert!((mean(&tables, 0.9, 1.0) - 1.0).abs() < 1e-5);
     }
 
     proptest! {
@@ -136,10 +222,10 @@ mod tests {
         ) {
             let points: Vec<_> = values.iter().enumerate().map(|(i, &v)| (i as f64 / 4.0, v)).collect();
             let most = values.iter().fold(0.0f64, |m, &v| m.max(v)) as f32;
-            let table = table(points);
-            let found = mean(&table, s0, s1);
+            let tables = tables(points);
+            let found = mean(&tables, s0, s1);
             prop_assert!(found >= 0.0 && found <= most * 1.0001 + 1e-6);
-            prop_assert_eq!(found, mean(&table, s1, s0));
+            prop_assert_eq!(found, mean(&tables, s1, s0));
         }
     }
 }

@@ -20,9 +20,9 @@ fn nothing_accumulated() -> Accumulated {
     return Accumulated(vec3<f32>(0.0), 0.0, 0.0);
 }
 
-// What a segment between two scalars shows, whose mean (τ c, τ) is `k`.
-fn sample_of(k: vec4<f32>, s0: f32, s1: f32) -> Sample {
-    return Sample(k, 1.0, 1.0, importance_between(s0, s1));
+// What a segment between the places of two scalars shows, whose mean (τ c, τ) is `k`.
+fn sample_of(k: vec4<f32>, a: TablePlace, b: TablePlace) -> Sample {
+    return Sample(k, 1.0, 1.0, importance_between(a, b));
 }
 
 // Importance acts whatever the extinction: no segment is clear.

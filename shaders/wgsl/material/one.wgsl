@@ -1,5 +1,5 @@
 // One material for all scalars: ambient, diffuse, specular, shininess.
 
-fn material_at(s: f32) -> vec4<f32> {
+fn material_between(s0: f32, s1: f32) -> vec4<f32> {
     return scene.material;
 }

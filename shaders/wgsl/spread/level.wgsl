@@ -29,9 +29,9 @@ fn deviation_of(base: vec3<i32>, x: i32, y: i32, z: i32) -> f32 {
 fn sample_over(a: Located, b: Located, s0: f32, s1: f32, spread: f32) -> Sample {
     if spread > 0.0 {
         let along = 0.5 * (s1 - s0);
-        return sample_of(optics_around(0.5 * (s0 + s1), sqrt(along * along + spread * spread)), s0, s1);
+        return sample_of(optics_around(0.5 * (s0 + s1), sqrt(along * along + spread * spread)), a.place, b.place);
     }
-    return sample_of(optics_between(a, b), s0, s1);
+    return sample_of(optics_between(a, b), a.place, b.place);
 }
 
 // Mean of (τ c, τ) over the scalars within `reach` of one; beyond [0, 1] they are what they are at its ends.

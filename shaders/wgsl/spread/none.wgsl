@@ -5,5 +5,5 @@ fn spread_at(brick: Brick, ray: Ray, t: f32) -> f32 {
 }
 
 fn sample_over(a: Located, b: Located, s0: f32, s1: f32, spread: f32) -> Sample {
-    return sample_of(optics_between(a, b), s0, s1);
+    return sample_of(optics_between(a, b), a.place, b.place);
 }

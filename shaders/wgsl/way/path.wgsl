@@ -12,21 +12,24 @@ const LEAST_CELLS: f32 = 0.5;
 
 // The refraction index at a scalar.
 fn index_at(s: f32) -> f32 {
-    let entries = scene.tables.x;
-    let u = s * f32(entries - 1u);
-    let cell = min(u32(u), entries - 2u);
-    return mix(index_table[cell], index_table[cell + 1u], u - f32(cell));
+    let place = place_of(s);
+    return mix(index_table[place.node], index_table[place.node + 1u], place.part);
 }
 
-// Its mean slope between two scalars. The cell of a jump has none: surfaces are met by crossing them.
+// Its mean slope between two scalars. A surface has none, nor has a piece of the table that is as steep as one: they are
+// met by crossing them.
 fn index_slope(s0: f32, s1: f32) -> f32 {
-    let cells = f32(scene.tables.x - 1u);
+    let cells = f32(scene.tables.x);
     if abs(s1 - s0) * cells >= LEAST_CELLS {
         return (index_at(s1) - index_at(s0)) / (s1 - s0);
     }
-    let cell = min(u32(0.5 * (s0 + s1) * cells), scene.tables.x - 2u);
-    let change = index_table[cell + 1u] - index_table[cell];
-    return select(change * cells, 0.0, abs(change) > SURFACE);
+    let node = place_of(0.5 * (s0 + s1)).node;
+    let width = optics_table[node + 1u].position - optics_table[node].position;
+    let change = index_table[node + 1u] - index_table[node];
+    if abs(change) > SURFACE || width <= 0.0 {
+        return 0.0;
+    }
+    return change * cells / width;
 }
 
 // Whether the index may change between two scalars.

@@ -1,13 +1,13 @@
-//! Transfer functions at random: with spikes one table cell wide, jumps, flat parts and ranges of many decades.
+//! Transfer functions at random: with spikes from a hundredth of a table cell to two cells wide, jumps, flat parts and ranges of many decades.
 
 use super::sometimes;
 use glam::DVec3;
 use optics::Curve;
 use proptest::prelude::*;
-use shaders::tables::TABLE_ENTRIES;
+use shaders::tables::TABLE_CELLS;
 
 /// A table cell.
-const CELL: f64 = 1.0 / (TABLE_ENTRIES - 1) as f64;
+const CELL: f64 = 1.0 / TABLE_CELLS as f64;
 
 /// An extinction.
 #[derive(Clone, Debug)]
@@ -15,10 +15,19 @@ pub(super) struct Shape {
     /// Control points of values from 0 to 1.
     points: Vec<(f64, f64)>,
     has_jump: bool,
-    /// A spike at a node of the table, at this height over the rest.
-    spike: Option<(usize, f64)>,
+    spike: Option<Spike>,
     /// What 1 stands for, per voxel.
     most: f64,
+}
+
+/// A narrow range of scalars that is denser than the rest.
+#[derive(Clone, Copy, Debug)]
+struct Spike {
+    /// Where it is densest.
+    peak: f64,
+    half_width: f64,
+    /// Times the largest value elsewhere.
+    height: f64,
 }
 
 /// Colours.
@@ -31,11 +40,14 @@ pub(super) struct Colours {
 /// Extinctions of 1e-6 to 1e6 per voxel, most of them such as pictures have; few so thin that they show nothing.
 pub(super) fn shapes() -> impl Strategy<Value = Shape> {
     let exponent = prop_oneof![7 => -1.7..0.3, 3 => -1.0..6.0, 1 => -6.0..-1.7];
-    let spike = sometimes(0.15, (1..TABLE_ENTRIES - 1, 0.0..3.0));
+    let spike = (0.005..0.995, -2.0..0.3, 0.0..3.0).prop_map(|(peak, cells, decades): (f64, f64, f64)| {
+        Spike { peak, half_width: 10f64.powf(cells) * CELL, height: 10f64.powf(decades) }
+    });
+    let spike = sometimes(0.15, spike);
     (points(0.3), exponent, spike).prop_map(|((points, has_jump), exponent, spike)| Shape {
         points: reaching_one(points),
         has_jump,
-        spike: spike.map(|(node, decades): (usize, f64)| (node, 10f64.powf(decades))),
+        spike,
         most: 10f64.powf(exponent),
     })
 }
@@ -93,9 +105,8 @@ impl Shape {
     /// The curve, with numbers `per_unit` times those per voxel.
     pub(super) fn curve(&self, per_unit: f64) -> Curve<f64> {
         let plain = curve(self.points.iter().map(|&(s, value)| (s, value * self.most * per_unit)).collect());
-        let Some((node, height)) = self.spike else { return plain };
-        let peak = node as f64 * CELL;
-        let (low, high) = (peak - CELL, peak + CELL);
+        let Some(Spike { peak, half_width, height }) = self.spike else { return plain };
+        let (low, high) = (peak - half_width, peak + half_width);
         let outside = |p: &&(f64, f64)| p.0 < low || p.0 > high;
         let mut points: Vec<(f64, f64)> = plain.points().iter().filter(outside).copied().collect();
         let spike = [(low, plain.at(low)), (peak, height * self.most * per_unit), (high, plain.at(high))];
@@ -106,7 +117,7 @@ impl Shape {
 
     /// Its largest value per voxel.
     pub(super) fn most(&self) -> f64 {
-        self.most * self.spike.map_or(1.0, |(_, height)| height)
+        self.most * self.spike.map_or(1.0, |spike| spike.height)
     }
 
     /// Whether it has neither jump nor spike.

@@ -17,8 +17,9 @@ const SAME_TO_ROUNDING: Limits = Limits::of_255(0.002, 0.02, 1.0);
 
 /// The texture unit is asked at points rounded to 1/4096 texel, which is what makes its samples independent of the slot.
 /// Half of that, on slopes of up to a third of the range per voxel, moves a scalar by up to 4e-5; steep curves of
-/// extinction and importance make that up to ten times as much per step.
-const SAME_TO_THE_GRID: Limits = Limits::of_255(0.005, 0.05, 1.0);
+/// extinction and importance make that up to ten times as much per step. Near the knot where importance begins, a step
+/// more or less is cut into parts, and the pixel differs by a part of what the integration errs there.
+const SAME_TO_THE_GRID: Limits = Limits::of_255(0.01, 0.05, 4.0);
 
 /// An error of extinction that nobody would see; it must not pass for rounding.
 const UNSEEN_EXTINCTION: f64 = 1.001;

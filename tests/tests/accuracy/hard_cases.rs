@@ -8,9 +8,9 @@ use lightloom_tests::compare::{self, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{Points, frame, optics, placed, with_raster};
 use optics::{Curve, Light, Mimda, MimdaForm};
-use protocol::{FrameState, ProjectorImage};
+use protocol::{FilterChoice, FrameState, ProjectorImage};
 use reference::Radiance;
-use shaders::tables::TABLE_ENTRIES;
+use shaders::tables::TABLE_CELLS;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
@@ -26,6 +26,7 @@ struct Case {
     source: Arc<dyn BrickSource>,
     frame: FrameState,
     limits: Limits,
+    filter: FilterChoice,
     /// Whether rays of the middle column and row may miss the volume or meet it: f32 cannot say.
     may_middle_miss: bool,
     /// Whether Mesa's llvmpipe cannot draw it: it leaves a shader's loops, silently, when an invocation has gone round them some
@@ -62,6 +63,7 @@ impl Case {
             source,
             frame,
             limits: PROMISE,
+            filter: FilterChoice::Auto,
             may_middle_miss: false,
             is_beyond_llvmpipe: false,
         }
@@ -70,6 +72,11 @@ impl Case {
     /// The case's own limits.
     fn within(self, rms: f64, p999: f64, max: f64) -> Self {
         Self { limits: Limits::of_255(rms, p999, max), ..self }
+    }
+
+    /// Not by the texture unit.
+    fn exactly_filtered(self) -> Self {
+        Self { filter: FilterChoice::Exact, ..self }
     }
 
     /// Few pixels, for cases whose rays take long.
@@ -169,13 +176,13 @@ fn small_volumes() -> Vec<Case> {
     .collect()
 }
 
-/// Extinction nowhere but within one entry of the table, and of every size everywhere.
+/// Extinction nowhere but within a cell of the tables or a hundredth of one, and of every size everywhere.
 fn transfer_functions() -> Vec<Case> {
-    let entry = 1.0 / (TABLE_ENTRIES - 1) as f64;
-    // Its peak is a node of the table. A table of straight pieces cannot hold a spike between two of its nodes: where a
-    // scalar stays there, the kernel sees none of it.
-    let peak = 614.0 * entry;
-    let spike = |height: f64| vec![(peak - entry, 0.0), (peak, height), (peak + entry, 0.0)];
+    let cell = 1.0 / TABLE_CELLS as f64;
+    let around =
+        |peak: f64, width: f64, height: f64| vec![(peak - width, 0.0), (peak, height), (peak + width, 0.0)];
+    let spike = |height: f64| around(614.0 * cell, cell, height);
+    let narrow = |height: f64| around(614.4 * cell, 0.01 * cell, height);
     let case = |name: String, extinction| Case::new(&name, source([56, 40, 30], bumps), extinction);
     let mut cases = vec![
         case("a spike of 1 per voxel".into(), spike(1.0)).within(0.1, 1.0, 5.0),
@@ -184,16 +191,18 @@ fn transfer_functions() -> Vec<Case> {
         case("a spike of 1e3 per voxel".into(), spike(1e3)).within(0.1, 1.0, 7.0),
         case("a spike of 1e6 per voxel".into(), spike(1e6)).within(0.1, 1.0, 1.0),
     ];
+    // The same a hundred times thinner, between two borders of cells: the scalar is known to a hundredth of its width, and
+    // to the grid of a texture unit not at all.
+    for height in [1e2, 1e4] {
+        let narrow = case(format!("a narrow spike of {height:e} per voxel"), narrow(height));
+        cases.push(narrow.exactly_filtered().within(0.1, 2.0, 10.0));
+    }
     for exponent in [-6, -4, -2, 0, 2, 4, 6] {
         let scale = 10f64.powi(exponent);
         let ramp = vec![(0.3, 0.0), (0.9, scale)];
         let case = case(format!("up to 1e{exponent} per voxel"), ramp);
-        // Opaque at a threshold: on its outline a pixel shows it or does not.
-        cases.push(match exponent {
-            4 => case.within(0.1, 1.3, 7.0),
-            6 => case.within(0.6, 1.3, 85.0),
-            _ => case,
-        });
+        // Opaque at a threshold, of which a step shows the mean over itself.
+        cases.push(if exponent < 4 { case } else { case.within(0.1, 1.3, 2.0) });
     }
     cases
 }
@@ -273,10 +282,10 @@ fn half_dark(images: &[ProjectorImage]) -> Vec<ProjectorImage> {
 fn check(cases: Vec<Case>) {
     let _turn = draw::turn();
     let mut failed = Vec::new();
-    for Case { name, display, source, frame, limits, may_middle_miss, is_beyond_llvmpipe } in cases {
+    for Case { name, display, source, frame, limits, filter, may_middle_miss, is_beyond_llvmpipe } in cases {
         let truth = truth(&display, &frame, &source, &PROJECTORS, 1);
         for device in draw::devices() {
-            let drawn = draw(&display, &frame, &source, &PROJECTORS, With::device(device));
+            let drawn = draw(&display, &frame, &source, &PROJECTORS, With { filter, ..With::device(device) });
             if is_beyond_llvmpipe && drawn.info.adapter.contains("llvmpipe") {
                 println!("SKIPPED: {name}: {} gives up on loops that long", drawn.info.adapter);
                 continue;

@@ -14,14 +14,14 @@ use optics::{
     Curve, CurveValue, Enhancer, LayerOpacity, Light, Material, Mimda, MimdaForm, Quality, Trapezoid,
 };
 use protocol::{FrameState, ProjectorImage};
-use shaders::tables::TABLE_ENTRIES;
+use shaders::tables::TABLE_CELLS;
 use std::sync::Arc;
 
 const PROJECTORS: [u32; 1] = [5];
 /// As random scenes are drawn.
 const RASTER: [u32; 2] = [33, 25];
-/// A table entry.
-const ENTRY: f64 = 1.0 / (TABLE_ENTRIES - 1) as f64;
+/// A cell of the tables.
+const CELL: f64 = 1.0 / TABLE_CELLS as f64;
 /// How far an edge of an enhancer is moved: share of the domain, or of the size of what it acts on.
 const EDGE_SHARE: f64 = 1e-3;
 
@@ -43,17 +43,17 @@ struct Canary {
 
 const CANARIES: [Canary; 15] = [
     Canary {
-        name: "a table shifted by one entry",
+        name: "a table shifted by one cell",
         scene: techniques::bumps,
         fault: Fault::Frame(|frame| {
-            frame.optics.extinction = shifted(&frame.optics.extinction, ENTRY);
-            frame.optics.colour = shifted(&frame.optics.colour, ENTRY);
+            frame.optics.extinction = shifted(&frame.optics.extinction, CELL);
+            frame.optics.colour = shifted(&frame.optics.colour, CELL);
         }),
     },
     Canary {
-        name: "colours shifted by one entry",
+        name: "colours shifted by one cell",
         scene: steep_colours,
-        fault: Fault::Frame(|frame| frame.optics.colour = shifted(&frame.optics.colour, ENTRY)),
+        fault: Fault::Frame(|frame| frame.optics.colour = shifted(&frame.optics.colour, CELL)),
     },
     Canary {
         name: "a lit share of 1 % more",
@@ -87,11 +87,11 @@ const CANARIES: [Canary; 15] = [
         }),
     },
     Canary {
-        name: "an importance shifted by one entry",
+        name: "an importance shifted by one cell",
         scene: importance,
         fault: Fault::Frame(|frame| {
             frame.optics.mimda.iter_mut().for_each(|mimda| {
-                mimda.importance = shifted(&mimda.importance, ENTRY);
+                mimda.importance = shifted(&mimda.importance, CELL);
             });
         }),
     },

@@ -3,7 +3,7 @@
 use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
-use layout::OpticsEntry;
+use layout::TableEntry;
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors_of, truth};
 use lightloom_tests::draw::{self, With, draw};
@@ -108,8 +108,10 @@ fn a_spoiled_twin_is_found_out() {
     })];
     let shapes: [(&str, Spoil); 3] = [
         ("a table shifted by one entry", |twin| {
-            twin.tables.optics.rotate_right(1);
-            twin.tables.optics[0] = OpticsEntry { integral: [0.0; 4], ..twin.tables.optics[1] };
+            let before = twin.tables.optics.clone();
+            for (entry, before) in twin.tables.optics[1..].iter_mut().zip(before) {
+                *entry = TableEntry { position: entry.position, ..before };
+            }
         }),
         ("an overlap of one sample less", |twin| twin.atlas.rotate_right(1)),
         ("integrals that end one entry early", |twin| {

@@ -11,6 +11,7 @@ pub use mimda_paper::Paper;
 pub use over::Over;
 
 use super::importance::Importance;
+use super::tables::TablePlace;
 use super::{Casting, Real, vector::Vec3};
 
 /// What has been gathered so far.
@@ -80,8 +81,8 @@ pub trait Composite {
     const READS_IMPORTANCE: bool;
     /// Whether the parts of a step are composited among themselves first.
     const ONCE_PER_STEP: bool;
-    /// What a segment between two scalars shows, whose mean (τ c, τ) is `k`.
-    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], scalars: (F, F)) -> Sample<F>;
+    /// What a segment between the places of two scalars shows, whose mean (τ c, τ) is `k`.
+    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], places: [&TablePlace<F>; 2]) -> Sample<F>;
     /// Whether a segment without extinction changes nothing.
     fn is_clear<F: Real>(extinction: F) -> bool;
     /// A segment's light, behind what is in front.

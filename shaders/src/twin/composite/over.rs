@@ -2,6 +2,7 @@
 
 use super::{Accumulated, Composite, Light, Sample};
 use crate::twin::importance::Importance;
+use crate::twin::tables::TablePlace;
 use crate::twin::{Casting, Real};
 
 /// Twin of `wgsl/composite/over.wgsl`.
@@ -12,7 +13,7 @@ impl Composite for Over {
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]
-    fn sample_of<F: Real>(_: &Casting<F>, k: [F; 4], _: (F, F)) -> Sample<F> {
+    fn sample_of<F: Real>(_: &Casting<F>, k: [F; 4], _: [&TablePlace<F>; 2]) -> Sample<F> {
         Sample { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
     }
 

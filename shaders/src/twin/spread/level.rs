@@ -1,10 +1,10 @@
 //! A segment whose scalars stand for those within a standard deviation of them.
 
+use crate::tables::Tables;
 use crate::twin::composite::{Composite, Sample};
 use crate::twin::four::each;
 use crate::twin::tables::{Located, locate, optics_between};
 use crate::twin::{Casting, Real};
-use layout::OpticsEntry;
 
 /// What a segment between two scalars shows, each of which stands for those within `spread` of it.
 #[inline(always)]
@@ -14,17 +14,18 @@ pub fn sample_over<F: Real, C: Composite>(
     scalars: (F, F),
     spread: F,
 ) -> Sample<F> {
-    let table = &casting.tables.optics;
-    let k = if spread > F::ZERO { optics_over(table, scalars, spread) } else { optics_between(table, a, b) };
-    C::sample_of(casting, k, scalars)
+    let tables = casting.tables;
+    let k =
+        if spread > F::ZERO { optics_over(tables, scalars, spread) } else { optics_between(tables, a, b) };
+    C::sample_of(casting, k, [&a.place, &b.place])
 }
 
 /// Mean of (τ c, τ) over the scalars within `reach` of `middle`; beyond [0, 1] they are what they are at its ends.
 #[inline(always)]
-fn optics_around<F: Real>(table: &[OpticsEntry], middle: F, reach: F) -> [F; 4] {
+fn optics_around<F: Real>(tables: &Tables, middle: F, reach: F) -> [F; 4] {
     let (from, to) = (middle - reach, middle + reach);
-    let (low, high) = (locate(table, from.most(F::ZERO)), locate(table, to.least(F::ONE)));
-    let inside = optics_between(table, &low, &high);
+    let (low, high) = (locate(tables, from.most(F::ZERO)), locate(tables, to.least(F::ONE)));
+    let inside = optics_between(tables, &low, &high);
     let (below, above) = ((-from).most(F::ZERO), (to - F::ONE).most(F::ZERO));
     if below + above == F::ZERO {
         return inside;
@@ -38,8 +39,8 @@ fn optics_around<F: Real>(table: &[OpticsEntry], middle: F, reach: F) -> [F; 4] 
 
 /// Mean of (τ c, τ) over a segment between two scalars, each of which stands for those within `spread` of it; see the WGSL.
 #[inline(always)]
-fn optics_over<F: Real>(table: &[OpticsEntry], (s0, s1): (F, F), spread: F) -> [F; 4] {
+fn optics_over<F: Real>(tables: &Tables, (s0, s1): (F, F), spread: F) -> [F; 4] {
     let half = F::of(0.5);
     let along = half * (s1 - s0);
-    optics_around(table, half * (s0 + s1), (along * along + spread * spread).sqrt())
+    optics_around(tables, half * (s0 + s1), (along * along + spread * spread).sqrt())
 }

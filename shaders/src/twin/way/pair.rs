@@ -63,7 +63,7 @@ impl<F: Real> Walk<F> {
         self.bent.t = t1 + step;
         self.bent.way = self.bent.way + F::of(2.0) * step;
         let range = scalars_in_reach(s0, s1, s2);
-        if is_vacant_around(&casting.tables.occupied, range, spreads[0].most(spreads[1])) {
+        if is_vacant_around(&casting.tables.cells, range, spreads[0].most(spreads[1])) {
             return Taken { is_last: false, is_turned };
         }
         let steps = PairOfSteps {
@@ -86,11 +86,11 @@ impl<F: Real> Walk<F> {
     #[inline(always)]
     fn ends<K: Kernel>(&mut self, casting: &Casting<F>, brick: &Brick<F>, mut step: F) -> Ends<F> {
         let (ray, t0, two) = (&self.bent.ray, self.bent.t, F::of(2.0));
-        let index = &casting.tables.index;
+        let tables = casting.tables;
         let s0 = self.known.unwrap_or_else(|| brick.scalar_at::<K>(casting, ray, t0));
         let mut s2 = brick.scalar_at::<K>(casting, ray, t0 + two * step);
         for _ in 0..MOST_HALVINGS {
-            if (index_at(index, s2) - index_at(index, s0)).abs() <= F::of(LARGE_CHANGE) {
+            if (index_at(tables, s2) - index_at(tables, s0)).abs() <= F::of(LARGE_CHANGE) {
                 break;
             }
             step = F::of(0.5) * step;
@@ -110,7 +110,7 @@ impl<F: Real> Walk<F> {
         scalars: (F, F),
         step: F,
     ) -> Option<Brick<'a, F>> {
-        if !bends(&casting.tables.index, scalars.0, scalars.1) {
+        if !bends(casting.tables, scalars.0, scalars.1) {
             return None;
         }
         let (ray, t1) = (self.bent.ray, self.bent.t + step);

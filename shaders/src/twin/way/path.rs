@@ -1,7 +1,9 @@
 //! The path of a bent ray: straight ways, and what turns one into the next.
 
+use crate::tables::{TABLE_CELLS, Tables};
 use crate::twin::gradient::LEAST_SQUARE;
 use crate::twin::ray::Ray;
+use crate::twin::tables::{TablePlace, place_of};
 use crate::twin::{Casting, Real, vector::Vec3};
 
 /// See `wgsl/way/path.wgsl` for these three.
@@ -23,23 +25,24 @@ pub(super) struct Bent<F> {
 
 /// The refraction index at a scalar.
 #[inline(always)]
-pub(super) fn index_at<F: Real>(table: &[f32], s: F) -> F {
-    let u = s * F::of_u32(table.len() as u32 - 1);
-    let cell = (u.to_index() as usize).min(table.len() - 2);
-    let (a, b) = (F::of_f32(table[cell]), F::of_f32(table[cell + 1]));
-    a + (b - a) * (u - F::of_u32(cell as u32))
+pub(super) fn index_at<F: Real>(tables: &Tables, s: F) -> F {
+    let TablePlace { node, part, .. } = place_of(tables, s);
+    let (a, b) = (F::of_f32(tables.index[node]), F::of_f32(tables.index[node + 1]));
+    a + (b - a) * part
 }
 
-/// Its mean slope between two scalars. The cell of a jump has none: surfaces are met by crossing them.
+/// Its mean slope between two scalars. A surface has none, nor has a piece of the table that is as steep as one: they are
+/// met by crossing them.
 #[inline(always)]
-fn index_slope<F: Real>(table: &[f32], s0: F, s1: F) -> F {
-    let cells = F::of_u32(table.len() as u32 - 1);
+fn index_slope<F: Real>(tables: &Tables, s0: F, s1: F) -> F {
+    let cells = F::of_u32(TABLE_CELLS as u32);
     if (s1 - s0).abs() * cells >= F::of(LEAST_CELLS) {
-        return (index_at(table, s1) - index_at(table, s0)) / (s1 - s0);
+        return (index_at(tables, s1) - index_at(tables, s0)) / (s1 - s0);
     }
-    let cell = ((F::of(0.5) * (s0 + s1) * cells).to_index() as usize).min(table.len() - 2);
-    let change = F::of_f32(table[cell + 1]) - F::of_f32(table[cell]);
-    if change.abs() > F::of(SURFACE) { F::ZERO } else { change * cells }
+    let node = place_of(tables, F::of(0.5) * (s0 + s1)).node;
+    let [from, to] = [node, node + 1].map(|node| F::of_f32(tables.optics[node].position));
+    let change = F::of_f32(tables.index[node + 1]) - F::of_f32(tables.index[node]);
+    if change.abs() > F::of(SURFACE) || to <= from { F::ZERO } else { change * cells / (to - from) }
 }
 
 #[inline(always)]
@@ -90,9 +93,9 @@ impl<F: Real> Bent<F> {
         (s0, s2): (F, F),
         length: F,
     ) -> Vec3<F> {
-        let table = &casting.tables.index;
+        let tables = casting.tables;
         let v = self.ray.direction_in_display;
-        let (n0, n2) = (index_at(table, s0), index_at(table, s2));
+        let (n0, n2) = (index_at(tables, s0), index_at(tables, s2));
         // A ray that was turned by a surface and has not passed it yet goes straight on; then it has the index beyond.
         let mut own = n0;
         if let Some((before, beyond)) = self.passing {
@@ -107,7 +110,7 @@ impl<F: Real> Bent<F> {
             return v;
         }
         if (n2 - n0).abs() <= F::of(SURFACE) {
-            let bend = index_slope(table, s0, s2) * length / casting.scene.voxel_m;
+            let bend = index_slope(tables, s0, s2) * length / casting.scene.voxel_m;
             return normalize(v * (F::of(0.5) * (n0 + n2)) + gradient * bend);
         }
         let size = square.sqrt();
@@ -136,6 +139,6 @@ fn turned_at<F: Real>(casting: &Casting<F>, ray: &Ray<F>, t: F, direction_in_dis
 
 /// Whether the index may change between two scalars.
 #[inline(always)]
-pub(super) fn bends<F: Real>(table: &[f32], s0: F, s1: F) -> bool {
-    index_at(table, s0) != index_at(table, s1) || index_slope(table, s0, s1) != F::ZERO
+pub(super) fn bends<F: Real>(tables: &Tables, s0: F, s1: F) -> bool {
+    index_at(tables, s0) != index_at(tables, s1) || index_slope(tables, s0, s1) != F::ZERO
 }

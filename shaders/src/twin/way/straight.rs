@@ -66,7 +66,7 @@ fn march<F: Real, K: Kernel>(
         known = Some(s2);
         let range = scalars_in_reach(s0, s1, s2);
         let spreads = [0.5, 1.5].map(|steps| brick.spread_at::<K>(casting, ray, t0 + F::of(steps) * step));
-        if is_vacant_around(&casting.tables.occupied, range, spreads[0].most(spreads[1])) {
+        if is_vacant_around(&casting.tables.cells, range, spreads[0].most(spreads[1])) {
             continue;
         }
         let steps = PairOfSteps {

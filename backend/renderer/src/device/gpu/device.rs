@@ -43,7 +43,7 @@ pub struct GpuDevice {
     importance_most: Storage,
     index: Storage,
     materials: Storage,
-    occupied: Storage,
+    table_cells: Storage,
     views: Vec<ViewBuffers>,
     feedback: Storage,
     frame_feedback: FrameFeedback,
@@ -93,7 +93,7 @@ impl GpuDevice {
             links,
             nodes: storage("nodes"),
             cells: storage("visible cells"),
-            occupied: storage("occupied table cells"),
+            table_cells: storage("table cells"),
             optics: storage("optics table"),
             importance: storage("importance table"),
             importance_most: storage("largest importances"),
@@ -161,7 +161,7 @@ impl GpuDevice {
     pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
         let _turn = self.context.turn();
         self.optics.write(&self.context, &tables.optics);
-        self.occupied.write(&self.context, &tables.occupied);
+        self.table_cells.write(&self.context, &tables.cells);
         self.importance.write_if_any(&self.context, &tables.importance);
         self.importance_most.write_if_any(&self.context, &tables.importance_most);
         self.index.write_if_any(&self.context, &tables.index);
@@ -330,7 +330,7 @@ impl GpuDevice {
             (binding::PIXELS, &view.pixels),
             (binding::COUNTS, &view.counts),
             (binding::FEEDBACK, feedback),
-            (binding::OCCUPIED, &self.occupied),
+            (binding::TABLE_CELLS, &self.table_cells),
             (binding::CELLS, &self.cells),
         ];
         let mut entries: Vec<wgpu::BindGroupEntry> = buffers
