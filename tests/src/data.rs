@@ -155,8 +155,12 @@ pub fn noise() -> Store {
     })
 }
 
+/// The head MRI's file, of which nobody but its reader knows anything.
+pub fn head_mri_file() -> Option<PathBuf> {
+    has(HEAD_MRI, "mricron-data").then(|| HEAD_MRI.into())
+}
+
 /// The head MRI as an 8-bit store.
 pub fn head_mri() -> Option<Store> {
-    let build = |out: &Path| build_store(Path::new(HEAD_MRI), None, CodeBits::Eight, out);
-    has(HEAD_MRI, "mricron-data").then(|| store("head.lloom", build))
+    head_mri_file().map(|file| store("head.lloom", |out| build_store(&file, None, CodeBits::Eight, out)))
 }
