@@ -37,6 +37,12 @@ impl Hooks for ClipPlane {
     }
 
     #[inline(always)]
+    fn acts<F: Real>(link: &Constants<F>, state: &LinkState<F>, (point, _): (Vec3<F>, F)) -> bool {
+        let above = above(link, point);
+        if above > F::ZERO { state.weights[0] != F::ONE } else { above > -link[1][2] }
+    }
+
+    #[inline(always)]
     fn at<F: Real>(
         link: &Constants<F>,
         state: &LinkState<F>,
@@ -44,7 +50,7 @@ impl Hooks for ClipPlane {
         place: &Place<F>,
     ) -> Sample<F> {
         let [_, _, thickness, boost] = link[1];
-        let above = xyz(&link[0]).dot(place.point) - link[0][3];
+        let above = above(link, place.point);
         if above > F::ZERO {
             return scaled(sample, state.weights[0]);
         }
@@ -55,4 +61,10 @@ impl Hooks for ClipPlane {
         let changed = scaled(sample, F::ONE + (boost - F::ONE) * sliced);
         Sample { lit: changed.lit * (F::ONE - sliced), ..changed }
     }
+}
+
+/// δ: metres before the plane.
+#[inline(always)]
+fn above<F: Real>(link: &Constants<F>, point: Vec3<F>) -> F {
+    xyz(&link[0]).dot(point) - link[0][3]
 }
