@@ -187,7 +187,7 @@ fn add_parts_here<F: Real, K: Kernel>(
                 gradients = Gradients::new::<K>(casting, brick, ray, middle);
             }
             let mut samples = [plain];
-            let segment = Segment { ray, t: middle, scalars: (from, to) };
+            let segment = Segment { ray, t: middle, length: part, scalars: (from, to) };
             chain.enhance::<K, 1>(casting, &mut samples, [segment], &gradients);
             let [sample] = samples;
             let light = if sample.k[3] > F::ZERO {
@@ -235,12 +235,13 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     }
     let half = F::of(0.5) * length;
     if K::ENHANCES {
-        let segment = |ray, t, scalars| Segment { ray, t, scalars };
+        let both = F::of(2.0) * length;
+        let segment = |ray, t, length, scalars| Segment { ray, t, length, scalars };
         let segments = [
-            segment(first.ray, t0 + half, (s0, s1)),
-            segment(second.ray, t1 + half, (s1, s2)),
-            segment(first.ray, middle, (s0, s2)),
-            segment(first.ray, middle, range),
+            segment(first.ray, t0 + half, length, (s0, s1)),
+            segment(second.ray, t1 + half, length, (s1, s2)),
+            segment(first.ray, middle, both, (s0, s2)),
+            segment(first.ray, middle, both, range),
         ];
         let mut samples = [pair.first, pair.second, pair.both, pair.reach];
         chain.enhance::<K, 4>(casting, &mut samples, segments, &gradients);

@@ -103,8 +103,8 @@ macro_rules! enhancers {
             }
 
             /// See [`Law::most_factor`].
-            pub fn most_factor(&self) -> f64 {
-                match self { $(Self::$name(found) => found.most_factor(),)+ }
+            pub fn most_factor(&self, corners: &[DVec3; 8]) -> f64 {
+                match self { $(Self::$name(found) => found.most_factor(corners),)+ }
             }
 
             /// See [`Law::may_act_within`].

@@ -15,6 +15,8 @@ pub struct Segment<'a, F> {
     pub ray: &'a Ray<F>,
     /// Its middle.
     pub t: F,
+    /// Metres.
+    pub length: F,
     /// The scalars at its ends.
     pub scalars: (F, F),
 }
@@ -128,6 +130,7 @@ impl<F: Real> Chain<F> {
     ) {
         let place = |segment: &Segment<F>| Place {
             point: segment.ray.point_in_display(segment.t),
+            reach: segment.ray.direction_in_display * (F::of(0.5) * segment.length),
             gradient: gradients.at,
             scalars: segment.scalars,
             view: self.view,

@@ -20,6 +20,8 @@ pub struct LinkState<F> {
 pub struct Place<F> {
     /// Middle of the segment, metres, display frame.
     pub point: Vec3<F>,
+    /// From there to the end of the segment.
+    pub reach: Vec3<F>,
     /// Of the scalar there, per finest voxel, display frame.
     pub gradient: Vec3<F>,
     /// The scalars at the segment's ends.
