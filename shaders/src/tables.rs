@@ -1,6 +1,6 @@
 //! Pre-integrated transfer functions: curves made into tables of f and F = ∫ f.
 
-use crate::needs::{Compositing, Needs, Way};
+use crate::needs::{Needs, Way};
 use glam::DVec3;
 use layout::{ImportanceEntry, OpticsEntry};
 use optics::{Curve, Optics};
@@ -28,9 +28,9 @@ pub struct Tables {
 impl Tables {
     /// The tables that a kernel for these optics and needs reads.
     pub fn new(optics: &Optics, needs: &Needs) -> Self {
-        let importance = match (&optics.mimda, needs.compositing) {
-            (Some(mimda), Compositing::Mimda(_)) => importance_table(&mimda.importance),
-            (Some(_) | None, _) => Vec::new(),
+        let importance = match &optics.mimda {
+            Some(mimda) if needs.reads_importance() => importance_table(&mimda.importance),
+            Some(_) | None => Vec::new(),
         };
         let index = match (&optics.refraction, needs.way) {
             (Some(index), Way::Refracted) => nodes().map(|s| index.at(s) as f32).collect(),

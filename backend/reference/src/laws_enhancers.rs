@@ -224,6 +224,27 @@ fn a_probe_does_not_see_the_sign_of_a_gradient_and_opens_where_there_is_none() {
 }
 
 #[test]
+fn a_probe_weighs_edges_by_importance_whatever_gamma_is() {
+    let sloped = AnalyticField::new(DVec3::splat(10.0), |_| 0.5, |_| DVec3::new(0.0, 0.15, 0.0));
+    let chain = [Enhancer::Probe(probe(DVec3::splat(0.05), 0.03))];
+    let see = |importance: f64, gamma: f64| {
+        let model = with_importance(fog(0.2), Curve::constant(importance), gamma, MimdaForm::Consistent);
+        seen(with(model, &chain), TIGHT, &sloped, &x_ray())
+    };
+    let plain = seen(with(fog(0.2), &chain), TIGHT, &sloped, &x_ray());
+    assert_eq!(see(1.0, 0.0), plain);
+    // A gradient of three quarters counts as a sixth of that, and with it the edge: η is a smoothstep of both.
+    assert!(difference(&see(1.0 / 6.0, 0.0), &plain) > 0.05);
+    assert_close(see(1.0 / 6.0, 0.0), see(1.0 / 6.0, 1e-12), 1e-9);
+    // A picker before the probe says what is important.
+    let picked = |gamma: f64| {
+        let model = with_importance(fog(0.2), Curve::constant(0.0), gamma, MimdaForm::Consistent);
+        seen(with(model, &[picker([0.4, 0.5, 0.5, 0.6], 1.0), chain[0]]), TIGHT, &sloped, &x_ray())
+    };
+    assert_close(picked(0.0), plain, TIGHT);
+}
+
+#[test]
 fn a_picker_replaces_importance_and_hides_the_rest() {
     // A full picker of the upper half: only s > 0.5 is seen, and where it starts importance is 1: with γ = 1 nothing
     // before it stays.

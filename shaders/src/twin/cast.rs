@@ -1,6 +1,6 @@
 //! One ray from a pixel to its colour.
 
-use super::composite::{Consistent, Mimda, Over, Paper};
+use super::composite::{Consistent, Mimda, Over, Paper, Told};
 use super::debug::debug_pixel;
 use super::kernel::{Blended, Enhanced, Full, Lean};
 use super::shade::{AnyShade, Phong, Plain};
@@ -29,15 +29,25 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
             }
         };
     }
+    /// The same where enhancers may look at importance that is not accumulated.
+    macro_rules! told {
+        ($frame:ident, $shade:ident) => {
+            if needs.tells_importance {
+                cast_ray::<F, $frame<$shade, Told>>(casting, &ray)
+            } else {
+                composited!($frame, $shade)
+            }
+        };
+    }
     match (Frame::of(needs), needs.shading == Shading::Plain) {
         (Frame::Lean, true) => composited!(Lean, Plain),
         (Frame::Lean, false) => composited!(Lean, Phong),
         (Frame::Blended, true) => composited!(Blended, Plain),
         (Frame::Blended, false) => composited!(Blended, Phong),
-        (Frame::Enhanced, true) => composited!(Enhanced, Plain),
-        (Frame::Enhanced, false) => composited!(Enhanced, Phong),
+        (Frame::Enhanced, true) => told!(Enhanced, Plain),
+        (Frame::Enhanced, false) => told!(Enhanced, Phong),
         (Frame::Full, _) => {
-            let cast = composited!(Full, AnyShade);
+            let cast = told!(Full, AnyShade);
             Cast { rgba: debug_pixel(casting, cast.rgba, cast.samples), ..cast }
         }
     }
@@ -53,8 +63,7 @@ enum Frame {
 
 impl Frame {
     fn of(needs: &Needs) -> Self {
-        let Needs { levels, blends, spreads, shading, has_materials, compositing: _, way, chain, debug } =
-            *needs;
+        let Needs { levels, blends, spreads, shading, has_materials, way, chain, debug, .. } = *needs;
         let is_rare = levels != Levels::Single
             || shading.has_detail()
             || has_materials

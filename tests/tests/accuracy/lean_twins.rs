@@ -35,8 +35,14 @@ fn assert_same(display: &Display, scene: &TestScene) {
 fn lean_twins_draw_what_the_full_one_does_to_the_bit() {
     let _turn = draw::turn();
     let display = scenes::with_raster(&Display::load("desk8").unwrap(), 80, 60);
-    let chains =
-        ["clip plane", "probe", "band picker", "layer opacity", "picker, probe and clip plane with MImDA"];
+    let chains = [
+        "clip plane",
+        "probe",
+        "band picker",
+        "layer opacity",
+        "picker, probe and clip plane with MImDA",
+        "probe by importance",
+    ];
     let base = techniques::bumps(&display);
     let mut all: Vec<TestScene> = TECHNIQUES
         .iter()

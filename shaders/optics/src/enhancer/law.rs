@@ -13,6 +13,9 @@ pub trait Law {
     /// Whether it looks at bands of scalars.
     const NEEDS_BAND: bool = false;
 
+    /// Whether it looks at importance where none is accumulated, too.
+    const NEEDS_IMPORTANCE: bool = false;
+
     /// Checks what the types do not.
     ///
     /// # Errors

@@ -77,6 +77,11 @@ macro_rules! enhancers {
                 match self { $(Self::$name => $name::NEEDS_GRADIENT,)+ }
             }
 
+            /// Whether it looks at importance where none is accumulated, too.
+            pub fn needs_importance(self) -> bool {
+                match self { $(Self::$name => $name::NEEDS_IMPORTANCE,)+ }
+            }
+
             /// Whether it looks at bands of scalars.
             pub fn needs_band(self) -> bool {
                 match self { $(Self::$name => $name::NEEDS_BAND,)+ }

@@ -1,7 +1,6 @@
 //! Maximum Importance Difference Accumulation (LFD eq. 3): what its forms share.
 
 use super::{Accumulated, Composite, Light, Sample};
-use crate::twin::importance::importance_between;
 use crate::twin::{Casting, Real};
 use std::marker::PhantomData;
 
@@ -33,14 +32,8 @@ impl<M: Form> Composite for Mimda<M> {
     const ONCE_PER_STEP: bool = M::ONCE_PER_STEP;
 
     #[inline(always)]
-    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], (s0, s1): (F, F)) -> Sample<F> {
-        let tables = casting.tables;
-        Sample {
-            k,
-            lit: F::ONE,
-            brightness: F::ONE,
-            importance: importance_between(&tables.importance, &tables.importance_most, s0, s1),
-        }
+    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], scalars: (F, F)) -> Sample<F> {
+        Sample::told(casting, k, scalars)
     }
 
     /// Importance acts whatever the extinction: no segment is clear.
