@@ -104,7 +104,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
             if plain.k.w > 0.0 && (SHADES || (CHAIN_NEEDS_GRADIENT && chain_spread(middle) > 0.0)) {
                 gradients = gradients_at(brick, ray, middle);
             }
-            let sample = enhance(plain, ray, middle, from_s, to_s, gradients);
+            let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
             let lit = light_on(sample, gradients, ray, from_s, to_s);
             let light = debug_light(segment_light(sample, thickness, lit), ray, middle);
             if ONCE_PER_STEP {
@@ -136,10 +136,10 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
     if enhancers_look && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
         gradients = gradients_at(brick, ray, middle);
     }
-    pair.first = enhance(pair.first, ray, t0 + 0.5 * step, s0, s1, gradients);
-    pair.second = enhance(pair.second, next_ray, t1 + 0.5 * step, s1, s2, gradients);
-    pair.both = enhance(pair.both, ray, middle, s0, s2, gradients);
-    pair.reach = enhance(pair.reach, ray, middle, range.x, range.y, gradients);
+    pair.first = enhance(pair.first, ray, t0 + 0.5 * step, step, s0, s1, gradients);
+    pair.second = enhance(pair.second, next_ray, t1 + 0.5 * step, step, s1, s2, gradients);
+    pair.both = enhance(pair.both, ray, middle, 2.0 * step, s0, s2, gradients);
+    pair.reach = enhance(pair.reach, ray, middle, 2.0 * step, range.x, range.y, gradients);
     let visible = still_to_come(*front);
     let parts = max(parts_of_step(pair, thickness, visible, spread), parts_of_rise(*front, pair.reach));
     if parts == 1.0 {

@@ -209,15 +209,42 @@ fn idle_enhancers() -> Vec<(&'static str, Vec<Enhancer>)> {
     ]
 }
 
+/// Enhancers that the kernel cannot leave out: plane and probe reach a corner of the volume, the others all of it, where
+/// they change next to nothing.
+fn touching_enhancers(scene: &TestScene) -> Vec<(&'static str, Vec<Enhancer>)> {
+    let all = scene.source.shape().dims().as_dvec3();
+    let in_display = |share: f64| scene.frame.display_from_volume.transform_point3(all * share);
+    let (corner, diagonal) = (in_display(1.0), in_display(1.0) - in_display(0.0));
+    let everything = Trapezoid::new([0.0, 0.0, 1.0, 1.0]).expect("corners that do not fall make a band");
+    let mut chains = idle_enhancers();
+    for enhancer in chains.iter_mut().flat_map(|(_, chain)| chain) {
+        match enhancer {
+            Enhancer::ClipPlane(plane) => {
+                plane.point_in_display = in_display(0.95);
+                plane.normal_in_display = diagonal.normalize();
+            }
+            Enhancer::Probe(probe) => {
+                (probe.centre_in_display, probe.radius_m) = (corner, 0.15 * diagonal.length());
+            }
+            Enhancer::BandPicker(picker) => picker.band = everything,
+            Enhancer::LayerOpacity(layer) => (layer.away, layer.toward) = (1.0 + 1e-6, 1.0 + 1e-6),
+        }
+    }
+    chains
+}
+
 fn enhancers(results: &mut Results, display: &Display) {
-    for device in devices() {
-        head(results, &format!("Enhancers that change nothing, {device:?}"));
+    type Chains = fn(&TestScene) -> Vec<(&'static str, Vec<Enhancer>)>;
+    let kinds: [(&str, Chains); 2] =
+        [("that change nothing", |_| idle_enhancers()), ("that touch the volume", touching_enhancers)];
+    for (device, (kind, chains)) in devices().into_iter().flat_map(|d| kinds.map(|kind| (d, kind))) {
+        head(results, &format!("Enhancers {kind}, {device:?}"));
         let with = draw::With::device(device);
         for scene in all(display) {
             for (kind, light) in [("plain", None), ("lit", Some(Light::default()))] {
                 let frame = FrameState { light, ..scene.frame.clone() };
                 let mut without = Contender::new(display, &scene, frame.clone(), with);
-                for (name, chain) in idle_enhancers() {
+                for (name, chain) in chains(&scene) {
                     let mut frame = frame.clone();
                     frame.optics.enhancers = chain;
                     let mut enhanced = Contender::new(display, &scene, frame, with);

@@ -137,7 +137,10 @@ impl Presented {
             && !frame.quality.quadrilinear;
         if grows {
             let (low, high) = (scalar(own.min.min(parent.min)), scalar(own.max.max(parent.max)));
-            record.most_extinction = (optics.extinction.max_on(low, high) * optics.most_factor()) as f32;
+            let corners = self.source.shape().corners(node.key);
+            let corners = corners.map(|corner| frame.display_from_volume.transform_point3(corner));
+            record.most_extinction =
+                (optics.extinction.max_on(low, high) * optics.most_factor(&corners)) as f32;
         }
     }
 }

@@ -19,8 +19,8 @@ pub fn clip_plane() -> ClipPlane {
         normal_in_display: DVec3::new(0.3, 0.2, 1.0).normalize(),
         context: Ramp { low: 0.05, high: 0.4 },
         thickness_m: 0.012,
-        boost: 6.0,
-        strength: 0.9,
+        boost: ClipPlane::OPAQUE,
+        strength: 1.0,
     }
 }
 
@@ -83,7 +83,7 @@ pub fn bumps(display: &Display) -> TestScene {
 type Change = fn(&mut TestScene);
 
 /// Every technique by name.
-pub const TECHNIQUES: [(&str, Change); 11] = [
+pub const TECHNIQUES: [(&str, Change); 12] = [
     ("quadrilinear filtering", |scene| {
         scene.frame.quality.quadrilinear = true;
         scene.frame.quality.lod_scale = 2.3;
@@ -127,8 +127,13 @@ pub const TECHNIQUES: [(&str, Change); 11] = [
         scene.frame.optics.enhancers = vec![
             Enhancer::BandPicker(band_picker([0.35, 0.4, 0.5, 0.7])),
             Enhancer::Probe(probe()),
-            Enhancer::ClipPlane(clip_plane()),
+            Enhancer::ClipPlane(ClipPlane { boost: 6.0, strength: 0.9, ..clip_plane() }),
         ];
+    }),
+    ("probe by importance", |scene| {
+        let importance = Curve::new(vec![(0.35, 0.05), (0.6, 0.9)]).expect("the points rise");
+        scene.frame.optics.mimda = Some(Mimda { importance, gamma: 0.0, form: MimdaForm::Consistent });
+        scene.frame.optics.enhancers = vec![Enhancer::Probe(probe())];
     }),
 ];
 

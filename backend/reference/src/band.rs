@@ -21,7 +21,7 @@ pub struct Band {
     pub colour: Linear<DVec3>,
     /// Importance as the chain leaves it; 0 where the medium has none.
     pub importance: Linear<f64>,
-    /// Importance as the chain of enhancers takes it: the scene's own, 1 where none is accumulated.
+    /// Importance as the chain of enhancers takes it: the scene's own, 1 where it gives none or nothing looks at it.
     pub told: Linear<f64>,
     /// What each link of the chain has of the scalar: its own band's value, 0 for links without a band.
     pub shares: [Linear<f64>; MOST_ENHANCERS],

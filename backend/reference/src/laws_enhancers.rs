@@ -140,10 +140,28 @@ fn a_clip_plane_across_fog_has_its_closed_form() {
     let half = Ramp { low: -1.0, high: 1.0 };
     assert!((opacity(cut(half, 1.0)) + (-0.2 * 8.5_f64).exp_m1()).abs() < TIGHT);
     assert!((opacity(cut(NEVER, 0.5)) + (-0.2 * 8.5_f64).exp_m1()).abs() < TIGHT);
-    // ∫ smoothstep over the thickness is half of it.
+    // 1/y² − 2 + 2y is 3 at y = 1/2, and its integral from there to y = 1 is 3/4.
     let sliced = ClipPlane { thickness_m: 0.04, boost: 3.0, ..plane(0.03) };
-    let exact = -(-0.2 * (7.0 + 2.0 * 2.0_f64)).exp_m1();
+    let exact = -(-0.2 * (3.0 + 4.0 * (0.5 * 3.0 + 0.75_f64))).exp_m1();
     assert!((opacity(Enhancer::ClipPlane(sliced)) - exact).abs() < TIGHT);
+}
+
+#[test]
+fn whatever_a_plane_slices_is_opaque_in_the_colour_that_it_has_there() {
+    let ramp = Curve::new(vec![(0.0, DVec3::X), (1.0, DVec3::Y)]).unwrap();
+    let sliced = ClipPlane { thickness_m: 0.04, boost: ClipPlane::OPAQUE, ..plane(0.03) };
+    for (per_voxel, within) in [(2e-3, 1e-3), (0.2, 1e-4), (20.0, 1e-6)] {
+        let model = optics(Curve::constant(per_voxel), ramp.clone());
+        // The plane lies at x = 3 voxels, where s = 0.3.
+        let slice =
+            seen(with(model, &[Enhancer::ClipPlane(sliced)]), TIGHT, &along_x(|x| x / 10.0), &x_ray());
+        assert!(slice.opacity > 1.0 - within, "{per_voxel}: {slice:?}");
+        // Of the thinnest, light comes from a tenth of a voxel behind it.
+        assert!((slice.rgb - DVec3::new(0.7, 0.3, 0.0)).length() < 10.0 * within, "{per_voxel}: {slice:?}");
+    }
+    // Where there is nothing there is nothing to see.
+    let model = with(fog(0.0), &[Enhancer::ClipPlane(sliced)]);
+    assert_eq!(seen(model, TIGHT, &along_x(|_| 0.5), &x_ray()).opacity, 0.0);
 }
 
 #[test]
@@ -203,6 +221,27 @@ fn a_probe_does_not_see_the_sign_of_a_gradient_and_opens_where_there_is_none() {
     let silhouette = see(DVec3::Y);
     assert!((silhouette.opacity + (-0.2 * (4.0 + 2.0 + 3.0_f64)).exp_m1()).abs() < TIGHT, "{silhouette:?}");
     assert!(silhouette.rgb.x < 0.5 * silhouette.opacity);
+}
+
+#[test]
+fn a_probe_weighs_edges_by_importance_whatever_gamma_is() {
+    let sloped = AnalyticField::new(DVec3::splat(10.0), |_| 0.5, |_| DVec3::new(0.0, 0.15, 0.0));
+    let chain = [Enhancer::Probe(probe(DVec3::splat(0.05), 0.03))];
+    let see = |importance: f64, gamma: f64| {
+        let model = with_importance(fog(0.2), Curve::constant(importance), gamma, MimdaForm::Consistent);
+        seen(with(model, &chain), TIGHT, &sloped, &x_ray())
+    };
+    let plain = seen(with(fog(0.2), &chain), TIGHT, &sloped, &x_ray());
+    assert_eq!(see(1.0, 0.0), plain);
+    // A gradient of three quarters counts as a sixth of that, and with it the edge: η is a smoothstep of both.
+    assert!(difference(&see(1.0 / 6.0, 0.0), &plain) > 0.05);
+    assert_close(see(1.0 / 6.0, 0.0), see(1.0 / 6.0, 1e-12), 1e-9);
+    // A picker before the probe says what is important.
+    let picked = |gamma: f64| {
+        let model = with_importance(fog(0.2), Curve::constant(0.0), gamma, MimdaForm::Consistent);
+        seen(with(model, &[picker([0.4, 0.5, 0.5, 0.6], 1.0), chain[0]]), TIGHT, &sloped, &x_ray())
+    };
+    assert_close(picked(0.0), plain, TIGHT);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::Cubic;
 use super::band::{Band, Linear, linear};
 use super::enhancer::Chain;
 use glam::{DVec3, DVec4};
-use optics::{Curve, Material, MimdaForm, Optics};
+use optics::{Curve, Material, Mimda, MimdaForm, Optics};
 
 /// How strongly importance erases what lies in front of it.
 #[derive(Clone, Copy, Debug)]
@@ -190,8 +190,7 @@ fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
     knots.extend(optics.extinction.knots_between(0.0, 1.0));
     knots.extend(optics.colour.knots_between(0.0, 1.0));
     knots.extend(optics.materials.iter().flat_map(|curve| curve.knots_between(0.0, 1.0)));
-    // Without a chain, importance that does not erase does nothing.
-    let told = optics.accumulation();
+    let told = importance_told(optics, chain);
     knots.extend(told.iter().flat_map(|m| m.importance.knots_between(0.0, 1.0)));
     knots.extend(chain.knots().filter(|&s| s > 0.0 && s < 1.0));
     knots.sort_by(f64::total_cmp);
@@ -199,10 +198,15 @@ fn knots(optics: &Optics, chain: &Chain) -> Vec<f64> {
     knots
 }
 
+/// Importance, where anything looks at it: what does not erase is looked at by enhancers alone.
+fn importance_told<'a>(optics: &'a Optics, chain: &Chain) -> Option<&'a Mimda> {
+    optics.accumulation().or(optics.mimda.as_ref().filter(|_| chain.weighs_importance()))
+}
+
 fn band(optics: &Optics, chain: &Chain, voxel_m: f64, s0: f64, s1: f64) -> Band {
     let per_metre = optics.extinction_per_metre(voxel_m);
     let Linear(extinction, change) = linear(&optics.extinction, s0, s1);
-    let told = optics.accumulation().map_or(Linear(1.0, 0.0), |m| linear(&m.importance, s0, s1));
+    let told = importance_told(optics, chain).map_or(Linear(1.0, 0.0), |m| linear(&m.importance, s0, s1));
     let shares = chain.shares(s0, s1);
     Band {
         start: s0,

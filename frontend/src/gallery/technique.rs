@@ -138,7 +138,7 @@ fn cut_for_left_eye(subject: &Subject) -> Enhancer {
         normal_in_display: -subject.look_of(0),
         context: Ramp { low: 1.0 - facing.high, high: 1.0 - facing.low },
         thickness_m: 0.02 * subject.longest_m,
-        boost: 4.0,
+        boost: ClipPlane::OPAQUE,
         strength: 1.0,
     })
 }
@@ -151,7 +151,7 @@ fn slanted_cut(subject: &Subject) -> Enhancer {
         normal_in_display: normal,
         context: Ramp { low: 0.6, high: 0.95 },
         thickness_m: 0.02 * subject.longest_m,
-        boost: 4.0,
+        boost: ClipPlane::OPAQUE,
         strength: 1.0,
     })
 }

@@ -238,8 +238,9 @@ impl Optics {
         self.enhancers.iter().fold(own, |told, enhancer| enhancer.most_importance(lo, hi, told))
     }
 
-    /// The largest factor that the chain may multiply an extinction by, at least 1.
-    pub fn most_factor(&self) -> f64 {
-        self.enhancers.iter().map(Enhancer::most_factor).product()
+    /// The largest factor that the chain may multiply an extinction by in a box with these corners in the display frame, at
+    /// least 1.
+    pub fn most_factor(&self, corners: &[DVec3; 8]) -> f64 {
+        self.enhancers.iter().map(|enhancer| enhancer.most_factor(corners)).product()
     }
 }

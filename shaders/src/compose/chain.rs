@@ -79,8 +79,9 @@ fn next_break(t: f32) -> f32 {{
 {breaks}    return next;
 }}
 
-fn enhance(plain: Sample, ray: Ray, t: f32, s0: f32, s1: f32, gradients: Gradients) -> Sample {{
-    let place = Place(point_in_display(ray, t), {gradient}, s0, s1, chain.view);
+fn enhance(plain: Sample, ray: Ray, t: f32, length: f32, s0: f32, s1: f32, gradients: Gradients) -> Sample {{
+    let reach = ray.direction_in_display * (0.5 * length);
+    let place = Place(point_in_display(ray, t), reach, {gradient}, s0, s1, chain.view);
     var sample = plain;
 {at}    return sample;
 }}

@@ -85,12 +85,21 @@ impl Needs {
     }
 
     fn composite_wgsl(&self) -> Vec<&'static str> {
-        let form = match self.compositing {
-            Compositing::Over => return vec![module!("composite/over")],
-            Compositing::Mimda(MimdaForm::Paper) => module!("composite/mimda_paper"),
-            Compositing::Mimda(MimdaForm::Consistent) => module!("composite/mimda_consistent"),
+        let mut modules = if self.reads_importance() {
+            vec![module!("importance"), module!("composite/sample")]
+        } else {
+            vec![module!("composite/plain_sample")]
         };
-        vec![module!("importance"), module!("composite/mimda"), form]
+        modules.extend(match self.compositing {
+            Compositing::Over => vec![module!("composite/over")],
+            Compositing::Mimda(MimdaForm::Paper) => {
+                vec![module!("composite/mimda"), module!("composite/mimda_paper")]
+            }
+            Compositing::Mimda(MimdaForm::Consistent) => {
+                vec![module!("composite/mimda"), module!("composite/mimda_consistent")]
+            }
+        });
+        modules
     }
 }
 
@@ -161,6 +170,7 @@ impl KernelKey {
                                     shading,
                                     has_materials,
                                     compositing,
+                                    tells_importance: false,
                                     way,
                                     chain,
                                     debug,
@@ -180,6 +190,15 @@ impl KernelKey {
             let needs = Needs { shading, compositing, way: Way::Refracted, debug, ..Needs::PLAIN };
             keys.push(Self { filter: Filter::Exact, needs });
         }
+        // Importance that is not accumulated is looked at by enhancers alone.
+        let tells = |key: &&Self| {
+            let Self { filter, needs } = key;
+            let is_plain = needs.shading == Shading::Plain && needs.compositing == Compositing::Over;
+            *filter == Filter::Exact && is_plain && needs.chain.needs_importance()
+        };
+        let telling = |key: &Self| Self { needs: Needs { tells_importance: true, ..key.needs }, ..*key };
+        let told: Vec<Self> = keys.iter().filter(tells).map(telling).collect();
+        keys.extend(told);
         // Blending is looked at by levels, gradients and ways alone, and by enhancers through gradients.
         let with_blending = |key: Self| Self { needs: Needs { blends: true, ..key.needs }, ..key };
         let is_apart = |key: &&Self| {

@@ -9,7 +9,7 @@
 //! | gradient | `gradient/none`, `own`, `toward_parent`, `blended`, `detail` |
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
-//! | composite | `composite/over`, `mimda_paper`, `mimda_consistent` |
+//! | composite | `composite/plain_sample` or `sample`; `over`, or `mimda` with `mimda_paper` or `mimda_consistent` |
 //! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`Chain`] |
 //! | way | `way/straight`, or `way/path`, `pair` and `refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |

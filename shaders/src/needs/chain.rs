@@ -31,6 +31,11 @@ impl Chain {
         self.0[0].is_none()
     }
 
+    /// Whether a link looks at importance where none is accumulated, too.
+    pub(crate) fn needs_importance(&self) -> bool {
+        self.kinds().any(EnhancerKind::needs_importance)
+    }
+
     /// Whether a link looks at gradients.
     pub fn needs_gradient(&self) -> bool {
         self.kinds().any(EnhancerKind::needs_gradient)

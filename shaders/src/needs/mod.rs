@@ -61,6 +61,8 @@ pub struct Needs {
     pub has_materials: bool,
     /// Accumulation.
     pub compositing: Compositing,
+    /// Whether samples have an importance that enhancers look at, though it is not accumulated.
+    pub tells_importance: bool,
     /// Refraction.
     pub way: Way,
     /// Enhancers.
@@ -119,6 +121,7 @@ impl Needs {
         shading: Shading::Plain,
         has_materials: false,
         compositing: Compositing::Over,
+        tells_importance: false,
         way: Way::Straight,
         chain: Chain::EMPTY,
         debug: None,
@@ -127,22 +130,25 @@ impl Needs {
     /// What a scene needs; whether nodes blend and stand for a spread is the working set's to say, and a debug view the frame's.
     pub fn of(optics: &Optics, light: Option<&Light>, quality: &Quality) -> Self {
         let shading = Shading::for_light(light);
+        let (compositing, chain) = (Compositing::for_optics(optics), Chain::of(&optics.enhancers));
+        let is_accumulated = compositing != Compositing::Over;
         Self {
             levels: if quality.quadrilinear { Levels::Quadrilinear } else { Levels::Single },
             blends: false,
             spreads: false,
             shading,
             has_materials: optics.materials.is_some() && shading != Shading::Plain,
-            compositing: Compositing::for_optics(optics),
+            compositing,
+            tells_importance: optics.mimda.is_some() && !is_accumulated && chain.needs_importance(),
             way: Way::for_optics(optics),
-            chain: Chain::of(&optics.enhancers),
+            chain,
             debug: None,
         }
     }
 
     /// Whether the kernel reads the importance table.
     pub fn reads_importance(&self) -> bool {
-        matches!(self.compositing, Compositing::Mimda(_))
+        self.tells_importance || self.compositing != Compositing::Over
     }
 
     /// Whether it samples gradients.

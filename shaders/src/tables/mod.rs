@@ -5,7 +5,7 @@ mod nodes;
 
 pub use nodes::TABLE_CELLS;
 
-use crate::needs::{Compositing, Needs, Way};
+use crate::needs::{Needs, Way};
 use glam::DVec3;
 use integral::integrate;
 use layout::{ImportanceEntry, TableCell, TableEntry};
@@ -33,10 +33,8 @@ pub struct Tables {
 impl Tables {
     /// The tables that a kernel for these optics and needs reads.
     pub fn new(optics: &Optics, needs: &Needs) -> Self {
-        let importance = match (&optics.mimda, needs.compositing) {
-            (Some(mimda), Compositing::Mimda(_)) => Some(&mimda.importance),
-            (Some(_) | None, _) => None,
-        };
+        let mimda = optics.mimda.as_ref().filter(|_| needs.reads_importance());
+        let importance = mimda.map(|mimda| &mimda.importance);
         let index = optics.refraction.as_ref().filter(|_| needs.way == Way::Refracted);
         let materials = optics.materials.as_ref().filter(|_| needs.has_materials);
         let mut knots = Knots::default();

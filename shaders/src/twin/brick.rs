@@ -2,7 +2,7 @@
 
 use super::composite::{Accumulated, Composite, Light, Sample};
 use super::debug::debug_light;
-use super::enhance::Chain;
+use super::enhance::{Chain, Segment};
 use super::four::each;
 use super::gradient::Gradients;
 use super::kernel::Kernel;
@@ -187,7 +187,10 @@ fn add_parts_here<F: Real, K: Kernel>(
             if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
                 gradients = Gradients::new::<K>(casting, brick, ray, middle);
             }
-            let sample = chain.enhance::<K>(casting, plain, (ray, middle), (from, to), &gradients);
+            let mut samples = [plain];
+            let segment = Segment { ray, t: middle, length: part, scalars: (from, to) };
+            chain.enhance::<K, 1>(casting, &mut samples, [segment], &gradients);
+            let [sample] = samples;
             let light = if sample.k[3] > F::ZERO {
                 let material = material_between::<F, K>(casting, from, to);
                 K::Shade::lighting(casting, &gradients, ray, material)
@@ -232,10 +235,19 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
         gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
     }
     let half = F::of(0.5) * length;
-    pair.first = chain.enhance::<K>(casting, pair.first, (first.ray, t0 + half), (s0, s1), &gradients);
-    pair.second = chain.enhance::<K>(casting, pair.second, (second.ray, t1 + half), (s1, s2), &gradients);
-    pair.both = chain.enhance::<K>(casting, pair.both, (first.ray, middle), (s0, s2), &gradients);
-    pair.reach = chain.enhance::<K>(casting, pair.reach, (first.ray, middle), range, &gradients);
+    if K::ENHANCES {
+        let both = F::of(2.0) * length;
+        let segment = |ray, t, length, scalars| Segment { ray, t, length, scalars };
+        let segments = [
+            segment(first.ray, t0 + half, length, (s0, s1)),
+            segment(second.ray, t1 + half, length, (s1, s2)),
+            segment(first.ray, middle, both, (s0, s2)),
+            segment(first.ray, middle, both, range),
+        ];
+        let mut samples = [pair.first, pair.second, pair.both, pair.reach];
+        chain.enhance::<K, 4>(casting, &mut samples, segments, &gradients);
+        [pair.first, pair.second, pair.both, pair.reach] = samples;
+    }
     let visible = K::Composite::still_to_come(casting, front);
     let spread = F::of(K::Shade::spread(casting.needs)) + chain_spread;
     let parts = parts_of_step(&pair, thickness, visible, spread, scene.tolerance)

@@ -2,7 +2,7 @@
 
 use super::composite::{Consistent, Mimda, Over, Paper};
 use super::debug::debug_pixel;
-use super::kernel::{Blended, Full, Lean};
+use super::kernel::{Blended, Enhanced, Full, Lean};
 use super::shade::{AnyShade, Phong, Plain};
 use super::way::cast_ray;
 use super::{Cast, Casting, ProjectorRays, Real, ray::Ray};
@@ -19,7 +19,7 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
     macro_rules! composited {
         ($frame:ident, $shade:ident) => {
             match needs.compositing {
-                Compositing::Over => cast_ray::<F, $frame<$shade, Over>>(casting, &ray),
+                Compositing::Over => cast_ray::<F, $frame<$shade, Over<false>>>(casting, &ray),
                 Compositing::Mimda(MimdaForm::Paper) => {
                     cast_ray::<F, $frame<$shade, Mimda<Paper>>>(casting, &ray)
                 }
@@ -29,31 +29,51 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
             }
         };
     }
-    let is_plain = needs.shading == Shading::Plain;
-    match (is_lean(needs), needs.blends || needs.spreads, is_plain) {
-        (true, false, true) => composited!(Lean, Plain),
-        (true, false, false) => composited!(Lean, Phong),
-        (true, true, true) if needs.compositing == Compositing::Over => {
-            cast_ray::<F, Blended<Plain, Over>>(casting, &ray)
-        }
-        (true, true, false) if needs.compositing == Compositing::Over => {
-            cast_ray::<F, Blended<Phong, Over>>(casting, &ray)
-        }
-        _ => {
-            let cast = composited!(Full, AnyShade);
+    /// The same where enhancers may look at importance that is not accumulated.
+    macro_rules! told {
+        ($frame:ident, $shade:ident) => {
+            if needs.tells_importance {
+                cast_ray::<F, $frame<$shade, Over<true>>>(casting, &ray)
+            } else {
+                composited!($frame, $shade)
+            }
+        };
+    }
+    match (Frame::of(needs), needs.shading == Shading::Plain) {
+        (Frame::Lean, true) => composited!(Lean, Plain),
+        (Frame::Lean, false) => composited!(Lean, Phong),
+        (Frame::Blended, true) => composited!(Blended, Plain),
+        (Frame::Blended, false) => composited!(Blended, Phong),
+        (Frame::Enhanced, true) => told!(Enhanced, Plain),
+        (Frame::Enhanced, false) => told!(Enhanced, Phong),
+        (Frame::Full, _) => {
+            let cast = told!(Full, AnyShade);
             Cast { rgba: debug_pixel(casting, cast.rgba, cast.samples), ..cast }
         }
     }
 }
 
-/// Whether shading, compositing, blending and spreads are all that a scene needs.
-fn is_lean(needs: &Needs) -> bool {
-    let Needs { levels, blends: _, spreads: _, shading, has_materials, compositing: _, way, chain, debug } =
-        *needs;
-    levels == Levels::Single
-        && !shading.has_detail()
-        && !has_materials
-        && way == Way::Straight
-        && chain == Chain::EMPTY
-        && debug.is_none()
+/// The twin with the fewest features that has all that a scene needs, shading and compositing apart.
+enum Frame {
+    Lean,
+    Blended,
+    Enhanced,
+    Full,
+}
+
+impl Frame {
+    fn of(needs: &Needs) -> Self {
+        let Needs { levels, blends, spreads, shading, has_materials, way, chain, debug, .. } = *needs;
+        let is_rare = levels != Levels::Single
+            || shading.has_detail()
+            || has_materials
+            || way != Way::Straight
+            || debug.is_some();
+        match (is_rare, chain == Chain::EMPTY, blends || spreads) {
+            (true, ..) => Self::Full,
+            (false, false, _) => Self::Enhanced,
+            (false, true, true) => Self::Blended,
+            (false, true, false) => Self::Lean,
+        }
+    }
 }

@@ -12,6 +12,8 @@ pub trait Kernel: Features {
     type Shade: Shade;
     /// The compositing slot.
     type Composite: Composite;
+    /// The twin of stretches of a ray that no enhancer changes.
+    type Plain: Kernel;
 }
 
 /// Shading and compositing alone.
@@ -20,38 +22,32 @@ pub struct Lean<S, C>(PhantomData<(S, C)>);
 /// The same with nodes that blend into their parents.
 pub struct Blended<S, C>(PhantomData<(S, C)>);
 
+/// The same with enhancers.
+pub struct Enhanced<S, C>(PhantomData<(S, C)>);
+
 /// Everything.
 pub struct Full<S, C>(PhantomData<(S, C)>);
 
-impl<S, C: Composite> Features for Lean<S, C> {
-    const IS_FULL: bool = false;
-    const BLENDS: bool = false;
-    const READS_IMPORTANCE: bool = C::READS_IMPORTANCE;
-}
+/// What each twin looks for, and what it is made of.
+macro_rules! kernels {
+    ($($name:ident: full $full:literal, blends $blends:literal, enhances $enhances:literal, plain $plain:ident;)+) => {$(
+        impl<S, C: Composite> Features for $name<S, C> {
+            const IS_FULL: bool = $full;
+            const BLENDS: bool = $blends;
+            const ENHANCES: bool = $enhances;
+            const READS_IMPORTANCE: bool = C::READS_IMPORTANCE;
+        }
 
-impl<S: Shade, C: Composite> Kernel for Lean<S, C> {
-    type Shade = S;
-    type Composite = C;
+        impl<S: Shade, C: Composite> Kernel for $name<S, C> {
+            type Shade = S;
+            type Composite = C;
+            type Plain = $plain<S, C>;
+        }
+    )+};
 }
-
-impl<S, C: Composite> Features for Blended<S, C> {
-    const IS_FULL: bool = false;
-    const BLENDS: bool = true;
-    const READS_IMPORTANCE: bool = C::READS_IMPORTANCE;
-}
-
-impl<S: Shade, C: Composite> Kernel for Blended<S, C> {
-    type Shade = S;
-    type Composite = C;
-}
-
-impl<S, C: Composite> Features for Full<S, C> {
-    const IS_FULL: bool = true;
-    const BLENDS: bool = true;
-    const READS_IMPORTANCE: bool = C::READS_IMPORTANCE;
-}
-
-impl<S: Shade, C: Composite> Kernel for Full<S, C> {
-    type Shade = S;
-    type Composite = C;
+kernels! {
+    Lean: full false, blends false, enhances false, plain Lean;
+    Blended: full false, blends true, enhances false, plain Blended;
+    Enhanced: full false, blends true, enhances true, plain Blended;
+    Full: full true, blends true, enhances true, plain Full;
 }

@@ -22,6 +22,8 @@ struct LinkState {
 struct Place {
     // Middle of the segment, metres, display frame.
     point: vec3<f32>,
+    // From there to the end of the segment.
+    reach: vec3<f32>,
     // Of the scalar there, per finest voxel, display frame.
     gradient: vec3<f32>,
     // At the segment's ends.

@@ -1,4 +1,4 @@
-// Without importance accumulation all samples are equally important to enhancers.
+// Where a scene gives no importance, or no link needs it, all samples are equally important.
 
 fn mean_importance(sample: Sample) -> f32 {
     return 1.0;

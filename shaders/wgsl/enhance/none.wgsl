@@ -14,6 +14,6 @@ fn next_break(t: f32) -> f32 {
     return FAR;
 }
 
-fn enhance(sample: Sample, ray: Ray, t: f32, s0: f32, s1: f32, gradients: Gradients) -> Sample {
+fn enhance(sample: Sample, ray: Ray, t: f32, length: f32, s0: f32, s1: f32, gradients: Gradients) -> Sample {
     return sample;
 }

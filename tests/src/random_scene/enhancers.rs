@@ -56,7 +56,8 @@ fn planes() -> impl Strategy<Value = ClipPlane> {
             normal_in_display,
             context,
             thickness_m,
-            boost,
+            // From 1 to a million.
+            boost: 10f64.powf(1.5 * boost),
             strength,
         },
     )

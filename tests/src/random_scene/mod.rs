@@ -35,7 +35,7 @@ pub use volume::{RandomField, RandomVolume};
 use crate::scenes;
 use curves::Shape;
 use display_config::Display;
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use look::Look;
 use optics::{Enhancer, ExtinctionUnit, Light, MimdaForm, Optics, Quality};
 use proptest::prelude::*;
@@ -135,8 +135,12 @@ fn assemble(
         materials: look.materials,
         enhancers: chain.into_iter().map(|link| enhancers::placed(link, &place, volume.dims)).collect(),
     };
+    let corners = std::array::from_fn(|corner| {
+        let share = [0, 1, 2].map(|axis| f64::from(corner as u32 >> axis & 1));
+        place.transform_point3(DVec3::from(share) * volume.dims.as_dvec3())
+    });
     RandomScene {
-        most_per_voxel: extinction.most() * optics.most_factor(),
+        most_per_voxel: extinction.most() * optics.most_factor(&corners),
         is_even: extinction.is_even() && colour.is_even && look.is_even,
         is_gentle: look.refraction.is_gentle && (optics.refraction.is_none() || volume.is_smooth()),
         volume,

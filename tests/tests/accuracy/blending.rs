@@ -49,7 +49,7 @@ fn kept(scene: &TestScene) -> Limits {
 /// A wrong reading of a node's weights.
 type Spoil = fn([u32; 2]) -> [u32; 2];
 
-type Plainest = Full<Plain, Over>;
+type Plainest = Full<Plain, Over<false>>;
 
 fn display() -> Display {
     with_raster(&Display::load("desk8").unwrap(), 97, 73)

@@ -15,6 +15,7 @@ mod hard_cases;
 mod idle_tools;
 mod laws;
 mod layers;
+mod lean_twins;
 mod non_finite;
 mod paper;
 mod random;

@@ -1,12 +1,13 @@
 //! Every illustrative technique: kernel, twin and reference tell one picture.
 
 use display_config::Display;
+use glam::DVec3;
 use lightloom_tests::compare::{self, Errors, Limits, errors_between, errors_of};
 use lightloom_tests::draw::{self, Drawn, With};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES, band_picker, clip_plane, layer_opacity, probe};
 use lightloom_tests::twin_scene::{TwinScene, view};
-use optics::{BandPicker, ClipPlane, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe};
+use optics::{BandPicker, ClipPlane, Curve, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe, Ramp};
 use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
 use shaders::twin::Real;
 use std::sync::Arc;
@@ -185,6 +186,8 @@ fn gamma_zero_is_ordinary_compositing_to_the_bit_under_enhancers_too() {
     let display = small_display();
     for base in techniques::bases(&display) {
         let mut scene = techniques::with(&base, TECHNIQUES[10].0);
+        // All but the probe, which looks at importance whatever γ is.
+        scene.frame.optics.enhancers.remove(1);
         for device in draw::devices() {
             for form in [MimdaForm::Paper, MimdaForm::Consistent] {
                 let with_gamma = |gamma: f64, scene: &mut TestScene| {
@@ -200,6 +203,80 @@ fn gamma_zero_is_ordinary_compositing_to_the_bit_under_enhancers_too() {
                 assert!(zero.images == ordinary.images, "{device:?}, {form:?}");
                 assert!(some.images != ordinary.images, "{device:?}, {form:?}: γ changes nothing");
             }
+        }
+    }
+}
+
+/// A γ that is 0 in single precision, but not to those who ask whether it is: importance is accumulated, and erases nothing.
+const NEXT_TO_NO_GAMMA: f64 = 1e-60;
+
+#[test]
+fn a_probe_sees_the_same_importance_whether_it_is_accumulated_or_not() {
+    let _turn = draw::turn();
+    let display = small_display();
+    let scene = techniques::with(&techniques::bumps(&display), TECHNIQUES[11].0);
+    let picker = Enhancer::BandPicker(band_picker([0.35, 0.4, 0.5, 0.7]));
+    for (device, picks) in draw::devices().into_iter().flat_map(|d| [(d, false), (d, true)]) {
+        let with = |change: &dyn Fn(&mut Option<Mimda>)| {
+            let mut scene = scene.clone();
+            let optics = &mut scene.frame.optics;
+            optics.enhancers.splice(0..0, picks.then_some(picker));
+            change(&mut optics.mimda);
+            draw_on(&display, &scene, device)
+        };
+        let alone = with(&|_| ());
+        let gamma = |mimda: &mut Option<Mimda>| mimda.as_mut().unwrap().gamma = NEXT_TO_NO_GAMMA;
+        let accumulated = errors_between(&alone.images, &with(&gamma).images);
+        assert!(SAME_TO_ROUNDING.hold(&accumulated), "{device:?}, {picks}: {accumulated}");
+        let ignored = errors_between(&alone.images, &with(&|mimda| *mimda = None).images);
+        assert!(!SAME_TO_ROUNDING.hold(&ignored), "{device:?}, {picks}: importance changes nothing");
+    }
+}
+
+/// What counts as opaque.
+const OPAQUE: f32 = 0.999;
+/// A slice shows the tissue of its first hundredth of a voxel, of 255.
+const SAME_COLOUR: f32 = 0.5;
+
+#[test]
+fn a_slice_through_a_thin_medium_is_opaque_on_the_plane() {
+    let _turn = draw::turn();
+    let display = small_display();
+    let mut scene = techniques::bumps(&display);
+    // Without the plane, all of the volume together hides an eighth of what lies behind it.
+    scene.frame.light = None;
+    scene.frame.optics.extinction = Curve::constant(0.002);
+    let mut cut = scene.clone();
+    let never = Ramp { low: 2.0, high: 3.0 };
+    let facing = ClipPlane { normal_in_display: DVec3::Z, context: never, ..clip_plane() };
+    cut.frame.optics.enhancers = vec![Enhancer::ClipPlane(facing)];
+    // The plane lies where the one of five hundred times the extinction does.
+    let mut solid = cut.clone();
+    solid.frame.optics.extinction = Curve::constant(1.0);
+    for device in draw::devices() {
+        for step_voxels in [0.25, 1.0] {
+            let with = |scene: &TestScene| {
+                let mut scene = scene.clone();
+                scene.frame.quality.step_voxels = step_voxels;
+                draw_on(&display, &scene, device).images.clone()
+            };
+            let (thin, cut, solid) = (with(&scene), with(&cut), with(&solid));
+            let pixels = |images: &[ProjectorImage]| -> Vec<[f32; 4]> {
+                images.iter().flat_map(|image| image.rgba.as_chunks::<4>().0).copied().collect()
+            };
+            assert!(pixels(&thin).iter().all(|pixel| pixel[3] < 0.2));
+            let pairs: Vec<([f32; 4], [f32; 4])> = pixels(&cut).into_iter().zip(pixels(&solid)).collect();
+            // Those that are not, a ray comes to from the side.
+            let meant = pairs.iter().filter(|(_, solid)| solid[3] > OPAQUE).count();
+            let opaque: Vec<_> = pairs.into_iter().filter(|(thin, _)| thin[3] > OPAQUE).collect();
+            println!(
+                "{device:?}, steps of {step_voxels} voxels: {} pixels of {meant} are opaque",
+                opaque.len()
+            );
+            assert!(meant > 1000 && 10 * opaque.len() > 8 * meant, "{device:?}: {} of {meant}", opaque.len());
+            let worst = opaque.iter().flat_map(|(thin, solid)| (0..3).map(|c| (thin[c] - solid[c]).abs()));
+            let worst = 255.0 * worst.fold(0.0, f32::max);
+            assert!(worst < SAME_COLOUR, "{device:?}: {worst} of 255");
         }
     }
 }

@@ -5,7 +5,8 @@ use crate::sources::sources;
 use std::collections::BTreeSet;
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 19] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 20] = [
+    ("composite/plain_sample", Some("shaders/src/twin/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
     ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),

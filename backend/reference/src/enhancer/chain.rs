@@ -22,8 +22,8 @@ enum Link {
 #[derive(Clone, Debug, Default)]
 pub struct Chain {
     links: Vec<Link>,
-    /// Whether importance is accumulated: without it all samples are equally important to every link.
-    accumulates: bool,
+    /// Whether the scene gives importance: without it all samples are equally important to every link.
+    has_importance: bool,
 }
 
 impl Chain {
@@ -35,8 +35,8 @@ impl Chain {
             Enhancer::BandPicker(picker) => Link::Picker(Picker::new(picker, view), picker.band),
             Enhancer::LayerOpacity(layer) => Link::Layer(Layer::new(layer, view), layer.band),
         };
-        let accumulates = optics.accumulation().is_some();
-        Self { links: optics.enhancers.iter().map(link).collect(), accumulates }
+        let has_importance = optics.mimda.is_some();
+        Self { links: optics.enhancers.iter().map(link).collect(), has_importance }
     }
 
     /// Whether there is no enhancer.
@@ -50,6 +50,11 @@ impl Chain {
             Link::Probe(probe) => Some(probe.view),
             Link::Clip(_) | Link::Picker(..) | Link::Layer(..) => None,
         })
+    }
+
+    /// Whether a link looks at importance, accumulated or not.
+    pub fn weighs_importance(&self) -> bool {
+        self.links.iter().any(|link| matches!(link, Link::Probe(_)))
     }
 
     /// The scalars at which a link's law is not smooth.
@@ -136,7 +141,7 @@ impl Chain {
                     sample.colour *= colour;
                 }
                 Link::Picker(picker, _) => {
-                    if self.accumulates {
+                    if self.has_importance {
                         sample.importance = picker.importance(sample.importance, share);
                     }
                     sample.extinction *= picker.factor(share);

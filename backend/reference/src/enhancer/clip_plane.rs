@@ -11,6 +11,8 @@ pub struct Clip {
     plane: ClipPlane,
     /// Factor of the extinction of what is cut away: lerp(1, μ, strength).
     context: f64,
+    /// δ from which on the boost holds the factor of the extinction.
+    boosted_from: f64,
 }
 
 impl Clip {
@@ -18,14 +20,16 @@ impl Clip {
     pub fn new(plane: ClipPlane, view: DVec3) -> Self {
         let facing = (-plane.normal_in_display.dot(view)).max(0.0);
         let context = 1.0.lerp(plane.context.at(1.0 - facing), plane.strength);
-        Self { plane, context }
+        let mut clip = Self { plane, context, boosted_from: 0.0 };
+        clip.boosted_from = clip.first_boosted();
+        clip
     }
 
-    /// The t at which a straight path crosses the plane and the back of the sliced tissue.
-    pub fn breaks(&self, way: &Ray) -> [f64; 2] {
+    /// The t at which a straight path crosses the plane, the back of the sliced tissue, and where the boost is reached.
+    pub fn breaks(&self, way: &Ray) -> [f64; 3] {
         let start = self.distance(way.origin_in_display);
         let speed = self.plane.normal_in_display.dot(way.direction_in_display);
-        [0.0, -self.plane.thickness_m].map(|distance| (distance - start) / speed)
+        [0.0, -self.plane.thickness_m, self.boosted_from].map(|distance| (distance - start) / speed)
     }
 
     /// Which part of the law holds at a point.
@@ -47,9 +51,26 @@ impl Clip {
             Zone::Before => (self.context, 1.0),
             Zone::Behind | Zone::Everywhere => {
                 let u = self.plane.strength * self.nearness(point);
-                (1.0.lerp(self.plane.boost, u), 1.0 - u)
+                (self.factor(self.distance(point)).min(self.plane.boost), 1.0 - u)
             }
         }
+    }
+
+    /// Factor of the extinction at a distance behind the plane, not held to the boost.
+    fn factor(&self, distance: f64) -> f64 {
+        let y = 1.0 - self.plane.strength * (1.0 + distance / self.plane.thickness_m);
+        y.powi(-2) - 2.0 * (1.0 - y)
+    }
+
+    /// Where the factor, which rises toward the plane, reaches the boost; on the plane if it does nowhere.
+    fn first_boosted(&self) -> f64 {
+        let is_boosted = |share: f64| self.factor(-share * self.plane.thickness_m) >= self.plane.boost;
+        let (mut boosted, mut free) = (0.0, 1.0);
+        while free - boosted > f64::EPSILON {
+            let middle = 0.5 * (boosted + free);
+            *(if is_boosted(middle) { &mut boosted } else { &mut free }) = middle;
+        }
+        -boosted * self.plane.thickness_m
     }
 
     /// smoothstep(δ, −thickness, 0).

@@ -117,6 +117,15 @@ impl<'a> IndexRules<'a> {
         }
     }
 
+    /// The most that enhancers multiply an extinction by in the node.
+    fn most_factor(&self, node: &CutNode) -> f64 {
+        if self.optics.enhancers.is_empty() {
+            return 1.0;
+        }
+        let corners = self.shape.corners(node.key);
+        self.optics.most_factor(&corners.map(|corner| self.lod.display_from_volume.transform_point3(corner)))
+    }
+
     /// Steps may grow where extinction is low; not where importance or refraction acts, which have no part in
     /// it, nor where ancestors' values are blended in. The bounds of a parent are those of its children, too.
     fn most_extinction(&self, cut: &Cut, node: &CutNode, weights: [u32; 2]) -> f64 {
@@ -130,7 +139,7 @@ impl<'a> IndexRules<'a> {
             (Some(NodeSummary { min, max }), Compositing::Over, Way::Straight) => {
                 let bounds = [f64::from(min) - reach, f64::from(max) + reach];
                 let [low, high] = bounds.map(|value| self.optics.normalise(value));
-                self.optics.extinction.max_on(low, high) * self.optics.most_factor()
+                self.optics.extinction.max_on(low, high) * self.most_factor(node)
             }
             (_, Compositing::Mimda(_), _) | (_, _, Way::Refracted) | (None, ..) => f64::from(f32::MAX),
         }

@@ -21,7 +21,6 @@ const EDGES: Ramp = Ramp { low: 0.2, high: 0.8 };
 const GRADIENT_MOST: f64 = 0.1;
 /// Metres.
 const THICKNESS_M: f64 = 0.01;
-const BOOST: f64 = 3.0;
 /// Metres.
 const RADIUS_M: f64 = 0.1;
 const AWAY: f64 = 1.0;
@@ -155,7 +154,7 @@ impl SceneText {
             normal_in_display: self.direction_or(&table.normal, DVec3::Z)?,
             context: self.ramp_or(&table.context, CONTEXT)?,
             thickness_m: self.at_least_zero_or(&table.thickness_m, THICKNESS_M)?,
-            boost: self.at_least_zero_or(&table.boost, BOOST)?,
+            boost: self.at_least_zero_or(&table.boost, ClipPlane::OPAQUE)?,
             strength: self.within_or(&table.strength, 1.0, 0.0..=1.0)?,
         })
     }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// ι ← lerp(ι, b, w)          τ, k ← (1 − w (1 − b)) · (τ, k)
 /// ```
 ///
-/// A scene that accumulates no importance (none is given, or γ = 0) has none to change.
+/// A scene that gives no importance has none to change; where γ = 0, a probe further on in the chain sees the change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BandPicker {
     /// The band over the normalised scalar.

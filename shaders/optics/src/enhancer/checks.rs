@@ -34,6 +34,10 @@ pub(super) fn is_at_least_zero(name: &'static str, value: f64) -> Checked {
     held((0.0..=LARGEST).contains(&value), name, value, "a number from 0 to a million")
 }
 
+pub(super) fn is_at_least_one(name: &'static str, value: f64) -> Checked {
+    held((1.0..=LARGEST).contains(&value), name, value, "a number from 1 to a million")
+}
+
 pub(super) fn is_above_zero(name: &'static str, value: f64) -> Checked {
     held((1.0 / LARGEST..=LARGEST).contains(&value), name, value, "a number from a millionth to a million")
 }

@@ -1,6 +1,6 @@
 //! Clip plane with view-dependent context (LFD section 4).
 
-use super::checks::{Checked, is_at_least_zero, is_point, is_ramp, is_share, is_unit};
+use super::checks::{Checked, is_at_least_one, is_at_least_zero, is_point, is_ramp, is_share, is_unit};
 use super::{Law, Ramp};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -9,11 +9,13 @@ use serde::{Deserialize, Serialize};
 ///
 /// ```text
 /// δ > 0:               τ, k ← lerp(1, μ, strength) · (τ, k),   μ = smoothstep(1 − max(0, −n·v), context)
-/// −thickness < δ ≤ 0:  u = strength · smoothstep(δ, −thickness, 0)
-///                      τ, k ← lerp(1, boost, u) · (τ, k);  the shading weight w ← (1 − u) · w
+/// −thickness < δ ≤ 0:  y = 1 − strength · (1 + δ / thickness)
+///                      τ, k ← min(1/y² − 2 + 2y, boost) · (τ, k);  the shading weight w ← (1 − u) · w
+///                      u = strength · smoothstep(δ, −thickness, 0)
 /// ```
 ///
-/// So the tissue that the plane slices shows its plain colour, dense.
+/// At full strength the optical depth of what is left of a slice grows beyond all bounds as the plane comes near, so
+/// whatever tissue the plane slices is opaque there and shows its plain colour.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClipPlane {
     /// A point of the plane, metres, display frame.
@@ -24,10 +26,21 @@ pub struct ClipPlane {
     pub context: Ramp,
     /// Depth behind the plane over which the sliced tissue is emphasised, metres; 0 for none.
     pub thickness_m: f64,
-    /// Factor of the extinction on the plane, at least 0.
+    /// The most that extinction is multiplied by, at least 1: [`Self::OPAQUE`], or less for a slice that stays transparent.
     pub boost: f64,
     /// 0 does nothing, 1 does all of it.
     pub strength: f64,
+}
+
+impl ClipPlane {
+    /// The boost for full opacity: so much that tissue of an optical depth of a hundredth over the thickness is opaque, and
+    /// so little that single precision can tell the places where it is reached.
+    pub const OPAQUE: f64 = 1e6;
+
+    /// Factor of the extinction of what the plane slices, at y = `edge`.
+    pub fn emphasis(edge: f64) -> f64 {
+        1.0 / (edge * edge) - 2.0 + 2.0 * edge
+    }
 }
 
 impl Law for ClipPlane {
@@ -39,7 +52,7 @@ impl Law for ClipPlane {
         is_unit("normal", self.normal_in_display)?;
         is_ramp("context", &self.context)?;
         is_at_least_zero("thickness_m", self.thickness_m)?;
-        is_at_least_zero("boost", self.boost)?;
+        is_at_least_one("boost", self.boost)?;
         is_share("strength", self.strength)
     }
 
@@ -47,8 +60,14 @@ impl Law for ClipPlane {
         self.strength == 0.0
     }
 
-    fn most_factor(&self) -> f64 {
-        1.0 + (self.boost - 1.0).max(0.0) * self.strength
+    fn most_factor(&self, corners: &[DVec3; 8]) -> f64 {
+        let above = corners.map(|corner| self.normal_in_display.dot(corner - self.point_in_display));
+        let nearest = above.into_iter().fold(f64::NEG_INFINITY, f64::max).min(0.0);
+        let is_before = above.iter().all(|&above| above > 0.0);
+        if is_before || nearest <= -self.thickness_m {
+            return 1.0;
+        }
+        Self::emphasis(1.0 - self.strength * (1.0 + nearest / self.thickness_m)).min(self.boost)
     }
 
     fn may_act_within(&self, corners: &[DVec3; 8]) -> bool {

@@ -13,6 +13,9 @@ pub trait Law {
     /// Whether it looks at bands of scalars.
     const NEEDS_BAND: bool = false;
 
+    /// Whether it looks at importance where none is accumulated, too.
+    const NEEDS_IMPORTANCE: bool = false;
+
     /// Checks what the types do not.
     ///
     /// # Errors
@@ -22,8 +25,8 @@ pub trait Law {
     /// Whether it leaves every picture as it is.
     fn is_neutral(&self) -> bool;
 
-    /// The largest factor that it may multiply an extinction by, at least 1.
-    fn most_factor(&self) -> f64 {
+    /// The largest factor that it may multiply an extinction by in a box with these corners in the display frame, at least 1.
+    fn most_factor(&self, _corners: &[DVec3; 8]) -> f64 {
         1.0
     }
 

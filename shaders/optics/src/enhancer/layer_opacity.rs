@@ -37,7 +37,7 @@ impl Law for LayerOpacity {
         self.away == 1.0 && self.toward == 1.0
     }
 
-    fn most_factor(&self) -> f64 {
+    fn most_factor(&self, _: &[DVec3; 8]) -> f64 {
         self.away.max(self.toward).max(1.0)
     }
 

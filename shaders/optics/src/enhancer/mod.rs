@@ -77,6 +77,11 @@ macro_rules! enhancers {
                 match self { $(Self::$name => $name::NEEDS_GRADIENT,)+ }
             }
 
+            /// Whether it looks at importance where none is accumulated, too.
+            pub fn needs_importance(self) -> bool {
+                match self { $(Self::$name => $name::NEEDS_IMPORTANCE,)+ }
+            }
+
             /// Whether it looks at bands of scalars.
             pub fn needs_band(self) -> bool {
                 match self { $(Self::$name => $name::NEEDS_BAND,)+ }
@@ -103,8 +108,8 @@ macro_rules! enhancers {
             }
 
             /// See [`Law::most_factor`].
-            pub fn most_factor(&self) -> f64 {
-                match self { $(Self::$name(found) => found.most_factor(),)+ }
+            pub fn most_factor(&self, corners: &[DVec3; 8]) -> f64 {
+                match self { $(Self::$name(found) => found.most_factor(corners),)+ }
             }
 
             /// See [`Law::may_act_within`].

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 /// η = ω_a · smoothstep(ι |g| / gradient_most, edges) · (1 − |g·v| / |g|)⁴
 /// ```
 ///
-/// (ι = 1 where a scene accumulates no importance: none is given, or γ = 0), inside the sphere, where the light that a
-/// sample emits, highlights included, is e:
+/// (ι whatever γ is, as the links before leave it, and 1 where a scene gives none), inside the sphere, where the light that
+/// a sample emits, highlights included, is e:
 ///
 /// ```text
 /// q < 0:  μ = lerp(0, η, ω_d)          μ_c = 1 − η
@@ -42,6 +42,7 @@ impl Law for Probe {
     const KEYS: &'static [&'static str] =
         &["centre_m", "radius_m", "axis", "facing", "gradient_most", "edges", "strength"];
     const NEEDS_GRADIENT: bool = true;
+    const NEEDS_IMPORTANCE: bool = true;
 
     fn check(&self) -> Checked {
         is_point("centre_m", self.centre_in_display)?;

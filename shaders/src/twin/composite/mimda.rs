@@ -1,7 +1,6 @@
 //! Maximum Importance Difference Accumulation (LFD eq. 3): what its forms share.
 
 use super::{Accumulated, Composite, Light, Sample};
-use crate::twin::importance::importance_between;
 use crate::twin::tables::TablePlace;
 use crate::twin::{Casting, Real};
 use std::marker::PhantomData;
@@ -34,9 +33,8 @@ impl<M: Form> Composite for Mimda<M> {
     const ONCE_PER_STEP: bool = M::ONCE_PER_STEP;
 
     #[inline(always)]
-    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], [a, b]: [&TablePlace<F>; 2]) -> Sample<F> {
-        let importance = importance_between(casting.tables, a, b);
-        Sample { k, lit: F::ONE, brightness: F::ONE, importance }
+    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], places: [&TablePlace<F>; 2]) -> Sample<F> {
+        Sample::told(casting, k, places)
     }
 
     /// Importance acts whatever the extinction: no segment is clear.

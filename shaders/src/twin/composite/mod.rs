@@ -4,13 +4,14 @@ mod mimda;
 mod mimda_consistent;
 mod mimda_paper;
 mod over;
+mod sample;
 
 pub use mimda::{Form, Mimda};
 pub use mimda_consistent::Consistent;
 pub use mimda_paper::Paper;
 pub use over::Over;
+pub use sample::Sample;
 
-use super::importance::Importance;
 use super::tables::TablePlace;
 use super::{Casting, Real, vector::Vec3};
 
@@ -60,19 +61,6 @@ impl<F: Real> Light<F> {
         let through = F::ONE - self.alpha;
         Self { rgb: self.rgb + behind.rgb * through, alpha: self.alpha + behind.alpha * through }
     }
-}
-
-/// What a segment shows.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample<F> {
-    /// Mean (τ c, τ).
-    pub k: [F; 4],
-    /// Share of the shading that acts on it.
-    pub lit: F,
-    /// Factor of the light that it emits.
-    pub brightness: F,
-    /// Its importance; [`Importance::EQUAL`] in ordinary compositing.
-    pub importance: Importance<F>,
 }
 
 /// A module for the compositing slot.

@@ -1,20 +1,19 @@
 //! Ordinary front-to-back compositing.
 
 use super::{Accumulated, Composite, Light, Sample};
-use crate::twin::importance::Importance;
 use crate::twin::tables::TablePlace;
 use crate::twin::{Casting, Real};
 
-/// Twin of `wgsl/composite/over.wgsl`.
-pub struct Over;
+/// Twin of `wgsl/composite/over.wgsl`; `IS_TOLD` says whether samples have importance, which enhancers look at.
+pub struct Over<const IS_TOLD: bool>;
 
-impl Composite for Over {
-    const READS_IMPORTANCE: bool = false;
+impl<const IS_TOLD: bool> Composite for Over<IS_TOLD> {
+    const READS_IMPORTANCE: bool = IS_TOLD;
     const ONCE_PER_STEP: bool = false;
 
     #[inline(always)]
-    fn sample_of<F: Real>(_: &Casting<F>, k: [F; 4], _: [&TablePlace<F>; 2]) -> Sample<F> {
-        Sample { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
+    fn sample_of<F: Real>(casting: &Casting<F>, k: [F; 4], places: [&TablePlace<F>; 2]) -> Sample<F> {
+        if IS_TOLD { Sample::told(casting, k, places) } else { Sample::plain(k) }
     }
 
     #[inline(always)]

@@ -8,6 +8,19 @@ use crate::twin::ray::{Ray, far};
 use crate::twin::{Casting, Real, vector::Vec3};
 use optics::MOST_ENHANCERS;
 
+/// A segment that enhancers change.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<'a, F> {
+    /// The straight way that it lies on.
+    pub ray: &'a Ray<F>,
+    /// Its middle.
+    pub t: F,
+    /// Metres.
+    pub length: F,
+    /// The scalars at its ends.
+    pub scalars: (F, F),
+}
+
 /// The chain of one ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<F> {
@@ -21,7 +34,7 @@ impl<F: Real> Chain<F> {
     pub fn start<K: Features>(casting: &Casting<F>, ray: &Ray<F>) -> Self {
         let unused = LinkState { weights: [F::ZERO; 4], breaks: [far(); 3] };
         let mut chain = Self { view: ray.direction_in_display, links: [unused; MOST_ENHANCERS] };
-        if K::IS_FULL {
+        if K::ENHANCES {
             chain.start_links(casting, ray);
         }
         chain
@@ -47,7 +60,7 @@ impl<F: Real> Chain<F> {
     #[inline(always)]
     pub fn next_break<K: Features>(&self, t: F) -> F {
         let mut next: F = far();
-        if K::IS_FULL {
+        if K::ENHANCES {
             for at in self.links.iter().flat_map(|link| link.breaks) {
                 next = if at > t { next.least(at) } else { next };
             }
@@ -55,11 +68,19 @@ impl<F: Real> Chain<F> {
         next
     }
 
+    /// Whether any link changes samples of a straight stretch around t without breaks.
+    #[inline(always)]
+    pub fn acts<K: Features>(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> bool {
+        let point = ray.point_in_display(t);
+        let acts = |(i, kind)| hooks::acts(kind, &casting.scene.links[i], &self.links[i], (point, t));
+        K::ENHANCES && casting.needs.chain.kinds().enumerate().any(acts)
+    }
+
     /// How much the links make samples around t vary within a step; 0 if none looks at gradients.
     #[inline(always)]
     pub fn spread<K: Features>(&self, casting: &Casting<F>, t: F) -> F {
         let mut sum = F::ZERO;
-        if K::IS_FULL {
+        if K::ENHANCES {
             for (i, kind) in casting.needs.chain.kinds().enumerate() {
                 sum = sum + hooks::spread(kind, &casting.scene.links[i], &self.links[i], t);
             }
@@ -67,31 +88,57 @@ impl<F: Real> Chain<F> {
         sum
     }
 
-    /// A segment around t between two scalars, after all links.
+    /// Segments of a ray, or of the rays before and beyond a turn, after all links.
     #[inline(always)]
-    pub fn enhance<K: Features>(
+    pub fn enhance<K: Features, const N: usize>(
         &self,
         casting: &Casting<F>,
-        plain: Sample<F>,
-        (ray, t): (&Ray<F>, F),
-        scalars: (F, F),
+        samples: &mut [Sample<F>; N],
+        segments: [Segment<F>; N],
         gradients: &Gradients<F>,
-    ) -> Sample<F> {
-        if !K::IS_FULL || casting.needs.chain.is_empty() {
-            return plain;
+    ) {
+        if !K::ENHANCES || casting.needs.chain.is_empty() {
+            return;
         }
-        let has_importance = K::READS_IMPORTANCE;
-        let point = ray.point_in_display(t);
-        let place = Place { point, gradient: gradients.at, scalars, view: self.view, has_importance };
-        self.enhance_at(casting, plain, &place)
+        if K::IS_FULL {
+            self.enhance_apart::<K>(casting, samples, &segments, gradients);
+        } else {
+            self.enhance_here::<K>(casting, samples, &segments, gradients);
+        }
     }
 
-    /// Not inlined: it is called from many places, and rarely.
+    /// Not inlined: there is much of it in kernels with everything.
     #[inline(never)]
-    fn enhance_at(&self, casting: &Casting<F>, mut sample: Sample<F>, place: &Place<F>) -> Sample<F> {
+    fn enhance_apart<K: Features>(
+        &self,
+        casting: &Casting<F>,
+        samples: &mut [Sample<F>],
+        segments: &[Segment<F>],
+        gradients: &Gradients<F>,
+    ) {
+        self.enhance_here::<K>(casting, samples, segments, gradients);
+    }
+
+    /// Link by link, so that each finds its constants once.
+    #[inline(always)]
+    fn enhance_here<K: Features>(
+        &self,
+        casting: &Casting<F>,
+        samples: &mut [Sample<F>],
+        segments: &[Segment<F>],
+        gradients: &Gradients<F>,
+    ) {
+        let place = |segment: &Segment<F>| Place {
+            point: segment.ray.point_in_display(segment.t),
+            reach: segment.ray.direction_in_display * (F::of(0.5) * segment.length),
+            gradient: gradients.at,
+            scalars: segment.scalars,
+            view: self.view,
+            has_importance: K::READS_IMPORTANCE,
+        };
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            sample = hooks::at(kind, &casting.scene.links[i], &self.links[i], sample, place);
+            let all = samples.iter_mut().zip(segments);
+            hooks::at(kind, &casting.scene.links[i], &self.links[i], all, place);
         }
-        sample
     }
 }

@@ -20,6 +20,8 @@ pub struct LinkState<F> {
 pub struct Place<F> {
     /// Middle of the segment, metres, display frame.
     pub point: Vec3<F>,
+    /// From there to the end of the segment.
+    pub reach: Vec3<F>,
     /// Of the scalar there, per finest voxel, display frame.
     pub gradient: Vec3<F>,
     /// The scalars at the segment's ends.
@@ -45,6 +47,12 @@ pub(super) trait Hooks {
     #[inline(always)]
     fn breaks<F: Real>(_: &Constants<F>, _view: Vec3<F>, _: &Ray<F>) -> [F; 3] {
         [far(); 3]
+    }
+
+    /// Whether it changes samples of a stretch without breaks, of which a point and its t are given.
+    #[inline(always)]
+    fn acts<F: Real>(_: &Constants<F>, _: &LinkState<F>, _: (Vec3<F>, F)) -> bool {
+        true
     }
 
     /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 where it does not look
@@ -87,6 +95,16 @@ macro_rules! dispatch {
         }
 
         #[inline(always)]
+        pub(super) fn acts<F: Real>(
+            kind: EnhancerKind,
+            link: &Constants<F>,
+            state: &LinkState<F>,
+            at: (Vec3<F>, F),
+        ) -> bool {
+            match kind { $(EnhancerKind::$name => optics::$name::acts(link, state, at),)+ }
+        }
+
+        #[inline(always)]
         pub(super) fn spread<F: Real>(
             kind: EnhancerKind,
             link: &Constants<F>,
@@ -96,15 +114,22 @@ macro_rules! dispatch {
             match kind { $(EnhancerKind::$name => optics::$name::spread(link, state, t),)+ }
         }
 
+        /// All samples in turn; what an enhancer does not look at of a place is not worked out.
         #[inline(always)]
-        pub(super) fn at<F: Real>(
+        pub(super) fn at<'a, F: Real, S: 'a>(
             kind: EnhancerKind,
             link: &Constants<F>,
             state: &LinkState<F>,
-            sample: Sample<F>,
-            place: &Place<F>,
-        ) -> Sample<F> {
-            match kind { $(EnhancerKind::$name => optics::$name::at(link, state, sample, place),)+ }
+            samples: impl Iterator<Item = (&'a mut Sample<F>, &'a S)>,
+            place: impl Fn(&S) -> Place<F>,
+        ) {
+            match kind {
+                $(EnhancerKind::$name => {
+                    for (sample, segment) in samples {
+                        *sample = optics::$name::at(link, state, *sample, &place(segment));
+                    }
+                })+
+            }
         }
     };
 }

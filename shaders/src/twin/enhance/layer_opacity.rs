@@ -27,6 +27,11 @@ impl Hooks for LayerOpacity {
     }
 
     #[inline(always)]
+    fn acts<F: Real>(_: &Constants<F>, state: &LinkState<F>, _: (Vec3<F>, F)) -> bool {
+        state.weights[0] != F::ZERO
+    }
+
+    #[inline(always)]
     fn at<F: Real>(
         link: &Constants<F>,
         state: &LinkState<F>,

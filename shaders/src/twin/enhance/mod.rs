@@ -9,5 +9,5 @@ mod layer_opacity;
 mod link;
 mod probe;
 
-pub use chain::Chain;
+pub use chain::{Chain, Segment};
 pub use hooks::{LinkState, Place, constants};

@@ -29,8 +29,7 @@ impl Hooks for Probe {
     /// Inside the sphere the factors vary with the gradient, from sample to sample.
     #[inline(always)]
     fn spread<F: Real>(link: &Constants<F>, state: &LinkState<F>, t: F) -> F {
-        let is_inside = t > state.breaks[0] && t < state.breaks[2];
-        if is_inside { F::of(0.1) * link[1][3] } else { F::ZERO }
+        if is_inside(state, t) { F::of(0.1) * link[1][3] } else { F::ZERO }
     }
 
     /// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.
@@ -46,6 +45,11 @@ impl Hooks for Probe {
         }
         let half = square.sqrt();
         [nearest - half, ray.plane_crossing(view, view.dot(centre)), nearest + half]
+    }
+
+    #[inline(always)]
+    fn acts<F: Real>(_: &Constants<F>, state: &LinkState<F>, (_, t): (Vec3<F>, F)) -> bool {
+        is_inside(state, t)
     }
 
     #[inline(always)]
@@ -72,6 +76,12 @@ impl Hooks for Probe {
         let brightness = changed.brightness * (F::ONE + (intensity - F::ONE) * strength);
         Sample { brightness, ..changed }
     }
+}
+
+/// Whether t lies between where the ray enters the sphere and where it leaves it.
+#[inline(always)]
+fn is_inside<F: Real>(state: &LinkState<F>, t: F) -> bool {
+    t > state.breaks[0] && t < state.breaks[2]
 }
 
 /// η: how much of an edge a sample is.

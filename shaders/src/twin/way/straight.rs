@@ -114,7 +114,12 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -
             while t < t_out && !is_done {
                 let until = chain.next_break::<K>(t).least(t_out);
                 let way = Straight { brick: &brick, ray };
-                let marched = march::<F, K>(casting, &chain, front, way, voxel, (t, until));
+                let stretch = (t, until);
+                let marched = if K::IS_FULL || chain.acts::<K>(casting, ray, F::of(0.5) * (t + until)) {
+                    march::<F, K>(casting, &chain, front, way, voxel, stretch)
+                } else {
+                    march::<F, K::Plain>(casting, &chain, front, way, voxel, stretch)
+                };
                 (front, is_done) = (marched.front, marched.is_done);
                 cast.samples += marched.samples;
                 t = until;
