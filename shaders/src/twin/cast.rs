@@ -29,13 +29,12 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
             }
         };
     }
-    /// The same where enhancers may look at importance that is not accumulated.
-    macro_rules! told {
-        ($frame:ident, $shade:ident) => {
-            if needs.tells_importance {
-                cast_ray::<F, $frame<$shade, Over<true>>>(casting, &ray)
-            } else {
-                composited!($frame, $shade)
+    /// The twin with enhancers, of those compositings that [`Frame::of`] lets through.
+    macro_rules! enhanced {
+        ($shade:ident) => {
+            match needs.compositing {
+                Compositing::Over => cast_ray::<F, Enhanced<$shade, Over<false>>>(casting, &ray),
+                Compositing::Mimda(_) => cast_ray::<F, Enhanced<$shade, Mimda<Consistent>>>(casting, &ray),
             }
         };
     }
@@ -44,10 +43,14 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
         (Frame::Lean, false) => composited!(Lean, Phong),
         (Frame::Blended, true) => composited!(Blended, Plain),
         (Frame::Blended, false) => composited!(Blended, Phong),
-        (Frame::Enhanced, true) => told!(Enhanced, Plain),
-        (Frame::Enhanced, false) => told!(Enhanced, Phong),
+        (Frame::Enhanced, true) => enhanced!(Plain),
+        (Frame::Enhanced, false) => enhanced!(Phong),
         (Frame::Full, _) => {
-            let cast = told!(Full, AnyShade);
+            let cast = if needs.tells_importance {
+                cast_ray::<F, Full<AnyShade, Over<true>>>(casting, &ray)
+            } else {
+                composited!(Full, AnyShade)
+            };
             Cast { rgba: debug_pixel(casting, cast.rgba, cast.samples), ..cast }
         }
     }
@@ -63,12 +66,16 @@ enum Frame {
 
 impl Frame {
     fn of(needs: &Needs) -> Self {
-        let Needs { levels, blends, spreads, shading, has_materials, way, chain, debug, .. } = *needs;
+        let Needs { levels, blends, spreads, shading, has_materials, compositing, way, chain, debug, .. } =
+            *needs;
         let is_rare = levels != Levels::Single
             || shading.has_detail()
             || has_materials
             || way != Way::Straight
-            || debug.is_some();
+            || debug.is_some()
+            // A twin takes seconds to compile: enhancers have one of their own with the common ways to composite.
+            || needs.tells_importance
+            || (chain != Chain::EMPTY && compositing == Compositing::Mimda(MimdaForm::Paper));
         match (is_rare, chain == Chain::EMPTY, blends || spreads) {
             (true, ..) => Self::Full,
             (false, false, _) => Self::Enhanced,

@@ -16,7 +16,7 @@ type Extent = usize;
 #[derive(Clone, Copy)]
 struct Inner {
     /// Which child of the cell in each octant borders on it.
-    child: [u8; 8],
+    child: [u32; 8],
     extent: Extent,
 }
 
@@ -29,11 +29,11 @@ enum Half {
 }
 
 /// A traversal.
-struct Dual<'a, F> {
+struct Dual<'a, F, S> {
     /// Of each place: the first of the children that rays meet, or [`BEYOND`].
     first_child: Vec<u32>,
-    /// Of each place: whether it or anything below it is looked for; None if all is.
-    holds: Option<&'a [bool]>,
+    /// Whether anything that is looked for may lie around.
+    is_sought: S,
     /// The parts that each kind of part is made of.
     parts: [Vec<Inner>; 8],
     visit: &'a mut F,
@@ -42,19 +42,20 @@ struct Dual<'a, F> {
 /// Shows every vertex of the leaves that rays meet, once: the dual traversal of an octree. Takes time in proportion to
 /// the nodes.
 pub fn visit_vertices(cut: &Cut, visit: &mut impl FnMut(&Around)) {
-    visit_all(cut, None, visit);
+    visit_all(cut, |_| true, visit);
 }
 
 /// The same, but only vertices around which a place is that `holds` what is looked for, as all places above it do.
 pub(super) fn visit_vertices_beside(cut: &Cut, holds: &[bool], visit: &mut impl FnMut(&Around)) {
-    visit_all(cut, Some(holds), visit);
+    let holds = |&place: &u32| place != BEYOND && holds[place as usize];
+    visit_all(cut, |around| around.iter().any(holds), visit);
 }
 
-fn visit_all(cut: &Cut, holds: Option<&[bool]>, visit: &mut impl FnMut(&Around)) {
+fn visit_all(cut: &Cut, is_sought: impl Fn(&Around) -> bool, visit: &mut impl FnMut(&Around)) {
     let first_child = |node: &CutNode| node.shown_child().unwrap_or(BEYOND);
     let mut dual = Dual {
         first_child: cut.nodes().iter().map(first_child).collect(),
-        holds,
+        is_sought,
         parts: std::array::from_fn(parts_of),
         visit,
     };
@@ -87,7 +88,7 @@ fn parts_of(extent: Extent) -> Vec<Inner> {
     let inner = |halves: [Half; 3]| Inner {
         child: std::array::from_fn(|octant| {
             (0..3).fold(0, |child, axis| {
-                let side = (octant >> axis & 1) as u8;
+                let side = (octant >> axis & 1) as u32;
                 let bit = match halves[axis] {
                     Half::Low => 0,
                     Half::High => 1,
@@ -103,22 +104,21 @@ fn parts_of(extent: Extent) -> Vec<Inner> {
     (0..27).map(halves).filter(is_part).map(inner).collect()
 }
 
-impl<F: FnMut(&Around)> Dual<'_, F> {
+impl<F: FnMut(&Around), S: Fn(&Around) -> bool> Dual<'_, F, S> {
     /// Looks for vertices in a part with these cells in its octants.
     fn descend(&mut self, around: &Around, extent: Extent) {
-        if self
-            .holds
-            .is_some_and(|holds| !around.iter().any(|&place| place != BEYOND && holds[place as usize]))
-        {
+        if !(self.is_sought)(around) {
             return;
         }
-        let mut has_children = false;
-        let children = around.map(|place| {
-            let first = if place == BEYOND { BEYOND } else { self.first_child[place as usize] };
-            has_children |= first != BEYOND;
-            first
-        });
-        if !has_children {
+        // The first child of each cell, or the cell where it has none: then no number is added to it.
+        let (mut first, mut has_children) = (*around, [0; 8]);
+        for octant in (0..8).filter(|&octant| around[octant] != BEYOND) {
+            let child = self.first_child[around[octant] as usize];
+            if child != BEYOND {
+                (first[octant], has_children[octant]) = (child, u32::MAX);
+            }
+        }
+        if has_children == [0; 8] {
             if extent == 0 {
                 (self.visit)(around);
             }
@@ -126,12 +126,8 @@ impl<F: FnMut(&Around)> Dual<'_, F> {
         }
         for part in 0..self.parts[extent].len() {
             let Inner { child, extent } = self.parts[extent][part];
-            let mut inner = *around;
-            for octant in 0..8 {
-                if children[octant] != BEYOND {
-                    inner[octant] = children[octant] + u32::from(child[octant]);
-                }
-            }
+            // No branches, so that eight octants go into one or two registers.
+            let inner = std::array::from_fn(|octant| first[octant] + (child[octant] & has_children[octant]));
             self.descend(&inner, extent);
         }
     }

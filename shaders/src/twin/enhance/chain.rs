@@ -25,6 +25,7 @@ pub struct Segment<'a, F> {
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<F> {
     view: Vec3<F>,
+    looks_at_gradients: bool,
     links: [LinkState<F>; MOST_ENHANCERS],
 }
 
@@ -33,7 +34,9 @@ impl<F: Real> Chain<F> {
     #[inline(always)]
     pub fn start<K: Features>(casting: &Casting<F>, ray: &Ray<F>) -> Self {
         let unused = LinkState { weights: [F::ZERO; 4], breaks: [far(); 3] };
-        let mut chain = Self { view: ray.direction_in_display, links: [unused; MOST_ENHANCERS] };
+        let looks_at_gradients = K::ENHANCES && casting.needs.chain.needs_gradient();
+        let mut chain =
+            Self { view: ray.direction_in_display, looks_at_gradients, links: [unused; MOST_ENHANCERS] };
         if K::ENHANCES {
             chain.start_links(casting, ray);
         }
@@ -80,7 +83,7 @@ impl<F: Real> Chain<F> {
     #[inline(always)]
     pub fn spread<K: Features>(&self, casting: &Casting<F>, t: F) -> F {
         let mut sum = F::ZERO;
-        if K::ENHANCES {
+        if K::ENHANCES && self.looks_at_gradients {
             for (i, kind) in casting.needs.chain.kinds().enumerate() {
                 sum = sum + hooks::spread(kind, &casting.scene.links[i], &self.links[i], t);
             }
