@@ -174,9 +174,10 @@ fn picker(display: &Display) -> TestScene {
 fn move_edge(link: &mut Enhancer) {
     let moved = |band: &Trapezoid| Trapezoid::new(band.corners().map(|corner| corner + EDGE_SHARE)).unwrap();
     match link {
-        // The screen is 0.2 m high or more: a thousandth of what stands in it.
+        // The screen is 0.2 m high or more: a thousandth of what stands in it. An opaque slice hides what lies behind it, so
+        // its plane is moved by three.
         Enhancer::ClipPlane(plane) => {
-            plane.point_in_display += plane.normal_in_display * (0.2 * EDGE_SHARE);
+            plane.point_in_display += plane.normal_in_display * (0.6 * EDGE_SHARE);
         }
         Enhancer::Probe(probe) => probe.radius_m += 0.2 * EDGE_SHARE,
         Enhancer::BandPicker(picker) => picker.band = moved(&picker.band),
