@@ -6,7 +6,8 @@ use std::process::Command;
 
 const RECIPE: &str = include_str!("../docs/add-an-enhancer.md");
 /// What the copy is made of.
-const MEMBERS: [&str; 4] = ["display-config", "shaders/layout", "shaders/optics", "shaders"];
+const MEMBERS: [&str; 6] =
+    ["display-config", "shaders/layout", "shaders/optics", "shaders/needs", "shaders/twin", "shaders"];
 /// A line of a file of each list that a one-line block belongs to: the line goes before it.
 const LISTS: [(&str, &str); 2] = [("mod fog;", "mod l"), ("Fog fog,", "LayerOpacity layer_opacity,")];
 
@@ -27,7 +28,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// The sources of this crate and of those that it depends on, as a workspace of their own.
+/// The sources of this crate, of the twin, and of those that the two depend on, as a workspace of their own.
 fn copied_house() -> PathBuf {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("add-an-enhancer");
     if root.exists() {
@@ -83,12 +84,12 @@ fn follow(root: &Path) {
     }
 }
 
-/// Has the copy's kernels validated, its twins compiled on the way; whether that went well, and what was said.
-fn validate(root: &Path) -> (bool, String) {
+/// Runs cargo in the copy; whether that went well, and what was said.
+fn cargo(root: &Path, args: &[&str]) -> (bool, String) {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("it lies in the target folder");
     let mut command = Command::new(env!("CARGO"));
     command.current_dir(root).env("CARGO_TARGET_DIR", target);
-    command.args(["test", "--offline", "--package", "shaders", "--test", "kernels", "--quiet"]);
+    command.args(args).args(["--offline", "--quiet"]);
     if !cfg!(debug_assertions) {
         command.arg("--release");
     }
@@ -97,15 +98,32 @@ fn validate(root: &Path) -> (bool, String) {
     (output.status.success(), said.into_owned())
 }
 
+fn check_twin(root: &Path) -> (bool, String) {
+    cargo(root, &["check", "--package", "twin"])
+}
+
+fn validate_kernels(root: &Path) -> (bool, String) {
+    cargo(root, &["test", "--package", "shaders", "--test", "kernels"])
+}
+
+/// Replaces a word in a file that the recipe wrote.
+fn spoil(path: &Path, word: &str, with: &str) {
+    let text = fs::read_to_string(path).expect("the recipe wrote it");
+    assert!(text.contains(word), "{} lacks {word}", path.display());
+    fs::write(path, text.replace(word, with)).expect("the file can be written");
+}
+
 #[test]
 fn the_recipe_adds_an_enhancer_and_a_spoiled_one_is_found_out() {
     let root = copied_house();
     follow(&root);
-    let (went_well, said) = validate(&root);
-    assert!(went_well, "{said}");
-    let wgsl = root.join("shaders/wgsl/enhance/fog.wgsl");
-    let text = fs::read_to_string(&wgsl).expect("the recipe wrote it");
-    fs::write(&wgsl, text.replace("fog_at", "fog_ate")).expect("the file can be written");
-    let (went_well, said) = validate(&root);
+    for (went_well, said) in [check_twin(&root), validate_kernels(&root)] {
+        assert!(went_well, "{said}");
+    }
+    spoil(&root.join("shaders/wgsl/enhance/fog.wgsl"), "fog_at", "fog_ate");
+    let (went_well, said) = validate_kernels(&root);
     assert!(!went_well && said.contains("fog_at"), "a module without a hook passes: {said}");
+    spoil(&root.join("shaders/twin/src/enhance/fog.rs"), "fn constants", "fn constant");
+    let (went_well, said) = check_twin(&root);
+    assert!(!went_well && said.contains("constants"), "a twin without its constants passes: {said}");
 }

@@ -147,8 +147,7 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
         if SHADES && !enhancers_look && max(pair.first.k.w, pair.second.k.w) > 0.0 {
             gradients = gradients_at(brick, ray, middle);
         }
-        let material = 0.5 * (material_between(s0, s1) + material_between(s1, s2));
-        let light = lighting(gradients, ray, material);
+        let light = lighting(gradients, ray, material_of_pair(s0, s1, s2));
         *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
         *front = add_whole(*front, pair.second, thickness, light, next_ray, t1 + 0.5 * step);
     } else {

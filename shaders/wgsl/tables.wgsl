@@ -9,7 +9,7 @@ struct TablePlace {
     part: f32,
 }
 
-// A scalar's place, and the values of (τ c, τ) there: looked up once, used for every mean that ends at it.
+// A scalar's place, and a table's values there: looked up once, used for every mean that ends at it.
 struct Located {
     place: TablePlace,
     value: vec4<f32>,
@@ -54,25 +54,24 @@ fn locate(s: f32) -> Located {
     return Located(place, mix(optics_table[place.node].value, optics_table[place.node + 1u].value, place.part));
 }
 
-// Mean of (τ c, τ) between two scalars. Between two nodes f is linear, so the mean is that of the ends; over several
-// nodes the end pieces are trapezoids and only what lies between nodes uses the difference of integrals, kept as the sum
-// of two floats: nothing cancels.
+// Mean of (τ c, τ) between two scalars.
 fn optics_between(a: Located, b: Located) -> vec4<f32> {
     if a.place.node == b.place.node {
         return 0.5 * (a.value + b.value);
     }
-    var first = a;
-    var last = b;
     if b.place.node < a.place.node {
-        first = b;
-        last = a;
+        return mean_over(b, optics_table[b.place.node + 1u], optics_table[a.place.node], a);
     }
-    let after = first.place.node + 1u;
-    let before = last.place.node;
-    let left = (first.value + optics_table[after].value) * (0.5 * (optics_table[after].position - first.place.u));
-    let right = (optics_table[before].value + last.value) * (0.5 * (last.place.u - optics_table[before].position));
-    let whole = (optics_table[before].integral - optics_table[after].integral)
-        + (optics_table[before].integral_rest - optics_table[after].integral_rest);
+    return mean_over(a, optics_table[a.place.node + 1u], optics_table[b.place.node], b);
+}
+
+// Mean of a table from `first` over the nodes `after` it and `before` the last to `last`. Between two nodes f is linear, so
+// the mean is that of the ends; over several nodes the end pieces are trapezoids and only what lies between nodes uses the
+// difference of integrals, kept as the sum of two floats: nothing cancels.
+fn mean_over(first: Located, after: TableEntry, before: TableEntry, last: Located) -> vec4<f32> {
+    let left = (first.value + after.value) * (0.5 * (after.position - first.place.u));
+    let right = (before.value + last.value) * (0.5 * (last.place.u - before.position));
+    let whole = (before.integral - after.integral) + (before.integral_rest - after.integral_rest);
     return (left + whole + right) / (last.place.u - first.place.u);
 }
 

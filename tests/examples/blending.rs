@@ -8,9 +8,9 @@ use lightloom_tests::presented::{Presented, picture};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, view};
+use needs::Needs;
 use optics::{Curve, Light};
 use renderer::device::{CpuDevice, Device};
-use shaders::compose::Needs;
 use std::sync::Arc;
 
 const PROJECTOR: u32 = 5;
@@ -90,7 +90,7 @@ fn main() -> Result<(), String> {
             let optics = &mut scene.frame.optics.clone();
             optics.materials = Some(Curve::constant(light.unwrap_or_default().material()));
             let lit = Needs::of(optics, Some(&Light::default()), &scene.frame.quality);
-            everything.tables = shaders::tables::Tables::new(optics, &lit);
+            everything.tables = needs::tables::Tables::new(optics, &lit);
             let all = Needs { has_materials: true, ..plain };
             results.line(if light.is_some() { "| Phong |||||" } else { "| plain |||||" });
             compare(

@@ -22,9 +22,10 @@ use optics::{Curve, Light, Mimda, MimdaForm, Quality};
 use protocol::FrameState;
 use rayon::prelude::*;
 use reference::{Errors, Field, Integrator, Radiance, Ray, Reference, Segmentation};
-use shaders::twin::Real;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use twin::Real;
+use twin_f64::Precision;
 
 /// Step lengths, voxels: halved from the length of the shortest wave's bend down to where f32 rounding takes over.
 const STEPS_VOXELS: [f64; 9] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015_625];
@@ -143,7 +144,7 @@ impl Curves {
 }
 
 /// Errors of the twin in `F` against a truth, which may depend on the step.
-fn errors<F: Real>(
+fn errors<F: Precision>(
     display: &Display,
     case: &Case,
     name: String,

@@ -6,12 +6,12 @@ use bricks::{BRICK_VOXELS, BrickSource, CellRanges, LodRule, NodeKey};
 use display_config::Display;
 use glam::{IVec3, UVec3};
 use layout::{CELL_WORDS, FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
+use needs::tables::Tables;
+use needs::{Compositing, Needs, Way};
 use protocol::FrameState;
 use reference::StoredField;
 use renderer::device::{CastJob, Device, Gather, NEVER, Part};
 use renderer::working_set::{Cut, IndexRules, build_index, refresh, settle};
-use shaders::compose::{Compositing, Needs, Way};
-use shaders::tables::Tables;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 

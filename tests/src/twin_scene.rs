@@ -4,14 +4,13 @@ use crate::compare::lod_rule;
 use bricks::{BRICK_VOXELS, BrickSource, Codes, NodeKey};
 use display_config::Display;
 use layout::{CELL_WORDS, NodeRecord};
+use needs::Needs;
+use needs::tables::Tables;
 use protocol::FrameState;
 use rayon::prelude::*;
 use renderer::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle, settled_weights};
-use shaders::compose::Needs;
-use shaders::tables::Tables;
-use shaders::twin::{
-    Casting, FeedbackCell, Observer, Placement, ProjectorRays, Real, SceneNumbers, Volume, cast_pixel,
-};
+use twin::{Casting, FeedbackCell, Observer, Placement, ProjectorRays, SceneNumbers, Volume};
+use twin_f64::Precision;
 
 /// All that a twin reads of a scene, for any view of it. Fields are open so that tests can spoil them.
 #[derive(Clone)]
@@ -29,6 +28,9 @@ pub struct TwinScene {
     /// What the scene needs.
     pub needs: Needs,
 }
+
+/// Pixels that a thread casts before it takes more.
+const PIXELS_PER_TASK: usize = 16;
 
 /// A scene as one projector casts it.
 #[derive(Clone, Copy, Debug)]
@@ -99,11 +101,11 @@ impl TwinScene {
     }
 
     /// The colours of some pixels (x, y).
-    pub fn cast<F: Real>(&self, view: &View<F>, pixels: &[(u32, u32)]) -> Vec<[F; 4]> {
+    pub fn cast<F: Precision>(&self, view: &View<F>, pixels: &[(u32, u32)]) -> Vec<[F; 4]> {
         let feedback: Vec<FeedbackCell> = self.nodes.iter().map(|_| FeedbackCell::default()).collect();
         let casting = self.casting(&view.scene, &feedback);
-        let cast = |&(x, y): &(u32, u32)| cast_pixel(&casting, &view.rays, x, y).rgba;
-        pixels.par_iter().map(cast).collect()
+        let cast = |pixels| F::cast_pixels(&casting, &view.rays, pixels).into_iter().map(|cast| cast.rgba);
+        pixels.par_chunks(PIXELS_PER_TASK).flat_map_iter(cast).collect()
     }
 
     /// All that a twin reads, with a table of feedback for the nodes.

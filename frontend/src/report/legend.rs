@@ -2,8 +2,8 @@
 
 use optics::DebugView;
 use renderer::output::{OutputError, Picture, write_png};
-use shaders::twin::debug::heat;
 use std::path::Path;
+use twin::debug::heat;
 
 /// The picture of the key, in the output folder.
 pub const LEGEND: &str = "legend.png";

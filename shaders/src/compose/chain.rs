@@ -1,6 +1,6 @@
 //! The WGSL of a chain of enhancers, with the glue between them.
 
-use crate::needs::Chain;
+use needs::Chain;
 use optics::EnhancerKind;
 use std::fmt::Write;
 

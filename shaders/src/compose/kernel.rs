@@ -1,7 +1,7 @@
 //! One kernel: a filter, and what a scene needs.
 
 use super::{chain, constants, debug_view};
-use crate::needs::{Chain, Compositing, Levels, Needs, Shading, Way};
+use needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 use optics::{DebugView, EnhancerKind, MimdaForm};
 
 /// How voxels are interpolated.
@@ -29,78 +29,76 @@ macro_rules! module {
     };
 }
 
-impl Needs {
-    fn levels_wgsl(&self) -> Vec<&'static str> {
-        let weights = if self.blends { module!("levels/weights") } else { module!("levels/no_weights") };
-        let mut modules = vec![module!("levels/level"), weights];
-        if !self.reads_ancestors() {
-            modules.push(module!("levels/one"));
-        } else if !self.reads_grandparents() {
-            modules.push(module!("levels/two"));
-        } else {
-            modules.push(match self.levels {
-                Levels::Quadrilinear => "const FILTERS_LEVELS: bool = true;\n",
-                Levels::Single => "const FILTERS_LEVELS: bool = false;\n",
-            });
-            modules.push(module!("levels/three"));
-        }
-        modules
-    }
-
-    fn spread_wgsl(&self) -> Vec<&'static str> {
-        if !self.spreads {
-            return vec![module!("spread/none")];
-        }
-        let levels = match (self.reads_ancestors(), self.reads_grandparents()) {
-            (false, _) => module!("spread/one"),
-            (true, false) => module!("spread/two"),
-            (true, true) => module!("spread/three"),
-        };
-        vec![module!("spread/level"), levels]
-    }
-
-    fn gradient_wgsl(&self) -> Vec<&'static str> {
-        if !self.reads_gradients() {
-            return vec![module!("gradient/none")];
-        }
-        let which = match (self.shading.has_detail(), self.levels, self.blends) {
-            (true, ..) => module!("gradient/detail"),
-            (false, Levels::Quadrilinear, _) => module!("gradient/blended"),
-            (false, Levels::Single, true) => module!("gradient/toward_parent"),
-            (false, Levels::Single, false) => module!("gradient/own"),
-        };
-        vec![module!("gradient/central"), which]
-    }
-
-    fn shade_wgsl(&self) -> Vec<&'static str> {
-        let shade = match self.shading {
-            Shading::Plain => module!("shade/plain"),
-            Shading::Phong => module!("shade/phong"),
-            Shading::Unsharp => module!("shade/unsharp"),
-            Shading::Exaggerated => module!("shade/exaggerated"),
-        };
-        let material = if self.has_materials { module!("material/table") } else { module!("material/one") };
-        let law = if self.shading == Shading::Plain { "" } else { module!("shade/law") };
-        vec![material, law, shade]
-    }
-
-    fn composite_wgsl(&self) -> Vec<&'static str> {
-        let mut modules = if self.reads_importance() {
-            vec![module!("importance"), module!("composite/sample")]
-        } else {
-            vec![module!("composite/plain_sample")]
-        };
-        modules.extend(match self.compositing {
-            Compositing::Over => vec![module!("composite/over")],
-            Compositing::Mimda(MimdaForm::Paper) => {
-                vec![module!("composite/mimda"), module!("composite/mimda_paper")]
-            }
-            Compositing::Mimda(MimdaForm::Consistent) => {
-                vec![module!("composite/mimda"), module!("composite/mimda_consistent")]
-            }
+fn levels_wgsl(needs: &Needs) -> Vec<&'static str> {
+    let weights = if needs.blends { module!("levels/weights") } else { module!("levels/no_weights") };
+    let mut modules = vec![module!("levels/level"), weights];
+    if !needs.reads_ancestors() {
+        modules.push(module!("levels/one"));
+    } else if !needs.reads_grandparents() {
+        modules.push(module!("levels/two"));
+    } else {
+        modules.push(match needs.levels {
+            Levels::Quadrilinear => "const FILTERS_LEVELS: bool = true;\n",
+            Levels::Single => "const FILTERS_LEVELS: bool = false;\n",
         });
-        modules
+        modules.push(module!("levels/three"));
     }
+    modules
+}
+
+fn spread_wgsl(needs: &Needs) -> Vec<&'static str> {
+    if !needs.spreads {
+        return vec![module!("spread/none")];
+    }
+    let levels = match (needs.reads_ancestors(), needs.reads_grandparents()) {
+        (false, _) => module!("spread/one"),
+        (true, false) => module!("spread/two"),
+        (true, true) => module!("spread/three"),
+    };
+    vec![module!("spread/level"), levels]
+}
+
+fn gradient_wgsl(needs: &Needs) -> Vec<&'static str> {
+    if !needs.reads_gradients() {
+        return vec![module!("gradient/none")];
+    }
+    let which = match (needs.shading.has_detail(), needs.levels, needs.blends) {
+        (true, ..) => module!("gradient/detail"),
+        (false, Levels::Quadrilinear, _) => module!("gradient/blended"),
+        (false, Levels::Single, true) => module!("gradient/toward_parent"),
+        (false, Levels::Single, false) => module!("gradient/own"),
+    };
+    vec![module!("gradient/central"), which]
+}
+
+fn shade_wgsl(needs: &Needs) -> Vec<&'static str> {
+    let shade = match needs.shading {
+        Shading::Plain => module!("shade/plain"),
+        Shading::Phong => module!("shade/phong"),
+        Shading::Unsharp => module!("shade/unsharp"),
+        Shading::Exaggerated => module!("shade/exaggerated"),
+    };
+    let material = if needs.has_materials { module!("material/table") } else { module!("material/one") };
+    let law = if needs.shading == Shading::Plain { "" } else { module!("shade/law") };
+    vec![material, law, shade]
+}
+
+fn composite_wgsl(needs: &Needs) -> Vec<&'static str> {
+    let mut modules = if needs.reads_importance() {
+        vec![module!("importance"), module!("composite/sample")]
+    } else {
+        vec![module!("composite/plain_sample")]
+    };
+    modules.extend(match needs.compositing {
+        Compositing::Over => vec![module!("composite/over")],
+        Compositing::Mimda(MimdaForm::Paper) => {
+            vec![module!("composite/mimda"), module!("composite/mimda_paper")]
+        }
+        Compositing::Mimda(MimdaForm::Consistent) => {
+            vec![module!("composite/mimda"), module!("composite/mimda_consistent")]
+        }
+    });
+    modules
 }
 
 impl KernelKey {
@@ -124,11 +122,11 @@ impl KernelKey {
             module!("tables"),
             sample,
         ];
-        modules.extend(needs.levels_wgsl());
-        modules.extend(needs.spread_wgsl());
-        modules.extend(needs.gradient_wgsl());
-        modules.extend(needs.composite_wgsl());
-        modules.extend(needs.shade_wgsl());
+        modules.extend(levels_wgsl(needs));
+        modules.extend(spread_wgsl(needs));
+        modules.extend(gradient_wgsl(needs));
+        modules.extend(composite_wgsl(needs));
+        modules.extend(shade_wgsl(needs));
         let chain = chain::wgsl(&needs.chain, needs.reads_importance());
         let debug = needs.debug.map_or_else(|| module!("debug/none").to_owned(), debug_view::wgsl);
         modules.extend([

@@ -19,5 +19,4 @@ mod constants;
 mod debug_view;
 mod kernel;
 
-pub use crate::needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 pub use kernel::{Filter, KernelKey};

@@ -2,9 +2,9 @@
 
 use super::sometimes;
 use glam::DVec3;
+use needs::tables::TABLE_CELLS;
 use optics::Curve;
 use proptest::prelude::*;
-use shaders::tables::TABLE_CELLS;
 
 /// A table cell.
 const CELL: f64 = 1.0 / TABLE_CELLS as f64;

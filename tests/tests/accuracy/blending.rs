@@ -15,14 +15,14 @@ use protocol::FrameState;
 use rayon::prelude::*;
 use reference::{Field, Integrator, Ray, StoredField, Tracer};
 use renderer::device::{CpuDevice, Device};
-use shaders::twin::composite::Over;
-use shaders::twin::kernel::Full;
-use shaders::twin::levels::Brick;
-use shaders::twin::refine::Voxel;
-use shaders::twin::shade::Plain;
-use shaders::twin::vector::Vec3;
-use shaders::twin::{Casting, FeedbackCell, ProjectorRays, Real, ray};
 use std::sync::Arc;
+use twin::composite::Over;
+use twin::kernel::Full;
+use twin::levels::Brick;
+use twin::refine::Voxel;
+use twin::shade::Plain;
+use twin::vector::Vec3;
+use twin::{Casting, FeedbackCell, ProjectorRays, Real, ray};
 
 const PROJECTOR: u32 = 5;
 /// Pixels between those compared with the reference, whose rays take long where levels blend.
@@ -192,7 +192,7 @@ fn full_weights_are_no_blending_to_the_bit() {
         for device in &mut devices {
             let mut draw = |twin: &TwinScene, blends: bool| {
                 twin.load(device);
-                picture(device, shaders::compose::Needs { blends, ..twin.needs }, &view)
+                picture(device, needs::Needs { blends, ..twin.needs }, &view)
             };
             let (blended, plain) = (draw(&twin, true), draw(&twin, false));
             assert!(blended == plain, "{}: {} and {} samples", scene.name, blended.1, plain.1);

@@ -6,7 +6,7 @@ use lightloom_tests::draw::{self, Drawn, With, draw_with, renderer};
 use lightloom_tests::scenes::{self, TestScene, with_raster};
 use optics::DebugView;
 use protocol::{DeviceChoice, FilterChoice};
-use shaders::twin::debug::heat;
+use twin::debug::heat;
 
 const PROJECTORS: [u32; 2] = [1, 5];
 

@@ -7,10 +7,10 @@ use lightloom_tests::closure_volume::{ClosureVolume, bumps};
 use lightloom_tests::compare::{self, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{Points, frame, optics, placed, with_raster};
+use needs::tables::TABLE_CELLS;
 use optics::{Curve, Light, Mimda, MimdaForm};
 use protocol::{FilterChoice, FrameState, ProjectorImage};
 use reference::Radiance;
-use shaders::tables::TABLE_CELLS;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 

@@ -6,8 +6,8 @@ use lightloom_tests::draw;
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES};
 use lightloom_tests::twin_scene::{TwinScene, view};
+use needs::Shading;
 use optics::{Light, MimdaForm};
-use shaders::needs::Shading;
 
 const PROJECTOR: u32 = 5;
 

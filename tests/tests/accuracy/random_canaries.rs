@@ -10,11 +10,11 @@ use lightloom_tests::random_scene::{Judge, Truth, Verdict};
 use lightloom_tests::scenes::{TestScene, with_raster};
 use lightloom_tests::techniques;
 use lightloom_tests::twin_scene::{TwinScene, view};
+use needs::tables::TABLE_CELLS;
 use optics::{
     Curve, CurveValue, Enhancer, LayerOpacity, Light, Material, Mimda, MimdaForm, Quality, Trapezoid,
 };
 use protocol::{FrameState, ProjectorImage};
-use shaders::tables::TABLE_CELLS;
 use std::sync::Arc;
 
 const PROJECTORS: [u32; 1] = [5];

@@ -9,8 +9,8 @@ use lightloom_tests::techniques::{self, TECHNIQUES, band_picker, clip_plane, lay
 use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{BandPicker, ClipPlane, Curve, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe, Ramp};
 use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
-use shaders::twin::Real;
 use std::sync::Arc;
+use twin::Real;
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];

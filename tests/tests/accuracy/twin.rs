@@ -11,8 +11,8 @@ use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::MimdaForm;
 use protocol::{DeviceChoice, FrameState};
-use shaders::twin::Real;
 use std::sync::Arc;
+use twin::Real;
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];

@@ -7,11 +7,13 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 12] = [
+pub const CRATES: [(&str, &str, &[&str]); 15] = [
     ("display-config", "display-config", &[]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
-    ("shaders", "shaders", &["display-config", "layout", "optics"]),
+    ("needs", "shaders/needs", &["layout", "optics"]),
+    ("twin", "shaders/twin", &["display-config", "layout", "needs", "optics"]),
+    ("shaders", "shaders", &["layout", "needs", "optics"]),
     ("bricks", "backend/bricks", &["display-config", "layout", "optics"]),
     ("volumes", "backend/volumes", &["bricks"]),
     ("protocol", "backend/protocol", &["display-config", "optics"]),
@@ -20,7 +22,17 @@ pub const CRATES: [(&str, &str, &[&str]); 12] = [
     (
         "renderer",
         "backend/renderer",
-        &["bricks", "display-config", "layout", "optics", "protocol", "reference", "shaders"],
+        &[
+            "bricks",
+            "display-config",
+            "layout",
+            "needs",
+            "optics",
+            "protocol",
+            "reference",
+            "shaders",
+            "twin",
+        ],
     ),
     ("transport", "backend/transport", &["display-config", "optics", "protocol"]),
     ("backend", "backend", &["bricks", "display-config", "optics", "protocol", "renderer", "transport"]),
@@ -35,11 +47,12 @@ pub const CRATES: [(&str, &str, &[&str]); 12] = [
             "protocol",
             "reference",
             "renderer",
-            "shaders",
             "transport",
+            "twin",
             "volumes",
         ],
     ),
+    ("twin-f64", "tests/twin-f64", &["twin"]),
 ];
 pub const TESTS: &str = "lightloom-tests";
 /// Crates that one crate alone may depend on.
@@ -139,6 +152,9 @@ fn dependencies_point_down() {
         ("display-config", "shaders"),
         ("optics", "shaders"),
         ("reference", "shaders"),
+        ("reference", "twin"),
+        ("twin", "shaders"),
+        ("renderer", "twin-f64"),
         ("reference", "layout"),
         ("volumes", "renderer"),
         ("bricks", "shaders"),

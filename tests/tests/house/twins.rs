@@ -6,29 +6,29 @@ use std::collections::BTreeSet;
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
 const ODD_TWINS: [(&str, Option<&str>, &str); 20] = [
-    ("composite/plain_sample", Some("shaders/src/twin/composite/sample.rs"), "a constant in the twin"),
-    ("debug/none", Some("shaders/src/twin/debug/mod.rs"), "a branch in the twin"),
-    ("enhance/importance", Some("shaders/src/twin/enhance/band_picker.rs"), "one reads it, one writes it"),
-    ("enhance/no_importance", Some("shaders/src/twin/enhance/chain.rs"), "a branch in the twin"),
-    ("enhance/none", Some("shaders/src/twin/enhance/chain.rs"), "a chain without links"),
-    ("gradient/blended", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
-    ("gradient/none", Some("shaders/src/twin/gradient/detail.rs"), "a constant in the twin"),
-    ("gradient/own", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
-    ("gradient/toward_parent", Some("shaders/src/twin/gradient/detail.rs"), "a branch in the twin"),
+    ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
+    ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
+    ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
+    ("enhance/no_importance", Some("shaders/twin/src/enhance/chain.rs"), "a branch in the twin"),
+    ("enhance/none", Some("shaders/twin/src/enhance/chain.rs"), "a chain without links"),
+    ("gradient/blended", Some("shaders/twin/src/gradient/detail.rs"), "a branch in the twin"),
+    ("gradient/none", Some("shaders/twin/src/gradient/detail.rs"), "a constant in the twin"),
+    ("gradient/own", Some("shaders/twin/src/gradient/detail.rs"), "a branch in the twin"),
+    ("gradient/toward_parent", Some("shaders/twin/src/gradient/detail.rs"), "a branch in the twin"),
     ("layout", Some("shaders/layout/src/lib.rs"), "the host's structs are used beyond the twin"),
-    ("levels/no_weights", Some("shaders/src/twin/levels/weights.rs"), "a constant in the twin"),
-    ("levels/one", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its ancestors"),
-    ("levels/two", Some("shaders/src/twin/levels/three.rs"), "the twin of three without its grandparent"),
-    ("material/one", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
-    ("material/table", Some("shaders/src/twin/material.rs"), "a branch in the twin"),
+    ("levels/no_weights", Some("shaders/twin/src/levels/weights.rs"), "a constant in the twin"),
+    ("levels/one", Some("shaders/twin/src/levels/three.rs"), "the twin of three without its ancestors"),
+    ("levels/two", Some("shaders/twin/src/levels/three.rs"), "the twin of three without its grandparent"),
+    ("material/one", Some("shaders/twin/src/material.rs"), "a branch in the twin"),
+    ("material/table", Some("shaders/twin/src/material.rs"), "a branch in the twin"),
     (
         "sample/exact",
-        Some("shaders/src/twin/sample.rs"),
+        Some("shaders/twin/src/sample.rs"),
         "the twin has one way to sample: there is no choice to name",
     ),
-    ("spread/none", Some("shaders/src/twin/spread/level.rs"), "a branch in the twin"),
-    ("spread/one", Some("shaders/src/twin/spread/three.rs"), "the twin of three without ancestors"),
-    ("spread/two", Some("shaders/src/twin/spread/three.rs"), "the twin of three without a grandparent"),
+    ("spread/none", Some("shaders/twin/src/spread/level.rs"), "a branch in the twin"),
+    ("spread/one", Some("shaders/twin/src/spread/three.rs"), "the twin of three without ancestors"),
+    ("spread/two", Some("shaders/twin/src/spread/three.rs"), "the twin of three without a grandparent"),
     ("sample/hardware", None, "the texture unit does it; its precision is measured instead"),
 ];
 
@@ -39,7 +39,7 @@ fn wrong_twins(paths: &BTreeSet<&str>) -> Vec<String> {
     let stems: BTreeSet<String> = paths.iter().filter_map(|path| stem(path)).collect();
     let twin = |stem: &str| match odd(stem) {
         Some((_, twin, _)) => twin.map(str::to_owned),
-        None => Some(format!("shaders/src/twin/{stem}.rs")),
+        None => Some(format!("shaders/twin/src/{stem}.rs")),
     };
     let has_twin = |stem: &&String| twin(stem).is_none_or(|twin| paths.contains(twin.as_str()));
     let alone = stems.iter().filter(|stem| !has_twin(stem)).map(|stem| format!("{stem}.wgsl has no twin"));
@@ -53,7 +53,7 @@ fn twins_share_a_stem() {
     let paths: BTreeSet<&str> = sources.iter().map(|s| s.path.as_str()).collect();
     assert_none(&wrong_twins(&paths));
     let mut spoiled = paths.clone();
-    spoiled.remove("shaders/src/twin/cast.rs");
+    spoiled.remove("shaders/twin/src/cast.rs");
     assert_eq!(wrong_twins(&spoiled), ["cast.wgsl has no twin"]);
     let mut spoiled = paths;
     spoiled.remove("shaders/wgsl/sample/hardware.wgsl");

@@ -5,9 +5,9 @@ use super::under_way::UnderWay;
 use super::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
 use bricks::BRICK_VOXELS;
 use layout::NodeRecord;
+use needs::tables::Tables;
 use rayon::prelude::*;
-use shaders::tables::Tables;
-use shaders::twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixel};
+use twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixels};
 
 /// The brick cache in main memory, and the pictures.
 #[derive(Debug)]
@@ -158,28 +158,8 @@ fn no_feedback(nodes: &[NodeRecord]) -> Vec<FeedbackCell> {
     nodes.iter().map(|_| FeedbackCell::default()).collect()
 }
 
-/// Casts one tile with the widest instructions this machine has. Wider registers change no result: nothing is
-/// contracted or reordered.
 fn cast_tile(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: the processor has just been asked for AVX2.
-        return unsafe { cast_tile_avx2(casting, view, tile) };
-    }
-    cast_tile_anywhere(casting, view, tile)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn cast_tile_avx2(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
-    cast_tile_anywhere(casting, view, tile)
-}
-
-#[inline(always)]
-fn cast_tile_anywhere(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
-    let mut casts = Vec::with_capacity(64);
-    for (x, y) in view.pixels(tile) {
-        casts.push(((x, y), cast_pixel(casting, view.rays, x, y)));
-    }
-    casts
+    let pixels: Vec<(u32, u32)> = view.pixels(tile).collect();
+    let casts = cast_pixels(casting, view.rays, &pixels);
+    pixels.into_iter().zip(casts).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::{CastJob, CastOutcome, CpuDevice, DeviceError, FeedbackTag, TaggedFeedback};
 use layout::NodeRecord;
-use shaders::tables::Tables;
+use needs::tables::Tables;
 
 /// A device with its brick cache.
 #[derive(Debug)]

@@ -1,10 +1,10 @@
 //! One cast: which rays, with which kernel, and what they found.
 
 use layout::{FeedbackEntry, TILE_EDGE};
+use needs::Needs;
 use protocol::StopAsked;
-use shaders::compose::Needs;
-use shaders::twin::{ProjectorRays, SceneNumbers};
 use std::borrow::Cow;
+use twin::{ProjectorRays, SceneNumbers};
 
 /// The tiles of a raster: squares of 8 × 8 cast pixels, `stride` pixels apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

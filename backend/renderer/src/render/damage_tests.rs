@@ -13,14 +13,14 @@ use bricks::procedural::ProceduralVolume;
 use bricks::volume::VolumeFrame;
 use bricks::{Brick, BrickError, BrickSource, CellRanges, Codes, NodeKey, NodeSummary, OctreeShape};
 use glam::{DVec3, UVec3};
+use needs::Needs;
+use needs::tables::Tables;
 use protocol::FrameState;
 use reference::{Integrator, Reference};
-use shaders::compose::Needs;
-use shaders::tables::Tables;
-use shaders::twin::ProjectorRays;
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::time::Duration;
+use twin::ProjectorRays;
 
 /// The shells of 100³ voxels, some bricks of which cannot be read.
 struct Spoiled {

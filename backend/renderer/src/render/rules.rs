@@ -6,8 +6,8 @@ use crate::working_set::IndexRules;
 use bricks::LodRule;
 use bricks::OctreeShape;
 use layout::CELL_WORDS;
+use needs::tables::Tables;
 use optics::Optics;
-use shaders::tables::Tables;
 
 /// What one frame asks of the cut.
 #[derive(Clone, Copy, Debug)]

@@ -5,11 +5,11 @@ use super::engine::Engine;
 use super::rules::FrameRules;
 use super::views::{rays_of, scene_numbers};
 use bricks::LodRule;
+use needs::Needs;
+use needs::tables::Tables;
 use protocol::FrameState;
-use shaders::compose::Needs;
-use shaders::tables::Tables;
-use shaders::twin::{ProjectorRays, SceneNumbers};
 use std::sync::Arc;
+use twin::{ProjectorRays, SceneNumbers};
 
 /// Cells are kept with a margin of one voxel for half a pair of steps.
 const LONGEST_STEP_THAT_PASSES_OVER: f64 = 1.0;

@@ -1,9 +1,9 @@
 //! The tables of the latest optics.
 
 use crate::device::Device;
+use needs::Needs;
+use needs::tables::Tables;
 use optics::Optics;
-use shaders::needs::Needs;
-use shaders::tables::Tables;
 use std::sync::Arc;
 
 /// The tables of the latest optics: they are made when these change.

@@ -4,7 +4,7 @@ use super::RenderError;
 use bricks::OctreeShape;
 use display_config::Display;
 use protocol::FrameState;
-use shaders::twin::{Placement, ProjectorRays, SceneNumbers};
+use twin::{Placement, ProjectorRays, SceneNumbers};
 
 /// The numbers that all projectors share, as kernels read them.
 pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &OctreeShape) -> SceneNumbers<f32> {

@@ -6,8 +6,8 @@ use super::engine::Engine;
 use super::setting::Setting;
 use crate::device::{CastJob, Gather, Part, TileGrid};
 use layout::FeedbackEntry;
+use needs::Needs;
 use protocol::{FrameState, Pace, StopAsked};
-use shaders::compose::Needs;
 use std::ops::Range;
 use std::time::Instant;
 

@@ -5,8 +5,8 @@ use bricks::is_shown;
 use bricks::{LodRule, MeasuredRule};
 use bricks::{NodeSummary, OctreeShape};
 use layout::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
+use needs::{Compositing, Way};
 use optics::Optics;
-use shaders::compose::{Compositing, Way};
 
 /// What turns a cut into an index for one frame.
 #[derive(Clone, Copy, Debug)]

@@ -13,10 +13,11 @@ use crate::device::job::ViewJob;
 use crate::device::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
 use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock, binding};
+use needs::Way;
+use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
-use shaders::compose::{Filter, KernelKey, Way};
-use shaders::tables::Tables;
+use shaders::compose::{Filter, KernelKey};
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -6,7 +6,7 @@ use super::storage::{Storage, uniform};
 use crate::device::job::{CastOutcome, ViewJob};
 use crate::device::{CastJob, DeviceError};
 use layout::{MISSING, ViewBlock};
-use shaders::twin::Tiling;
+use twin::Tiling;
 
 /// The buffers of one view.
 #[derive(Debug)]

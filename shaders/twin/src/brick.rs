@@ -1,0 +1,271 @@
+//! A ray's path through one brick: light and steps.
+
+use super::composite::{Accumulated, Composite, Light, Sample};
+use super::debug::debug_light;
+use super::enhance::{Chain, Segment};
+use super::gradient::Gradients;
+use super::kernel::Kernel;
+use super::levels::Brick;
+use super::material::{material_between, material_of_pair};
+use super::refine::{Pair, parts_of_step};
+use super::shade::{Lighting, Shade};
+use super::spread::sample_over;
+use super::tables::{attenuation_mean, locate};
+use super::{Casting, Real, ray::Ray, vector::Vec3};
+use layout::{CELL_EDGE, CELLS_ACROSS};
+
+/// Texels along the edge of a cell.
+const CELL: f64 = CELL_EDGE as f64;
+/// Cells along the edge of a brick.
+const ACROSS: u32 = CELLS_ACROSS as u32;
+
+impl<F: Real> Brick<'_, F> {
+    /// Whether anything shows within a voxel of the cell around a point.
+    #[inline(always)]
+    fn is_visible_at(&self, point: Vec3<F>) -> bool {
+        let [x, y, z] = point.0.map(|c| (c * F::of(1.0 / CELL)).to_index() & (ACROSS - 1));
+        let cell = (z * ACROSS + y) * ACROSS + x;
+        self.cells[(cell >> 5) as usize] >> (cell & 31) & 1 != 0
+    }
+
+    /// Pairs of steps of `length` metres until the middle of one lies beyond the cell around `middle`; at least 1.
+    #[inline(always)]
+    fn pairs_across(&self, middle: Vec3<F>, length: F) -> u32 {
+        let mut way = F::of(1e30);
+        for axis in 0..3 {
+            let in_cells = middle.0[axis] * F::of(1.0 / CELL);
+            let low = F::of_u32(in_cells.to_index()) * F::of(CELL);
+            let face = if self.own.slope.0[axis] >= F::ZERO { low + F::of(CELL) } else { low };
+            way = way.least((face - middle.0[axis]).abs() * self.pace.0[axis]);
+        }
+        (way / length).ceil().most(F::ONE).least(F::of(1e6)).to_index()
+    }
+}
+
+impl<F: Real> Brick<'_, F> {
+    /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something.
+    /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
+    /// of a pair are asked as leave none of it farther than a voxel.
+    #[inline(always)]
+    pub(super) fn pairs_unseen<K: Kernel>(&self, t: F, length: F) -> u32 {
+        let both = F::of(2.0) * length;
+        if self.has_fractions::<K>() {
+            let [x, y, z] = self.own.slope.0.map(F::abs);
+            let points = (length * x.most(y).most(z)).ceil().most(F::ONE);
+            let mut unseen = u32::MAX;
+            for j in 0..points.to_index() {
+                let point = self.own.point(t + both * ((F::of_u32(j) + F::of(0.5)) / points));
+                if self.is_visible_at(point) {
+                    return 0;
+                }
+                unseen = unseen.min(self.pairs_across(point, both));
+            }
+            return unseen;
+        }
+        let middle = self.own.point(t + length);
+        if self.is_visible_at(middle) { 0 } else { self.pairs_across(middle, both) }
+    }
+}
+
+/// A straight path through a brick.
+#[derive(Clone, Copy)]
+pub(super) struct Straight<'a, F> {
+    pub(super) brick: &'a Brick<'a, F>,
+    pub(super) ray: &'a Ray<F>,
+}
+
+/// A pair of steps of equal length, of which the second may take another way.
+pub(super) struct PairOfSteps<'a, F> {
+    pub(super) first: Straight<'a, F>,
+    pub(super) second: Straight<'a, F>,
+    /// Where each begins on its way.
+    pub(super) t: [F; 2],
+    /// Metres of each.
+    pub(super) length: F,
+    /// The scalars at the ends and in the middle.
+    pub(super) scalars: [F; 3],
+    /// All that may have been met.
+    pub(super) range: (F, F),
+    /// Half-width of the scalars that the samples of each stand for.
+    pub(super) spreads: [F; 2],
+}
+
+/// One step along a way.
+struct Step<'a, F> {
+    way: Straight<'a, F>,
+    /// All of it as one segment.
+    whole: Sample<F>,
+    scalars: (F, F),
+    t0: F,
+    length: F,
+}
+
+/// Light of a segment, composited alone; `thickness` is metres times the extinction per metre where the table says 1.
+#[inline(always)]
+fn segment_light<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) -> Light<F> {
+    let depth = sample.k[3] * thickness;
+    let mean = attenuation_mean(depth);
+    let body = F::ONE - sample.lit + sample.lit * light.body;
+    let [r, g, b, extinction] = sample.k;
+    let lit = Vec3([r, g, b]) * body + Vec3::splat(extinction * (sample.lit * light.highlight));
+    Light { rgb: lit * (thickness * mean * sample.brightness), alpha: depth * mean }
+}
+
+/// Adds one step with its middle `at` a place on a ray, lit as given.
+#[inline(always)]
+fn add_whole<F: Real, K: Kernel>(
+    casting: &Casting<F>,
+    front: Accumulated<F>,
+    sample: &Sample<F>,
+    thickness: F,
+    light: Lighting<F>,
+    at: (&Ray<F>, F),
+) -> Accumulated<F> {
+    if K::Composite::is_clear(sample.k[3]) {
+        return front;
+    }
+    let light = debug_light::<F, K>(casting, segment_light(sample, thickness, light), at);
+    K::Composite::composite(casting, front, light, sample)
+}
+
+/// Adds one step, split into parts.
+#[inline(always)]
+fn add_parts<F: Real, K: Kernel>(
+    casting: &Casting<F>,
+    chain: &Chain<F>,
+    front: Accumulated<F>,
+    step: &Step<F>,
+    parts: F,
+) -> Accumulated<F> {
+    if K::IS_FULL {
+        add_parts_apart::<F, K>(casting, chain, front, step, parts)
+    } else {
+        add_parts_here::<F, K>(casting, chain, front, step, parts)
+    }
+}
+
+/// The same, not inlined: there is much of it in kernels with everything.
+#[inline(never)]
+fn add_parts_apart<F: Real, K: Kernel>(
+    casting: &Casting<F>,
+    chain: &Chain<F>,
+    front: Accumulated<F>,
+    step: &Step<F>,
+    parts: F,
+) -> Accumulated<F> {
+    add_parts_here::<F, K>(casting, chain, front, step, parts)
+}
+
+#[inline(always)]
+fn add_parts_here<F: Real, K: Kernel>(
+    casting: &Casting<F>,
+    chain: &Chain<F>,
+    mut front: Accumulated<F>,
+    step: &Step<F>,
+    parts: F,
+) -> Accumulated<F> {
+    let Straight { brick, ray } = step.way;
+    let part = step.length / parts;
+    let thickness = casting.scene.extinction_per_metre * part;
+    let half = F::of(0.5);
+    let mut alone = Light::NONE;
+    let (mut from, end) = step.scalars;
+    let mut from_located = locate(casting.tables, from);
+    let count = parts.to_index();
+    for j in 1..=count {
+        let t = step.t0 + F::of_u32(j) * part;
+        let to = if j < count { brick.scalar_at::<K>(casting, ray, t) } else { end };
+        let to_located = locate(casting.tables, to);
+        let middle = t - half * part;
+        let spread = brick.spread_at::<K>(casting, ray, middle);
+        let located = [&from_located, &to_located];
+        let plain = sample_over::<F, K::Composite>(casting, located, (from, to), spread);
+        if !K::Composite::is_clear(plain.k[3]) {
+            let mut gradients = Gradients::NONE;
+            let enhancers_look = chain.spread::<K>(casting, middle) > F::ZERO;
+            if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
+                gradients = Gradients::new::<K>(casting, brick, ray, middle);
+            }
+            let mut samples = [plain];
+            let segment = Segment { ray, t: middle, length: part, scalars: (from, to) };
+            chain.enhance::<K, 1>(casting, &mut samples, [segment], &gradients);
+            let [sample] = samples;
+            let light = if sample.k[3] > F::ZERO {
+                let material = material_between::<F, K>(casting, from, to);
+                K::Shade::lighting(casting, &gradients, ray, material)
+            } else {
+                Lighting::NONE
+            };
+            let light = segment_light(&sample, thickness, light);
+            let light = debug_light::<F, K>(casting, light, (ray, middle));
+            if K::Composite::ONCE_PER_STEP {
+                alone = alone.then(light);
+            } else {
+                front = K::Composite::composite(casting, front, light, &sample);
+            }
+        }
+        (from, from_located) = (to, to_located);
+    }
+    if K::Composite::ONCE_PER_STEP {
+        K::Composite::composite(casting, front, alone, &step.whole)
+    } else {
+        front
+    }
+}
+
+/// Adds a pair of steps. Returns what was gathered, and the number of parts that each step was split into.
+#[inline(always)]
+pub(super) fn add_pair<F: Real, K: Kernel>(
+    casting: &Casting<F>,
+    chain: &Chain<F>,
+    front: Accumulated<F>,
+    steps: &PairOfSteps<F>,
+) -> (Accumulated<F>, F) {
+    let scene = casting.scene;
+    let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range, spreads } = *steps;
+    let thickness = scene.extinction_per_metre * length;
+    let mut pair = Pair::new::<K::Composite>(casting, [s0, s1, s2], range, spreads);
+    let middle = t0 + length;
+    let mut gradients = Gradients::NONE;
+    // Only enhancers whose samples vary with the gradient look at it.
+    let chain_spread = chain.spread::<K>(casting, middle);
+    let enhancers_look = chain_spread > F::ZERO;
+    if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
+        gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
+    }
+    let half = F::of(0.5) * length;
+    if K::ENHANCES {
+        let both = F::of(2.0) * length;
+        let segment = |ray, t, length, scalars| Segment { ray, t, length, scalars };
+        let segments = [
+            segment(first.ray, t0 + half, length, (s0, s1)),
+            segment(second.ray, t1 + half, length, (s1, s2)),
+            segment(first.ray, middle, both, (s0, s2)),
+            segment(first.ray, middle, both, range),
+        ];
+        let mut samples = [pair.first, pair.second, pair.both, pair.reach];
+        chain.enhance::<K, 4>(casting, &mut samples, segments, &gradients);
+        [pair.first, pair.second, pair.both, pair.reach] = samples;
+    }
+    let visible = K::Composite::still_to_come(casting, front);
+    let spread = F::of(K::Shade::spread(casting.needs)) + chain_spread;
+    let parts = parts_of_step(&pair, thickness, visible, spread, scene.tolerance)
+        .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
+    if parts > F::ONE {
+        let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };
+        let front = add_parts::<F, K>(casting, chain, front, &step, parts);
+        let step = Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length };
+        return (add_parts::<F, K>(casting, chain, front, &step, parts), parts);
+    }
+    // The light in the middle of the pair serves both steps.
+    let mut light = Lighting::NONE;
+    if K::Shade::reads_gradients(casting.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
+        if !enhancers_look {
+            gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
+        }
+        let material = material_of_pair::<F, K>(casting, [s0, s1, s2]);
+        light = K::Shade::lighting(casting, &gradients, first.ray, material);
+    }
+    let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray, t0 + half));
+    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray, t1 + half)), parts)
+}

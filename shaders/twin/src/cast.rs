@@ -1,0 +1,99 @@
+//! One ray from a pixel to its colour.
+
+use super::composite::{Consistent, Mimda, Over, Paper};
+use super::debug::debug_pixel;
+use super::kernel::{Blended, Enhanced, Full, Lean};
+use super::shade::{AnyShade, Phong, Plain};
+use super::way::cast_ray;
+use super::{Cast, Casting, ProjectorRays, Real, ray::Ray};
+use needs::{Chain, Compositing, Levels, Needs, Shading, Way};
+use optics::MimdaForm;
+
+/// The twin of a frame and a shading, with the compositing that the scene needs.
+macro_rules! composited {
+    ($frame:ident, $shade:ident, $casting:ident, $ray:ident) => {
+        match $casting.needs.compositing {
+            Compositing::Over => cast_ray::<F, $frame<$shade, Over<false>>>($casting, &$ray),
+            Compositing::Mimda(MimdaForm::Paper) => {
+                cast_ray::<F, $frame<$shade, Mimda<Paper>>>($casting, &$ray)
+            }
+            Compositing::Mimda(MimdaForm::Consistent) => {
+                cast_ray::<F, $frame<$shade, Mimda<Consistent>>>($casting, &$ray)
+            }
+        }
+    };
+}
+
+/// The same with enhancers, of those compositings that [`Frame::of`] lets through.
+macro_rules! enhanced {
+    ($shade:ident, $casting:ident, $ray:ident) => {
+        match $casting.needs.compositing {
+            Compositing::Over => cast_ray::<F, Enhanced<$shade, Over<false>>>($casting, &$ray),
+            Compositing::Mimda(_) => cast_ray::<F, Enhanced<$shade, Mimda<Consistent>>>($casting, &$ray),
+        }
+    };
+}
+
+#[inline(always)]
+fn ray_of_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Ray<F> {
+    let half = F::of(0.5);
+    Ray::of_pixel(casting.scene, rays, F::of_u32(x) + half, F::of_u32(y) + half)
+}
+
+/// Casts the ray of a projector's pixel (x, y) with the modules that a kernel for the scene's needs has.
+#[inline(always)]
+pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Cast<F> {
+    let needs = casting.needs;
+    let is_plain = needs.shading == Shading::Plain;
+    let ray = ray_of_pixel(casting, rays, x, y);
+    match (Frame::of(needs), is_plain) {
+        (Frame::Lean, true) => composited!(Lean, Plain, casting, ray),
+        (Frame::Lean, false) => composited!(Lean, Phong, casting, ray),
+        (Frame::Blended, true) => composited!(Blended, Plain, casting, ray),
+        (Frame::Blended, false) => composited!(Blended, Phong, casting, ray),
+        (Frame::Enhanced, true) => enhanced!(Plain, casting, ray),
+        (Frame::Enhanced, false) => enhanced!(Phong, casting, ray),
+        (Frame::Full, _) => cast_in_full(casting, rays, x, y),
+    }
+}
+
+/// The same with a twin that has every module: it sees the same, only later.
+#[inline(always)]
+pub fn cast_in_full<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Cast<F> {
+    let ray = ray_of_pixel(casting, rays, x, y);
+    let cast = if casting.needs.tells_importance {
+        cast_ray::<F, Full<AnyShade, Over<true>>>(casting, &ray)
+    } else {
+        composited!(Full, AnyShade, casting, ray)
+    };
+    Cast { rgba: debug_pixel(casting, cast.rgba, cast.samples), ..cast }
+}
+
+/// The twin with the fewest features that has all that a scene needs, shading and compositing apart.
+enum Frame {
+    Lean,
+    Blended,
+    Enhanced,
+    Full,
+}
+
+impl Frame {
+    fn of(needs: &Needs) -> Self {
+        let Needs { levels, blends, spreads, shading, has_materials, compositing, way, chain, debug, .. } =
+            *needs;
+        let is_rare = levels != Levels::Single
+            || shading.has_detail()
+            || has_materials
+            || way != Way::Straight
+            || debug.is_some()
+            // A twin takes seconds to compile: enhancers have one of their own with the common ways to composite.
+            || needs.tells_importance
+            || (chain != Chain::EMPTY && compositing == Compositing::Mimda(MimdaForm::Paper));
+        match (is_rare, chain == Chain::EMPTY, blends || spreads) {
+            (true, ..) => Self::Full,
+            (false, false, _) => Self::Enhanced,
+            (false, true, true) => Self::Blended,
+            (false, true, false) => Self::Lean,
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! What a segment shows.
+
+use crate::importance::{Importance, importance_between};
+use crate::tables::TablePlace;
+use crate::{Casting, Real};
+
+/// What a segment shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<F> {
+    /// Mean (τ c, τ).
+    pub k: [F; 4],
+    /// Share of the shading that acts on it.
+    pub lit: F,
+    /// Factor of the light that it emits.
+    pub brightness: F,
+    /// Its importance; [`Importance::EQUAL`] in ordinary compositing.
+    pub importance: Importance<F>,
+}
+
+impl<F: Real> Sample<F> {
+    /// Of a mean (τ c, τ), where nothing looks at importance.
+    #[inline(always)]
+    pub(super) fn plain(k: [F; 4]) -> Self {
+        Self { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
+    }
+
+    /// Of a mean (τ c, τ) between the places of two scalars.
+    #[inline(always)]
+    pub(super) fn told(casting: &Casting<F>, k: [F; 4], [a, b]: [&TablePlace<F>; 2]) -> Self {
+        Self { importance: importance_between(casting.tables, a, b), ..Self::plain(k) }
+    }
+}
