@@ -27,7 +27,7 @@ pub use error::AccuracyError;
 pub use pareto::{BEATEN_BY, Score, beaten_by, front};
 pub use projectors::{check_projectors, two_projectors};
 pub use run::Outcome;
-pub use setting::{Family, Setting, Trial, filter_name, small};
+pub use setting::{Family, Setting, Trial, filter_name, levels_of, small};
 pub use study::Study;
 pub use supervise::supervised;
 pub use sweep::{Offer, around_default, product};

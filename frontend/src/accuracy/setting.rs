@@ -31,6 +31,12 @@ pub enum Family {
     Termination,
     /// Only the level tolerance differs from the default.
     Levels,
+    /// The same, and samples are filtered over levels.
+    Quadrilinear,
+    /// The same, without blending into coarser neighbours.
+    Unblended,
+    /// The same, without the standard deviations of coarse voxels.
+    Means,
     /// The scene's own quality, where it is not the default.
     Scene,
     /// A part of the whole product.
@@ -50,17 +56,28 @@ pub struct Trial {
 /// All of it in one line.
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Quality { step_voxels, termination, lod_scale, .. } = self.quality;
+        let Quality { step_voxels, termination, .. } = self.quality;
         write!(
             f,
-            "step {step_voxels}, tolerance {}, termination {}, levels {lod_scale}{}, {}, {} bits",
+            "step {step_voxels}, tolerance {}, termination {}, levels {}, {}, {} bits",
             small(self.quality.tolerance),
             small(termination),
-            if self.quality.quadrilinear { " blended" } else { "" },
+            levels_of(&self.quality),
             filter_name(self.filter),
             self.bits
         )
     }
+}
+
+/// The level tolerance, and how the filtering over levels differs from the default.
+pub fn levels_of(quality: &Quality) -> String {
+    let odd = [
+        (quality.quadrilinear, " quadrilinear"),
+        (!quality.blended, " unblended"),
+        (!quality.deviation, " of means"),
+    ];
+    let odd: String = odd.into_iter().filter_map(|(is_so, name)| is_so.then_some(name)).collect();
+    format!("{}{odd}", quality.lod_scale)
 }
 
 /// What people call a filter.
@@ -93,6 +110,8 @@ mod tests {
         let quality = Quality { tolerance: f64::INFINITY, termination: 0.0, ..Quality::default() };
         let setting = Setting { quality, filter: FilterChoice::Exact, bits: 16 };
         assert_eq!(setting.to_string(), "step 0.4, tolerance ∞, termination 0, levels 1, exact, 16 bits");
+        let odd = Quality { lod_scale: 2.0, quadrilinear: true, deviation: false, ..quality };
+        assert_eq!(levels_of(&odd), "2 quadrilinear of means");
         assert_eq!([small(1e-4), small(2.5e-5), small(1.0 / 1024.0)], ["1e-4", "2.5e-5", "9.8e-4"]);
     }
 }

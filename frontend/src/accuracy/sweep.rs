@@ -57,6 +57,13 @@ pub fn around_default(offer: &Offer, scene: &Quality) -> Vec<Trial> {
     for lod_scale in LEVEL_SCALES {
         add(Family::Levels, with(Quality { lod_scale, ..default.quality }));
     }
+    // At the finest level they are all the same.
+    for lod_scale in LEVEL_SCALES.into_iter().filter(|&scale| scale > 0.0 && !offer.is_finest) {
+        let quality = Quality { lod_scale, ..default.quality };
+        add(Family::Quadrilinear, with(Quality { quadrilinear: true, ..quality }));
+        add(Family::Unblended, with(Quality { blended: false, ..quality }));
+        add(Family::Means, with(Quality { deviation: false, ..quality }));
+    }
     for &filter in &offer.filters {
         add(Family::Filter, Setting { filter, ..default });
     }
@@ -159,18 +166,25 @@ mod tests {
     fn one_at_a_time_is_what_it_says() {
         let draft = Quality { step_voxels: 3.0, ..Quality::default() };
         let trials = around_default(&offer(), &draft);
-        assert_eq!(trials.len(), 6 * 6 + 4 + 4 + 1 + 1 + 1);
+        assert_eq!(trials.len(), 6 * 6 + 4 + 4 + 3 * 4 + 1 + 1 + 1);
         let default = trials[0].setting;
+        let is_of_levels = |family: &Family| {
+            [Family::Levels, Family::Quadrilinear, Family::Unblended, Family::Means].contains(family)
+        };
         for Trial { family, setting } in &trials[1..] {
             let (a, b) = (setting.quality, default.quality);
             let differs = [
                 a.step_voxels != b.step_voxels || a.tolerance != b.tolerance,
                 a.termination != b.termination,
-                a.lod_scale != b.lod_scale,
+                is_of_levels(family),
                 setting.filter != default.filter,
                 setting.bits != default.bits,
             ];
             assert_eq!(differs.iter().filter(|d| **d).count(), 1, "{family:?}: {setting}");
+            let [a, b] = [a, b].map(|quality| (quality.quadrilinear, quality.blended, quality.deviation));
+            let odd = [a.0 != b.0, a.1 != b.1, a.2 != b.2];
+            let is_one = [Family::Quadrilinear, Family::Unblended, Family::Means].contains(family);
+            assert_eq!(odd.iter().filter(|d| **d).count(), usize::from(is_one), "{family:?}: {setting}");
         }
         assert_eq!(product(&offer()).len(), 2 * 2 * 6 * 6 * 5 * 5);
         let scene = around_default(&offer(), &Quality::default());

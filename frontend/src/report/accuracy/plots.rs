@@ -5,9 +5,12 @@ use crate::accuracy::{Family, Measured, filter_name, small};
 use crate::report::plot::{Chart, Mark, Point, Series, Stroke};
 
 /// Families that are varied alone: what the legend calls them, and how they look.
-const ALONE: [(Family, &str, Mark); 5] = [
+const ALONE: [(Family, &str, Mark); 8] = [
     (Family::Termination, "other termination", Mark::Diamond),
     (Family::Levels, "other level tolerance", Mark::Triangle),
+    (Family::Quadrilinear, "the same, quadrilinear", Mark::Triangle),
+    (Family::Unblended, "the same, unblended", Mark::Diamond),
+    (Family::Means, "the same, of means alone", Mark::Square),
     (Family::Bits, "fewer bits per voxel", Mark::Square),
     (Family::Filter, "other filter", Mark::Square),
     (Family::Scene, "the scene's own", Mark::Diamond),

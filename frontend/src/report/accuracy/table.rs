@@ -1,7 +1,7 @@
 //! The settings and what they cost and miss, row by row.
 
 use super::{AccuracyReport, Measure};
-use crate::accuracy::{Family, Measured, filter_name, small};
+use crate::accuracy::{Family, Measured, filter_name, levels_of, small};
 
 /// The headings; errors are in units of 1/255.
 pub(super) const HEADS: [&str; 12] = [
@@ -36,7 +36,7 @@ fn row(report: &AccuracyReport, index: usize, one: &Measured) -> Vec<String> {
         quality.step_voxels.to_string(),
         small(quality.tolerance),
         small(quality.termination),
-        format!("{}{}", quality.lod_scale, if quality.quadrilinear { ", blended" } else { "" }),
+        levels_of(quality),
         filter_name(setting.filter).to_owned(),
         setting.bits.to_string(),
         digits(one.seconds),
@@ -53,6 +53,9 @@ pub(super) fn family_name(family: Family) -> &'static str {
         Family::Bits => "bits",
         Family::Termination => "termination",
         Family::Levels => "levels",
+        Family::Quadrilinear => "quadrilinear",
+        Family::Unblended => "unblended",
+        Family::Means => "means",
         Family::Scene => "scene's own",
         Family::Product => "product",
     }
