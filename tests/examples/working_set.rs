@@ -17,6 +17,7 @@ use glam::{DQuat, UVec3};
 use lightloom_tests::data;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::ideal_cut::{IdealCut, ideal_cut};
+use lightloom_tests::octaves::Octaves;
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, Colours, Points, scaled, with_raster};
@@ -42,8 +43,6 @@ const CACHE_BYTES: u64 = 3 << 30;
 const CONVERGED: [usize; 3] = [0, 9, 18];
 /// Rasters on the same screen, the last being the display's own.
 const RASTERS: [(u32, u32); 3] = [(200, 150), (400, 300), (800, 600)];
-/// The raster of the count over all back-ends.
-const COUNTED: (u32, u32) = (400, 300);
 /// Of them on holo72, two projectors each.
 const BACKENDS: usize = 36;
 
@@ -111,6 +110,22 @@ fn vessels(edge: u32, longest_m: f64) -> Subject {
             (0.0, 1.0),
             &vec![(0.05, 0.0), (0.2, most), (1.0, most)],
             &vec![(0.0, [0.5, 0.05, 0.05]), (1.0, [1.0, 0.5, 0.3])],
+        ),
+    }
+}
+
+/// Dense: waves of all octaves, of which a ray passes through a twentieth of the volume or so.
+fn octaves(edge: u32, longest_m: f64) -> Subject {
+    let most = 200.0 / f64::from(edge);
+    Subject {
+        name: "dense waves, 4096³",
+        source: Arc::new(Remembered::new(Arc::new(Octaves::new(edge, 1)))),
+        longest_m,
+        rotation: DQuat::from_rotation_y(0.4),
+        optics: scenes::optics(
+            (0.0, 1.0),
+            &vec![(0.5, 0.0), (0.6, most), (1.0, most)],
+            &vec![(0.48, [0.9, 0.35, 0.1]), (0.62, [0.1, 0.6, 0.9])],
         ),
     }
 }
@@ -191,9 +206,14 @@ fn visibility(holo: &Display, subjects: &[Subject], device: DeviceChoice) -> Res
     results.finish()
 }
 
-/// Section 6: the load of each back-end.
-fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) -> Result<(), String> {
-    let mut results = Results::new(Program::Study("working_set"), "visibility", "back-ends");
+/// Section 6: the load of each back-end, with all of them counted at a raster.
+fn back_ends(
+    holo: &Display,
+    subject: &Subject,
+    (part, counted): (&'static str, (u32, u32)),
+    device: DeviceChoice,
+) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("working_set"), "visibility", part);
     let wiring = holo.wiring(BACKENDS).expect("holo72 has 72 projectors");
     let shares: Vec<Vec<u32>> = wiring.shares.into_iter().map(|share| share.projectors).collect();
     results.line(format!("{BACKENDS} back-ends of holo72, two projectors each: {}\n", subject.name));
@@ -212,13 +232,13 @@ fn back_ends(holo: &Display, subject: &Subject, device: DeviceChoice) -> Result<
                 .line(format!("| {opacity} | {backend} | {} | {} | {} |", counts[0], counts[1], counts[2]));
         }
     }
-    results.line(format!("\nAll back-ends, at {} × {}:\n", COUNTED.0, COUNTED.1));
+    results.line(format!("\nAll back-ends, at {} × {}:\n", counted.0, counted.1));
     results.line(
         "| transfer function | leaves, mean | largest | largest / mean | union / sum of the two views | held, mean | largest | ideal cut, mean |",
     );
     results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     results.line("| the paper's | 1549 | 2087 | 1.35 | | | | |");
-    let display = with_raster(holo, COUNTED.0, COUNTED.1);
+    let display = with_raster(holo, counted.0, counted.1);
     for (opacity, factor) in &OPACITIES[..2] {
         let frame = subject.frame(&display, *factor);
         let needs: Vec<(FrameReport, usize)> = shares
@@ -271,9 +291,15 @@ fn main() -> Result<(), String> {
             .flatten()
             .filter(|subject| subject.name.contains(&only))
             .collect();
-    visibility(&holo, &subjects, device)?;
-    for subject in [shells(2048, holo.height_m)].into_iter().filter(|subject| subject.name.contains(&only)) {
-        back_ends(&holo, &subject, device)?;
+    if !subjects.is_empty() {
+        visibility(&holo, &subjects, device)?;
+    }
+    let loads = [
+        (shells(2048, holo.height_m), ("back-ends", (400, 300))),
+        (octaves(4096, holo.height_m), ("back-ends, dense", (800, 600))),
+    ];
+    for (subject, what) in loads.into_iter().filter(|(subject, _)| subject.name.contains(&only)) {
+        back_ends(&holo, &subject, what, device)?;
     }
     Ok(())
 }

@@ -12,6 +12,7 @@ pub mod head;
 pub mod ideal_cut;
 pub mod made_once;
 pub mod motion;
+pub mod octaves;
 pub mod phantoms;
 pub mod picture_difference;
 pub mod presented;

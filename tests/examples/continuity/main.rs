@@ -2,10 +2,11 @@
 //!
 //! ```text
 //! cargo run --release -p lightloom-tests --example continuity -- [-o DIR] [--fade S] [--blended true|false]
-//!     [--frames N] [--raster WxH] [--edge N] [--upload-mib N] [--gpu] [--fades S,S,...]
+//!     [--frames N] [--raster WxH] [--volume shells|octaves] [--edge N] [--upload-mib N] [--gpu] [--fades S,S,...]
 //! ```
 //!
-//! One projector of holo72 with a reduced raster, and nested shells that double in size in one second. Complete frames tell
+//! One projector of holo72 with a reduced raster, and a volume that doubles in size in one second: nested shells, whose pixels
+//! on one surface are told from those where a rim passes, or dense waves of all octaves, of which all pixels count. Complete frames tell
 //! what motion alone changes, and what pops when the rule of detail changes its mind; live ones what loading adds: with
 //! blending (`--fade`, half a second without it) and without it. `--blended` picks one of the two. A motion begins when the
 //! detail of its first frame is at rest; with the object still, the sequence begins with the coarsest brick alone, and all
@@ -14,6 +15,9 @@
 //! largest numbers are the surface's own bends. `--fades` draws cold starts alone, one for each fade, until they are at
 //! rest.
 
+mod arguments;
+
+use arguments::{Arguments, arguments};
 use bricks::BrickSource;
 use bricks::procedural::{ProceduralVolume, field_named};
 use display_config::Display;
@@ -25,6 +29,7 @@ use lightloom_tests::motion::{
     Approach, Continuity, FRAMES_PER_SECOND, Spread, borrowed, continuity, difference, draw_sequence,
     standing_still, steps,
 };
+use lightloom_tests::octaves::Octaves;
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, with_raster};
@@ -36,14 +41,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-const USAGE: &str = "give [-o DIR] [--fade S] [--blended true|false] [--frames N] [--raster WxH] [--edge N] \
-                     [--upload-mib N] [--gpu] [--fades S,S,...]";
 /// Near the middle.
 const PROJECTOR: u32 = 36;
 /// Every so many frames, borders are looked for.
 const BORDERS_EVERY: usize = 10;
-/// See [`continuity`].
-const LEAST_FRAMES: u32 = 4;
 /// Frames until a sequence must have started.
 const MOST_WARMING: u32 = 3000;
 /// Frames of a cold start at most.
@@ -51,68 +52,11 @@ const MOST_COLD: u32 = 6000;
 /// Difference pictures are so much brighter.
 const GAIN: f32 = 8.0;
 
-struct Arguments {
-    out: Option<PathBuf>,
-    fade_s: f64,
-    fades_s: Vec<f64>,
-    blended: Option<bool>,
-    frames: u32,
-    raster: (u32, u32),
-    edge: u32,
-    upload_mib: u64,
-    device: DeviceChoice,
-}
-
-fn arguments() -> Result<Arguments, String> {
-    let mut found = Arguments {
-        out: None,
-        fade_s: 0.5,
-        fades_s: Vec::new(),
-        blended: None,
-        frames: 61,
-        raster: (320, 240),
-        edge: 4096,
-        upload_mib: 8,
-        device: DeviceChoice::Cpu,
-    };
-    let mut arguments = std::env::args().skip(1);
-    while let Some(flag) = arguments.next() {
-        if flag == "--gpu" {
-            found.device = DeviceChoice::Gpu;
-            continue;
-        }
-        let value = arguments.next().ok_or_else(|| format!("`{flag}` needs a value; {USAGE}"))?;
-        let wrong = || format!("`{flag} {value}` makes no sense; {USAGE}");
-        match flag.as_str() {
-            "-o" => found.out = Some(PathBuf::from(&value)),
-            "--fade" => found.fade_s = value.parse().map_err(|_| wrong())?,
-            "--fades" => {
-                let fades: Result<Vec<f64>, _> = value.split(',').map(str::parse).collect();
-                found.fades_s = fades.map_err(|_| wrong())?;
-            }
-            "--blended" => found.blended = Some(value.parse().map_err(|_| wrong())?),
-            "--frames" => found.frames = value.parse().map_err(|_| wrong())?,
-            "--edge" => found.edge = value.parse().map_err(|_| wrong())?,
-            "--upload-mib" => found.upload_mib = value.parse().map_err(|_| wrong())?,
-            "--raster" => {
-                let (width, height) = value.split_once('x').ok_or_else(wrong)?;
-                found.raster = (width.parse().map_err(|_| wrong())?, height.parse().map_err(|_| wrong())?);
-            }
-            _ => return Err(format!("`{flag}` is unknown; {USAGE}")),
-        }
-    }
-    if found.frames < LEAST_FRAMES {
-        return Err(format!(
-            "`--frames` must be at least {LEAST_FRAMES}: a pop is told from so many pictures"
-        ));
-    }
-    Ok(found)
-}
-
 /// What all sequences show.
 struct Stage {
     display: Display,
     source: Arc<dyn BrickSource>,
+    has_shells: bool,
     device: DeviceChoice,
     out: Option<PathBuf>,
 }
@@ -198,8 +142,11 @@ fn play(stage: &Stage, frames: &[FrameState], start: Start) -> Outcome {
     outcome
 }
 
-/// What the pixels of each frame show.
+/// What the pixels of each frame show; nothing where the volume has no surfaces.
 fn surfaces(stage: &Stage, frames: &[FrameState]) -> Vec<Surface> {
+    if !stage.has_shells {
+        return Vec::new();
+    }
     let dims = stage.source.shape().dims().as_dvec3();
     let field = field_named("shells", dims / dims.max_element()).expect("the name is one of ours");
     let mut found: Vec<Surface> = Vec::new();
@@ -224,8 +171,11 @@ fn worst_borders(surfaces: &[Surface], images: &[ProjectorImage], pixel_m: f64) 
     })
 }
 
-/// Whether a pixel stays on one piece of surface over four frames.
+/// Whether a pixel stays on one piece of surface over four frames; always true where there are no surfaces.
 fn stays(surfaces: &[Surface], first: usize, pixel: usize, pixel_m: f64) -> bool {
+    if surfaces.is_empty() {
+        return true;
+    }
     let shown: Option<Vec<Shown>> = surfaces[first..first + 4].iter().map(|surface| surface[pixel]).collect();
     shown.is_some_and(|shown| is_one_surface(&shown, pixel_m))
 }
@@ -274,7 +224,7 @@ fn row(
 }
 
 /// What both measures must find: pictures whose leaves of even depth are too coarse by three levels, and from the middle
-/// of the sequence on those of odd depth instead.
+/// of the sequence on those of odd depth instead; without surfaces, all of them from there on.
 fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[ProjectorImage]) -> Outcome {
     let mut coarse = frames.to_vec();
     for frame in &mut coarse {
@@ -282,6 +232,9 @@ fn spoiled(stage: &Stage, frames: &[FrameState], surfaces: &[Surface], fine: &[P
     }
     let mut outcome = play(stage, &coarse, Start::AtRest);
     let middle = fine.len() / 2;
+    if surfaces.is_empty() {
+        outcome.images[..middle].clone_from_slice(&fine[..middle]);
+    }
     for (number, (image, surface)) in outcome.images.iter_mut().zip(surfaces).enumerate() {
         let is_coarse = |leaf: &Shown| leaf.leaf.depth.is_multiple_of(2) == (number < middle);
         let kept = surface.iter().map(|shown| shown.as_ref().is_some_and(is_coarse));
@@ -349,8 +302,18 @@ fn cold_starts(stage: &Stage, frame: &FrameState, fades_s: &[f64], upload_bytes:
     results.finish()
 }
 
+/// Waves as a cloud: what is above the mean shows, and hides what lies behind within a twentieth of the volume.
+fn cloudy(edge: u32) -> Optics {
+    let most = 200.0 / f64::from(edge);
+    scenes::optics(
+        (0.0, 1.0),
+        &vec![(0.5, 0.0), (0.6, most), (1.0, most)],
+        &vec![(0.48, [0.9, 0.35, 0.1]), (0.54, [0.1, 0.6, 0.9]), (0.62, [1.0, 1.0, 0.9])],
+    )
+}
+
 /// Shells of one colour: what changes in a picture is where they are and how they end, not what they wear.
-fn optics(edge: u32) -> Optics {
+fn plain(edge: u32) -> Optics {
     let most = 0.5 * 4096.0 / f64::from(edge);
     scenes::optics(
         (0.0, 1.0),
@@ -360,22 +323,29 @@ fn optics(edge: u32) -> Optics {
 }
 
 fn main() -> Result<(), String> {
-    let Arguments { out, fade_s, fades_s, blended, frames, raster, edge, upload_mib, device } = arguments()?;
+    let Arguments { out, fade_s, fades_s, blended, frames, raster, has_shells, edge, upload_mib, device } =
+        arguments()?;
     let display = Display::load("holo72").map_err(|error| error.to_string())?;
     let display = with_raster(&display, raster.0, raster.1);
-    let volume = ProceduralVolume::new("shells", UVec3::splat(edge), 1e-3).map_err(|e| e.to_string())?;
-    let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(Arc::new(volume)));
+    let volume: Arc<dyn BrickSource> = if has_shells {
+        let volume = ProceduralVolume::new("shells", UVec3::splat(edge), 1e-3);
+        Arc::new(volume.map_err(|error| error.to_string())?)
+    } else {
+        Arc::new(Octaves::new(edge, 1))
+    };
+    let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(volume));
     let approach = Approach {
         from_m: 0.5 * display.height_m,
         to_m: display.height_m,
         rotation: DQuat::from_axis_angle(DVec3::new(0.6, 0.8, 0.0), 0.5),
         frames,
     };
-    let stage = Stage { display, source, device, out };
+    let stage = Stage { display, source, has_shells, device, out };
     // Gradients are per voxel, and voxels are small here: surfaces are to be shaded all the same.
     let light =
         Light { gradient_half: 0.2 / f64::from(edge), ambient: 0.1, diffuse: 0.9, ..Light::default() };
-    let moving = approach.frames(&stage.display, &*stage.source, &optics(edge), light);
+    let optics = if has_shells { plain(edge) } else { cloudy(edge) };
+    let moving = approach.frames(&stage.display, &*stage.source, &optics, light);
     let live = |fade_s| Pace::Live { upload_bytes: upload_mib << 20, fade_s };
     let blends = Manner { name: "live, blended", pace: live(fade_s), blended: true };
     let jumps = Manner { name: "live, not blended", pace: live(0.0), blended: false };
@@ -384,9 +354,11 @@ fn main() -> Result<(), String> {
     if !fades_s.is_empty() {
         return cold_starts(&stage, &moving[0], &fades_s, upload_mib << 20);
     }
-    let mut results = Results::new(Program::Study("continuity"), "continuity", "sequences");
+    let part = if has_shells { "sequences" } else { "dense" };
+    let name = if has_shells { "Shells" } else { "Waves of all octaves" };
+    let mut results = Results::new(Program::Study("continuity"), "continuity", part);
     results.line(format!(
-        "Shells, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
+        "{name}, {edge}³, doubling in {frames} frames; {} × {} pixels. Units of 1/255: RMS / 99.9 % / largest of the worst frame.\n",
         raster.0, raster.1
     ));
     results.line(
