@@ -1,7 +1,8 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
 use layout::{
-    FeedbackEntry, ImportanceEntry, Link, NodeRecord, SceneBlock, TableCell, TableEntry, ViewBlock, binding,
+    FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, SceneBlock, TableCell, TableEntry,
+    ViewBlock, binding,
 };
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shaders::compose::KernelKey;
@@ -125,6 +126,7 @@ fn host_structs_and_wgsl_structs_agree() {
     assert_layout!(&module, TableCell, first, occupied);
     assert_layout!(&module, TableEntry, value, integral, integral_rest, position, padding);
     assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);
+    assert_layout!(&module, IndexEntry, value, slope, jumps);
     assert_layout!(&module, FeedbackEntry, deficit_code, rays);
     assert_layout!(&module, Link, a, b, c, d);
 }

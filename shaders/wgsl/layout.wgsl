@@ -58,6 +58,12 @@ struct ImportanceEntry {
     padding: f32,
 }
 
+struct IndexEntry {
+    value: f32,
+    slope: f32,
+    jumps: u32,
+}
+
 struct FeedbackEntry {
     deficit_code: atomic<u32>,
     rays: atomic<u32>,

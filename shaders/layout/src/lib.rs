@@ -14,5 +14,5 @@ pub use feedback::{
 };
 pub use node::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 pub use scene::{Link, SceneBlock};
-pub use table_entry::{ImportanceEntry, TableCell, TableEntry};
+pub use table_entry::{ImportanceEntry, IndexEntry, TableCell, TableEntry};
 pub use view::{MISSING, TILE_EDGE, ViewBlock};

@@ -43,3 +43,15 @@ pub struct ImportanceEntry {
     /// Fills the struct to 16 bytes.
     pub padding: f32,
 }
+
+/// ν at one node. 12 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct IndexEntry {
+    /// ν at the node.
+    pub value: f32,
+    /// Its slope from there to the next node, per table cell; a difference of two values would lose digits.
+    pub slope: f32,
+    /// How many jumps of ν lie at or below it.
+    pub jumps: u32,
+}

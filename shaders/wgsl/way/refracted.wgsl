@@ -2,9 +2,9 @@
 
 // Ways that are longer than this many diagonals of the volume end.
 const LONGEST_WAY_DIAGONALS: f32 = 4.0;
-// Steps are at most this long, voxels of the node: after a turn a step may lead out of the brick, as far as its overlap
-// holds samples for gradients.
-const MOST_STEP: f32 = 0.5;
+// Steps are at most this long, voxels of the node: what a pair turns by is seen in its middle, where it may miss what the
+// gradient does elsewhere on it; and after a turn a step may lead out of the brick, as far as its overlap holds samples.
+const MOST_STEP: f32 = 0.25;
 // A pair is at least this long, voxels of the node, however near the node's border is.
 const LEAST_PAIR: f32 = 1e-3;
 
@@ -94,6 +94,7 @@ fn go_on(walk: ptr<function, Walk>) -> bool {
         (*walk).is_known = false;
         (*walk).bent.way += max(leaving.t_out - (*walk).bent.t, 0.0);
         (*walk).bent.t = max(leaving.t_out, (*walk).bent.t);
+        forget(walk);
         return leave(walk, node, leaving);
     }
     note_node(walk, node);
@@ -105,6 +106,7 @@ fn go_on(walk: ptr<function, Walk>) -> bool {
         (*walk).is_known = false;
         (*walk).bent.t += skipped;
         (*walk).bent.way += skipped;
+        forget(walk);
     } else {
         let taken = take_pair(walk, node, brick, pairs.x);
         if taken.is_last {
@@ -118,6 +120,13 @@ fn go_on(walk: ptr<function, Walk>) -> bool {
         return true;
     }
     return leave(walk, node, leaving);
+}
+
+// Forgets what was before something that bends nothing.
+fn forget(walk: ptr<function, Walk>) {
+    (*walk).bent.force = vec3<f32>(0.0);
+    (*walk).bent.since = 0.0;
+    (*walk).bent.side = UNKNOWN_SIDE;
 }
 
 // Notes a node that the ray comes into.

@@ -8,7 +8,7 @@ pub use nodes::TABLE_CELLS;
 use crate::{Needs, Way};
 use glam::DVec3;
 use integral::integrate;
-use layout::{ImportanceEntry, TableCell, TableEntry};
+use layout::{ImportanceEntry, IndexEntry, TableCell, TableEntry};
 use nodes::{Knots, Node, Nodes};
 use optics::{Curve, Material, Optics};
 
@@ -25,7 +25,7 @@ pub struct Tables {
     /// Rows of as many entries as that table: row j holds at i the largest importance of the 2^j nodes from node i on.
     pub importance_most: Vec<f32>,
     /// ν, which is the integral of its own slope; empty if light is not bent.
-    pub index: Vec<f32>,
+    pub index: Vec<IndexEntry>,
     /// Ambient, diffuse, specular, shininess; empty if all scalars have the light's own.
     pub materials: Vec<TableEntry>,
 }
@@ -45,11 +45,11 @@ impl Tables {
         let Nodes { all: nodes, first } = Nodes::new(knots);
         let table = optics_table(&nodes, optics);
         let importance = importance.map_or(Vec::new(), |curve| importance_table(&nodes, curve));
-        let index: Vec<f32> =
-            index.map_or(Vec::new(), |curve| nodes.iter().map(|node| node.value(curve) as f32).collect());
+        let index = index.map_or(Vec::new(), |curve| index_table(&nodes, curve));
         let acts = |cell: usize| {
             let nodes_of_cell = index.get(first[cell]..=first[cell + 1]);
-            let bends = nodes_of_cell.is_some_and(|index| index.windows(2).any(|ends| ends[0] != ends[1]));
+            let bends = nodes_of_cell
+                .is_some_and(|index| index.windows(2).any(|ends| ends[0].value != ends[1].value));
             let [lo, hi] = [cell, cell + 1].map(|border| nodes[first[border]].s);
             // In f32, as kernels know it.
             bends || optics.most_importance_on(lo, hi) as f32 > 0.0
@@ -98,6 +98,25 @@ fn optics_table(nodes: &[Node], optics: &Optics) -> Vec<TableEntry> {
 
 fn material_table(nodes: &[Node], materials: &Curve<Material>) -> Vec<TableEntry> {
     entries(nodes, |node| node.value(materials).to_array())
+}
+
+/// A piece of ν that is narrower than this many table cells is a jump: no step resolves it.
+const JUMP_CELLS: f64 = 0.01;
+/// A change that is smaller is none: light goes on as it was.
+const JUMP: f64 = 1e-3;
+
+fn index_table(nodes: &[Node], index: &Curve<f64>) -> Vec<IndexEntry> {
+    let values: Vec<f64> = nodes.iter().map(|node| node.value(index)).collect();
+    let mut jumps = 0;
+    let cells = |i: usize| (nodes[i].s - nodes[i - 1].s) * TABLE_CELLS as f64;
+    let entry = |(i, &value): (usize, &f64)| {
+        let is_jump = i > 0 && (value - values[i - 1]).abs() > JUMP && cells(i) < JUMP_CELLS;
+        jumps += u32::from(is_jump);
+        let next = values.get(i + 1).filter(|_| cells(i + 1) > 0.0);
+        let slope = next.map_or(0.0, |next| (next - value) / cells(i + 1));
+        IndexEntry { value: value as f32, slope: slope as f32, jumps }
+    };
+    values.iter().enumerate().map(entry).collect()
 }
 
 fn importance_table(nodes: &[Node], importance: &Curve<f64>) -> Vec<ImportanceEntry> {
@@ -226,5 +245,18 @@ mod tests {
         let first: Vec<usize> = spike.cells.iter().map(|cell| cell.first as usize).collect();
         let acting = cells(&first, &spike.optics, |cell| cell >= 500);
         assert_eq!(counts(&acting), [0, 1, 1 + 523]);
+    }
+
+    #[test]
+    fn jumps_of_the_index_are_counted_and_slopes_keep_their_digits() {
+        let points = vec![(0.2, 1.0), (0.4, 1.2), (0.4, 1.5), (0.7, 1.5), (0.7 + 1e-7, 1.1), (1.0, 1.1)];
+        let mut optics = Optics::grey(Curve::constant(1.0));
+        optics.refraction = Some(Curve::new(points).unwrap());
+        let tables = Tables::new(&optics, &Needs { way: Way::Refracted, ..Needs::PLAIN });
+        let at = |s: f64| tables.index[tables.cells[(s * TABLE_CELLS as f64) as usize].first as usize];
+        assert_eq!([0.1, 0.3, 0.5, 0.8].map(|s| at(s).jumps), [0, 0, 1, 2]);
+        assert_eq!([0.1, 0.5, 0.8].map(|s| at(s).slope), [0.0; 3]);
+        let slope = 1.0 / TABLE_CELLS as f32;
+        assert!((at(0.3).slope / slope - 1.0).abs() < 1e-6, "{} per cell", at(0.3).slope);
     }
 }

@@ -1,6 +1,6 @@
 //! A pair of steps of a bent ray, with a turn in its middle.
 
-use super::path::{bends, index_at};
+use super::path::{Side, Surface};
 use super::refracted::Walk;
 use crate::brick::{PairOfSteps, Straight, add_pair};
 use crate::composite::Composite;
@@ -9,12 +9,14 @@ use crate::kernel::Kernel;
 use crate::levels::Brick;
 use crate::refine::scalars_in_reach;
 use crate::tables::is_vacant_around;
-use crate::{Casting, Real};
+use crate::{Casting, Real, vector::Vec3};
 use layout::NodeRecord;
 
-/// See `wgsl/way/pair.wgsl` for these two.
+/// See `wgsl/way/pair.wgsl` for these four.
 const LARGE_CHANGE: f64 = 0.004;
 const MOST_HALVINGS: u32 = 4;
+const SURFACE_STEPS: u32 = 8;
+const LEAST_STEP: f64 = 0.01;
 
 /// What a pair of steps led to.
 pub(super) struct Taken {
@@ -24,11 +26,21 @@ pub(super) struct Taken {
     pub(super) is_turned: bool,
 }
 
-/// A pair straight on: the length of its steps, and the scalars at its ends.
-struct Ends<F> {
+/// A pair straight on.
+struct Laid<F> {
+    /// Metres of each step.
     step: F,
-    s0: F,
-    s2: F,
+    /// At its ends and in its middle.
+    scalars: [F; 3],
+    turn: Turn<F>,
+}
+
+/// What turns a ray in the middle of a pair; with the gradient of the scalar there.
+enum Turn<F> {
+    Nothing,
+    /// The index, which changes.
+    Change(Side, Vec3<F>),
+    Surface(Surface<F>, Vec3<F>),
 }
 
 impl<F: Real> Walk<F> {
@@ -42,14 +54,21 @@ impl<F: Real> Walk<F> {
         step: F,
     ) -> Taken {
         let (ray, t0) = (self.bent.ray, self.bent.t);
-        let Ends { step, s0, mut s2 } = self.ends::<K>(casting, brick, step);
+        let Laid { step, scalars: [s0, s1, mut s2], turn } = self.lay::<K>(casting, brick, step);
         let mut t1 = t0 + step;
-        let s1 = brick.scalar_at::<K>(casting, &ray, t1);
-        self.cast.samples += 3;
-        let turned = self.turn::<K>(casting, node, brick, (s0, s2), step);
-        let is_turned = turned.is_some();
-        let next_brick = turned.unwrap_or(*brick);
+        let direction = match turn {
+            Turn::Nothing => ray.direction_in_display,
+            Turn::Change(side, gradient) => {
+                self.bent.direction_beyond(casting, side, gradient, (s0, s2), F::of(2.0) * step)
+            }
+            Turn::Surface(surface, gradient) => self.bent.direction_through(&surface, gradient),
+        };
+        let is_turned = direction != ray.direction_in_display;
+        let mut next_brick = *brick;
         if is_turned {
+            self.bent.turn(casting, t1, direction);
+            self.chain.follow(casting, &self.bent.ray);
+            next_brick = Brick::new::<K>(casting, node, &self.bent.ray);
             t1 = F::ZERO;
             s2 = next_brick.scalar_at::<K>(casting, &self.bent.ray, step);
             self.cast.samples += 1;
@@ -82,45 +101,76 @@ impl<F: Real> Walk<F> {
         Taken { is_last, is_turned }
     }
 
-    /// The ends of a pair straight on, halved while the index changes much between them.
+    /// Lays a pair straight on, halved while the index changes much between its ends, or its slope since the last turn; where
+    /// a surface lies on it, its middle is there.
     #[inline(always)]
-    fn ends<K: Kernel>(&mut self, casting: &Casting<F>, brick: &Brick<F>, mut step: F) -> Ends<F> {
-        let (ray, t0, two) = (&self.bent.ray, self.bent.t, F::of(2.0));
+    fn lay<K: Kernel>(&mut self, casting: &Casting<F>, brick: &Brick<F>, mut step: F) -> Laid<F> {
+        let (ray, t0, two) = (self.bent.ray, self.bent.t, F::of(2.0));
         let tables = casting.tables;
-        let s0 = self.known.unwrap_or_else(|| brick.scalar_at::<K>(casting, ray, t0));
-        let mut s2 = brick.scalar_at::<K>(casting, ray, t0 + two * step);
-        for _ in 0..MOST_HALVINGS {
-            if (index_at(tables, s2) - index_at(tables, s0)).abs() <= F::of(LARGE_CHANGE) {
-                break;
+        let s0 = self.known.unwrap_or_else(|| brick.scalar_at::<K>(casting, &ray, t0));
+        let side = *self.bent.side.get_or_insert_with(|| Side::of(tables, s0));
+        let mut s2 = brick.scalar_at::<K>(casting, &ray, t0 + two * step);
+        let mut s1 = brick.scalar_at::<K>(casting, &ray, t0 + step);
+        self.cast.samples += 3;
+        for left in (0..=MOST_HALVINGS).rev() {
+            let is_large =
+                (side.index_at(tables, s2) - side.index_at(tables, s0)).abs() > F::of(LARGE_CHANGE);
+            if left == 0 || !is_large {
+                let bends = side.bends(tables, s0, s2);
+                let gradient = bends.then(|| Gradients::new::<K>(casting, brick, &ray, t0 + step).at);
+                let force = gradient.map_or(Vec3::ZERO, |g| g * side.slope(tables, s0, s2));
+                if left == 0 || self.bent.is_smooth(casting, force, step) {
+                    (self.bent.force, self.bent.since) = (force, step);
+                    let beyond = Side::of(tables, s2);
+                    if beyond != side {
+                        return self.lay_over::<K>(casting, brick, side.surface_to(tables, beyond), step);
+                    }
+                    let turn = gradient.map_or(Turn::Nothing, |gradient| Turn::Change(side, gradient));
+                    return Laid { step, scalars: [s0, s1, s2], turn };
+                }
             }
-            step = F::of(0.5) * step;
-            s2 = brick.scalar_at::<K>(casting, ray, t0 + two * step);
+            (step, s2) = (F::of(0.5) * step, s1);
+            s1 = brick.scalar_at::<K>(casting, &ray, t0 + step);
             self.cast.samples += 1;
         }
-        Ends { step, s0, s2 }
+        unreachable!("the last pair is taken whatever it is")
     }
 
-    /// Turns the ray in the middle of a pair; the brick along its new way, None where it goes straight on.
-    #[inline(always)]
-    fn turn<'a, K: Kernel>(
+    /// Lays a pair whose middle is where the ray meets a surface within the steps given.
+    #[inline(never)]
+    fn lay_over<K: Kernel>(
         &mut self,
-        casting: &Casting<'a, F>,
-        node: &NodeRecord,
-        brick: &Brick<'a, F>,
-        scalars: (F, F),
+        casting: &Casting<F>,
+        brick: &Brick<F>,
+        surface: Surface<F>,
         step: F,
-    ) -> Option<Brick<'a, F>> {
-        if !bends(casting.tables, scalars.0, scalars.1) {
-            return None;
+    ) -> Laid<F> {
+        let (ray, t0, two) = (self.bent.ray, self.bent.t, F::of(2.0));
+        let scalar = |t: F| brick.scalar_at::<K>(casting, &ray, t0 + t);
+        let above = |t: F| scalar(t) - surface.at;
+        let (mut low, mut high) = ((F::ZERO, above(F::ZERO)), (two * step, above(two * step)));
+        let between = |low: (F, F), high: (F, F)| low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        let mut t = between(low, high);
+        // Regula falsi; the far end counts half where it has stayed (Illinois).
+        let mut was_low = None;
+        for _ in 0..SURFACE_STEPS {
+            let found = above(t);
+            let is_low = (found < F::ZERO) == (low.1 < F::ZERO);
+            let half = if was_low == Some(is_low) { F::of(0.5) } else { F::ONE };
+            if is_low {
+                (low, high.1) = ((t, found), half * high.1);
+            } else {
+                (high, low.1) = ((t, found), half * low.1);
+            }
+            was_low = Some(is_low);
+            t = between(low, high);
         }
-        let (ray, t1) = (self.bent.ray, self.bent.t + step);
-        let gradient = Gradients::new::<K>(casting, brick, &ray, t1).at;
-        let direction = self.bent.direction_beyond(casting, gradient, scalars, F::of(2.0) * step);
-        if direction == ray.direction_in_display {
-            return None;
-        }
-        self.bent.turn(casting, t1, direction);
-        self.chain.follow(casting, &self.bent.ray);
-        Some(Brick::new::<K>(casting, node, &self.bent.ray))
+        self.cast.samples += SURFACE_STEPS + 5;
+        // Where the surface lies behind the ray by now, it is met at once.
+        let least = F::of(LEAST_STEP) * step;
+        let step = if t > least && t <= two * step { t } else { least };
+        let gradient = Gradients::new::<K>(casting, brick, &ray, t0 + step).at;
+        let scalars = [F::ZERO, step, two * step].map(scalar);
+        Laid { step, scalars, turn: Turn::Surface(surface, gradient) }
     }
 }

@@ -12,7 +12,7 @@ use crate::{Cast, Casting, Real, vector::Vec3};
 use layout::{NO_NODE, NO_SLOT, NodeRecord};
 
 /// See `wgsl/way/refracted.wgsl` for these three.
-const MOST_STEP: f64 = 0.5;
+const MOST_STEP: f64 = 0.25;
 const LONGEST_WAY_DIAGONALS: f64 = 4.0;
 const LEAST_PAIR: f64 = 1e-3;
 
@@ -109,6 +109,7 @@ impl<F: Real> Walk<F> {
             self.known = None;
             self.bent.way = self.bent.way + (leaving.t_out - self.bent.t).most(F::ZERO);
             self.bent.t = leaving.t_out.most(self.bent.t);
+            self.bent.forget();
             return self.leave(casting, node, &leaving);
         }
         self.note(casting, node);
