@@ -17,7 +17,7 @@ use glam::{DQuat, UVec3};
 use lightloom_tests::data;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::ideal_cut::{IdealCut, ideal_cut};
-use lightloom_tests::octaves::Octaves;
+use lightloom_tests::octaves::{Octaves, cloudy};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, Colours, Points, scaled, with_raster};
@@ -114,19 +114,13 @@ fn vessels(edge: u32, longest_m: f64) -> Subject {
     }
 }
 
-/// Dense: waves of all octaves, of which a ray passes through a twentieth of the volume or so.
 fn octaves(edge: u32, longest_m: f64) -> Subject {
-    let most = 200.0 / f64::from(edge);
     Subject {
         name: "dense waves, 4096³",
         source: Arc::new(Remembered::new(Arc::new(Octaves::new(edge, 1)))),
         longest_m,
         rotation: DQuat::from_rotation_y(0.4),
-        optics: scenes::optics(
-            (0.0, 1.0),
-            &vec![(0.5, 0.0), (0.6, most), (1.0, most)],
-            &vec![(0.48, [0.9, 0.35, 0.1]), (0.62, [0.1, 0.6, 0.9])],
-        ),
+        optics: cloudy(edge),
     }
 }
 

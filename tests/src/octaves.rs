@@ -1,12 +1,14 @@
 //! A dense volume with as much to see at every level of detail: waves of all octaves, from half the volume to a few voxels.
 
 use crate::random::Random;
+use crate::scenes;
 use bricks::volume::VolumeFrame;
 use bricks::{
     BRICK_EDGE, BRICK_VOXELS, Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OVERLAP, OWN_EDGE,
     OctreeShape,
 };
 use glam::{DVec3, IVec3, UVec3};
+use optics::Optics;
 use std::f64::consts::TAU;
 
 /// Waves of each octave.
@@ -51,6 +53,17 @@ impl Octaves {
         waves.iter_mut().for_each(|wave| wave.amplitude *= 0.5 / sum);
         Self { shape: OctreeShape::new(UVec3::splat(edge)), waves }
     }
+}
+
+/// The waves of a volume of `edge` voxels as a cloud: what is above the mean shows, and hides what lies behind within a
+/// twentieth of the volume.
+pub fn cloudy(edge: u32) -> Optics {
+    let most = 200.0 / f64::from(edge);
+    scenes::optics(
+        (0.0, 1.0),
+        &vec![(0.5, 0.0), (0.6, most), (1.0, most)],
+        &vec![(0.48, [0.9, 0.35, 0.1]), (0.54, [0.1, 0.6, 0.9]), (0.62, [1.0, 1.0, 0.9])],
+    )
 }
 
 impl Wave {

@@ -121,8 +121,8 @@ fn lay(walk: ptr<function, Walk>, brick: Brick, longest: f32) -> Laid {
 fn lay_over(walk: ptr<function, Walk>, brick: Brick, laid: ptr<function, Laid>) {
     let bent = (*walk).bent;
     let both = 2.0 * (*laid).step;
-    var low = vec2<f32>(0.0, scalar_at(brick, bent.ray, bent.t) - (*laid).surface.at);
-    var high = vec2<f32>(both, scalar_at(brick, bent.ray, bent.t + both) - (*laid).surface.at);
+    var low = vec2<f32>(0.0, (*laid).s0 - (*laid).surface.at);
+    var high = vec2<f32>(both, (*laid).s2 - (*laid).surface.at);
     var t = between(low, high);
     // Regula falsi; the far end counts half where it has stayed (Illinois).
     var stayed = 0u;
@@ -144,10 +144,9 @@ fn lay_over(walk: ptr<function, Walk>, brick: Brick, laid: ptr<function, Laid>) 
     (*laid).step = select(least, t, t > least && t <= both);
     (*laid).turn = SURFACE_AHEAD;
     (*laid).gradient = gradients_at(brick, bent.ray, bent.t + (*laid).step).at;
-    (*laid).s0 = scalar_at(brick, bent.ray, bent.t);
     (*laid).s1 = scalar_at(brick, bent.ray, bent.t + (*laid).step);
     (*laid).s2 = scalar_at(brick, bent.ray, bent.t + 2.0 * (*laid).step);
-    (*walk).count += SURFACE_STEPS + 5u;
+    (*walk).count += SURFACE_STEPS + 2u;
 }
 
 // Where a line through two points is 0.

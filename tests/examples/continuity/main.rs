@@ -29,7 +29,7 @@ use lightloom_tests::motion::{
     Approach, Continuity, FRAMES_PER_SECOND, Spread, borrowed, continuity, difference, draw_sequence,
     standing_still, steps,
 };
-use lightloom_tests::octaves::Octaves;
+use lightloom_tests::octaves::{Octaves, cloudy};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, with_raster};
@@ -300,16 +300,6 @@ fn cold_starts(stage: &Stage, frame: &FrameState, fades_s: &[f64], upload_bytes:
         results.line(format!("| {fade_s} | {step} | {on_surfaces} | {rest} | {frames} |"));
     }
     results.finish()
-}
-
-/// Waves as a cloud: what is above the mean shows, and hides what lies behind within a twentieth of the volume.
-fn cloudy(edge: u32) -> Optics {
-    let most = 200.0 / f64::from(edge);
-    scenes::optics(
-        (0.0, 1.0),
-        &vec![(0.5, 0.0), (0.6, most), (1.0, most)],
-        &vec![(0.48, [0.9, 0.35, 0.1]), (0.54, [0.1, 0.6, 0.9]), (0.62, [1.0, 1.0, 0.9])],
-    )
 }
 
 /// Shells of one colour: what changes in a picture is where they are and how they end, not what they wear.

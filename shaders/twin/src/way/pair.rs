@@ -123,7 +123,8 @@ impl<F: Real> Walk<F> {
                     (self.bent.force, self.bent.since) = (force, step);
                     let beyond = Side::of(tables, s2);
                     if beyond != side {
-                        return self.lay_over::<K>(casting, brick, side.surface_to(tables, beyond), step);
+                        let surface = side.surface_to(tables, beyond);
+                        return self.lay_over::<K>(casting, brick, surface, (s0, s2), step);
                     }
                     let turn = gradient.map_or(Turn::Nothing, |gradient| Turn::Change(side, gradient));
                     return Laid { step, scalars: [s0, s1, s2], turn };
@@ -136,25 +137,25 @@ impl<F: Real> Walk<F> {
         unreachable!("the last pair is taken whatever it is")
     }
 
-    /// Lays a pair whose middle is where the ray meets a surface within the steps given.
+    /// Lays a pair whose middle is where the ray meets a surface within the steps given, between scalars s0 and s2.
     #[inline(never)]
     fn lay_over<K: Kernel>(
         &mut self,
         casting: &Casting<F>,
         brick: &Brick<F>,
         surface: Surface<F>,
+        (s0, s2): (F, F),
         step: F,
     ) -> Laid<F> {
         let (ray, t0, two) = (self.bent.ray, self.bent.t, F::of(2.0));
         let scalar = |t: F| brick.scalar_at::<K>(casting, &ray, t0 + t);
-        let above = |t: F| scalar(t) - surface.at;
-        let (mut low, mut high) = ((F::ZERO, above(F::ZERO)), (two * step, above(two * step)));
+        let (mut low, mut high) = ((F::ZERO, s0 - surface.at), (two * step, s2 - surface.at));
         let between = |low: (F, F), high: (F, F)| low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
         let mut t = between(low, high);
         // Regula falsi; the far end counts half where it has stayed (Illinois).
         let mut was_low = None;
         for _ in 0..SURFACE_STEPS {
-            let found = above(t);
+            let found = scalar(t) - surface.at;
             let is_low = (found < F::ZERO) == (low.1 < F::ZERO);
             let half = if was_low == Some(is_low) { F::of(0.5) } else { F::ONE };
             if is_low {
@@ -165,12 +166,12 @@ impl<F: Real> Walk<F> {
             was_low = Some(is_low);
             t = between(low, high);
         }
-        self.cast.samples += SURFACE_STEPS + 5;
+        self.cast.samples += SURFACE_STEPS + 2;
         // Where the surface lies behind the ray by now, it is met at once.
         let least = F::of(LEAST_STEP) * step;
         let step = if t > least && t <= two * step { t } else { least };
         let gradient = Gradients::new::<K>(casting, brick, &ray, t0 + step).at;
-        let scalars = [F::ZERO, step, two * step].map(scalar);
+        let scalars = [s0, scalar(step), scalar(two * step)];
         Laid { step, scalars, turn: Turn::Surface(surface, gradient) }
     }
 }
