@@ -5,7 +5,7 @@ use frontend::adapter::{self, BackendOptions, Backends};
 use frontend::progress::Progress;
 use frontend::scene::Scene;
 use frontend::simulate::Job;
-use protocol::{DeviceChoice, FilterChoice, Pace};
+use protocol::{CasterChoice, DeviceChoice, FilterChoice, Pace};
 use std::path::PathBuf;
 
 fn main() -> Result<(), FrontendError> {
@@ -22,6 +22,7 @@ fn main() -> Result<(), FrontendError> {
     let options = BackendOptions {
         device: DeviceChoice::Cpu,
         filter: FilterChoice::Auto,
+        caster: CasterChoice::Auto,
         cache_bytes: 256 << 20,
         traces: None,
     };

@@ -4,75 +4,22 @@
 //! LIGHTLOOM_BENCH_DEVICES=cpu,gpu the devices named.
 
 use bricks::BrickSource;
-use bricks::store::{BuildOptions, CodeBits, Store};
-use bricks::volume::{ByteOrder, Element};
 use display_config::Display;
-use glam::{DQuat, DVec3, UVec3};
-use lightloom_tests::head::head;
+use glam::DQuat;
+use lightloom_tests::memory::peak_mib;
 use lightloom_tests::results::{Program, Results};
+use lightloom_tests::scanned_head::{self, DIMS};
 use lightloom_tests::{compare, draw, scenes};
-use optics::{Light, Optics, Quality};
+use optics::{Light, Quality};
 use protocol::{DeviceChoice, FrameState, ProjectorImage, RenderEvent};
 use renderer::Renderer;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
-use volumes::{ImportOptions, import};
-use volumes::{RawLayout, Selection};
 
-/// As a scanner gives a head: 512 × 512 × 133.
-const DIMS: UVec3 = UVec3::new(512, 512, 133);
 /// Views whose pictures are compared with the reference.
 const COMPARED: usize = 3;
 /// Every so many pixels of them, along x and y.
 const COMPARED_STRIDE: u32 = 12;
-
-fn store(folder: &Path) -> Store {
-    let raw = folder.join("head.raw");
-    let index = |i: u32| UVec3::new(i % DIMS.x, i / DIMS.x % DIMS.y, i / (DIMS.x * DIMS.y));
-    let bytes: Vec<u8> =
-        (0..DIMS.element_product()).flat_map(|i| head(index(i), DIMS).to_le_bytes()).collect();
-    std::fs::write(&raw, bytes).expect("a temporary folder takes 70 MB");
-    let layout = RawLayout {
-        dims: DIMS,
-        element: Element::I16,
-        byte_order: ByteOrder::Little,
-        spacing_mm: DVec3::new(0.45, 0.45, 1.2),
-        header_skip_bytes: 0,
-    };
-    let options = ImportOptions {
-        build: BuildOptions { bits: CodeBits::Eight, ..Default::default() },
-        ..Default::default()
-    };
-    let out = folder.join("head.lloom");
-    let selection = Selection { raw: Some(layout), ..Default::default() };
-    import(&raw, &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
-    Store::open(&out).expect("a store just built opens")
-}
-
-fn semi_transparent() -> Optics {
-    scenes::optics(
-        (-1024.0, 3071.0),
-        &vec![(-400.0, 0.0), (-100.0, 0.006), (100.0, 0.004), (300.0, 0.008), (1500.0, 0.03)],
-        &vec![(-400.0, [0.8, 0.45, 0.3]), (150.0, [0.8, 0.3, 0.2]), (700.0, [0.95, 0.9, 0.8])],
-    )
-}
-
-fn opaque() -> Optics {
-    scenes::optics(
-        (-1024.0, 3071.0),
-        &vec![(300.0, 0.0), (600.0, 0.8), (1500.0, 1.5)],
-        &vec![(300.0, [0.9, 0.6, 0.4]), (900.0, [0.95, 0.9, 0.8])],
-    )
-}
-
-/// Most memory this process has held, MiB.
-fn peak_mib() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    line.and_then(|rest| rest.trim().trim_end_matches(" kB").parse::<f64>().ok())
-        .map_or(f64::NAN, |k| k / 1024.0)
-}
 
 struct Measured {
     seconds: f64,
@@ -121,9 +68,10 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
         "| scene | setting | seconds | Msamples/s | Gsamples | RMS, 99.9 %, largest error of 255 | peak MiB |",
     );
     results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
-    for (scene, optics, light) in
-        [("semi-transparent", semi_transparent(), None), ("opaque, shaded", opaque(), Some(Light::default()))]
-    {
+    for (scene, optics, light) in [
+        ("semi-transparent", scanned_head::semi_transparent(), None),
+        ("opaque, shaded", scanned_head::opaque(), Some(Light::default())),
+    ] {
         for (setting, quality) in settings {
             let mut frame = scenes::frame(display, place, optics.clone(), light);
             frame.quality = quality;
@@ -157,7 +105,7 @@ fn main() -> Result<(), String> {
         .map(|i| projectors[(2 * i + 1) * views / (2 * COMPARED.min(views))])
         .collect();
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
-    let source: Arc<dyn BrickSource> = Arc::new(store(folder.path()));
+    let source: Arc<dyn BrickSource> = Arc::new(scanned_head::store(folder.path()));
     println!("{} × {} × {} voxels at 8 bits, 0.75 m wide", DIMS.x, DIMS.y, DIMS.z);
     let plan = Plan { display, source, projectors, keep };
     for device in draw::devices() {

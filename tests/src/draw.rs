@@ -3,8 +3,10 @@
 use crate::made_once::MadeOnce;
 use bricks::BrickSource;
 use display_config::Display;
+#[cfg(feature = "gpu")]
+use protocol::AdapterWish;
 use protocol::{
-    AdapterWish, DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage,
+    CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage,
     RenderEvent, RendererOptions,
 };
 use renderer::Renderer;
@@ -28,6 +30,8 @@ pub struct With {
     pub device: DeviceChoice,
     /// The interpolation.
     pub filter: FilterChoice,
+    /// The caster.
+    pub caster: CasterChoice,
     /// The brick cache, bytes.
     pub cache_bytes: u64,
 }
@@ -35,7 +39,7 @@ pub struct With {
 impl With {
     /// A device at its defaults.
     pub fn device(device: DeviceChoice) -> Self {
-        Self { device, filter: FilterChoice::Auto, cache_bytes: 256 << 20 }
+        Self { device, filter: FilterChoice::Auto, caster: CasterChoice::Rays, cache_bytes: 256 << 20 }
     }
 }
 
@@ -49,6 +53,7 @@ pub fn renderer(
     let options = RendererOptions {
         device: with.device,
         filter: with.filter,
+        caster: with.caster,
         cache_bytes: with.cache_bytes,
         ..RendererOptions::in_process(display.clone(), projectors.to_vec())
     };

@@ -227,6 +227,7 @@ pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>
             views,
             first_picture: 0,
             needs,
+            fan: None,
             part,
             gather: Gather::Own,
             counts: true,

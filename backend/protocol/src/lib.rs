@@ -12,7 +12,8 @@ pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
 pub use frame::{FrameState, Pace, Tool, ToolKind};
 pub use image::ProjectorImage;
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
-pub use report::{FrameReport, Stages, Upkeep};
+pub use report::{Caster, FrameReport, Stages, Upkeep};
 pub use setup::{
-    AdapterWish, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Setup, VolumeRef,
+    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Setup,
+    VolumeRef,
 };

@@ -2,6 +2,31 @@
 
 use serde::{Deserialize, Serialize};
 
+/// What cast the rays of a frame.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Caster {
+    /// Row planes: each screen row sampled once, for so many views.
+    Planes {
+        /// Views that shared it.
+        views: u32,
+    },
+    /// Each ray alone.
+    #[default]
+    Rays,
+    /// Each ray alone, though row planes were welcome.
+    RaysBecause(String),
+}
+
+impl std::fmt::Display for Caster {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Planes { views } => write!(f, "row planes, each for {views} views"),
+            Self::Rays => write!(f, "rays"),
+            Self::RaysBecause(why) => write!(f, "rays: {why}"),
+        }
+    }
+}
+
 /// Wall-clock milliseconds per stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stages {
@@ -51,6 +76,8 @@ pub struct FrameReport {
     pub backend: u32,
     /// The projectors it drew.
     pub projectors: Vec<u32>,
+    /// What cast their rays.
+    pub caster: Caster,
     /// Rays cast, repeated ones counted again.
     pub rays: u64,
     /// Samples of the volume taken along them, repeated ones counted again; gradients not counted.

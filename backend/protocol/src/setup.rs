@@ -31,6 +31,19 @@ pub enum FilterChoice {
     Exact,
 }
 
+/// What casts the rays of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CasterChoice {
+    /// What is as exact as the frame asks: each ray alone.
+    #[default]
+    Auto,
+    /// Each ray alone.
+    Rays,
+    /// Row planes, or an error.
+    Planes,
+}
+
 /// Which of a host's graphics adapters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AdapterWish {
@@ -72,6 +85,8 @@ pub struct RendererOptions {
     pub adapter: AdapterWish,
     /// The interpolation.
     pub filter: FilterChoice,
+    /// The caster.
+    pub caster: CasterChoice,
     /// Size of the brick cache, bytes.
     pub cache_bytes: u64,
 }
@@ -86,6 +101,7 @@ impl RendererOptions {
             device: DeviceChoice::Cpu,
             adapter: AdapterWish::default(),
             filter: FilterChoice::Auto,
+            caster: CasterChoice::Auto,
             cache_bytes: 64 << 20,
         }
     }

@@ -84,7 +84,7 @@ prop_compose! {
         let options = RendererOptions {
             display, projectors: indices, backend: 1, device: DeviceChoice::Cpu,
             adapter: AdapterWish { turn: 3, name: (n % 5 == 0).then(|| "card".into()) }, filter: FilterChoice::Exact,
-            cache_bytes: n,
+            caster: CasterChoice::Planes, cache_bytes: n,
         };
         FromFrontend::Setup(Box::new(Setup {
             options, volume, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
@@ -114,7 +114,7 @@ prop_compose! {
     fn done()(n in any::<[u64; 7]>(), projectors in vec(any::<u32>(), 0..80), shortfall in ".*", ms in 0.0..1e6)
         -> FromBackend {
         FromBackend::Done(Box::new(FrameReport {
-            frame: 3, backend: 1, rays: n[0], samples: n[1], bricks_wanted: n[2], bricks_resident: n[3],
+            frame: 3, backend: 1, caster: Caster::RaysBecause(shortfall.clone()), rays: n[0], samples: n[1], bricks_wanted: n[2], bricks_resident: n[3],
             bricks_loaded: n[4], bytes_loaded: n[5], working_set_union: n[6],
             working_set_sum: projectors.first().map(|_| n[6]), projectors,
             complete: shortfall.is_empty(), upkeep: None, damaged_bricks: n[0], damaged: vec![shortfall.clone(); 2], shortfall,

@@ -102,6 +102,7 @@ impl Render for Fake {
 
 fn report(frame: u32, backend: u32) -> FrameReport {
     FrameReport {
+        caster: protocol::Caster::Rays,
         frame,
         backend,
         projectors: vec![2 * backend, 2 * backend + 1],

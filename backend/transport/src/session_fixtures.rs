@@ -31,6 +31,7 @@ pub(crate) fn frame(index: u32) -> FrameState {
 
 pub(crate) fn report(frame: u32, backend: u32) -> FrameReport {
     FrameReport {
+        caster: protocol::Caster::Rays,
         frame,
         backend,
         projectors: vec![backend],

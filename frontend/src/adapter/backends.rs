@@ -5,7 +5,8 @@ use crate::{FrontendError, interrupt};
 use backend::open_renderer;
 use display_config::{Display, Wiring};
 use protocol::{
-    AdapterWish, DeviceChoice, DeviceInfo, Draw, FilterChoice, RendererOptions, Setup, VolumeRef,
+    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, Draw, FilterChoice, RendererOptions, Setup,
+    VolumeRef,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,6 +20,8 @@ pub struct BackendOptions {
     pub device: DeviceChoice,
     /// The interpolation.
     pub filter: FilterChoice,
+    /// The caster.
+    pub caster: CasterChoice,
     /// Size of each brick cache, bytes.
     pub cache_bytes: u64,
     /// The folder for traces of live frames; None where none are wanted.
@@ -82,6 +85,7 @@ impl Backends {
                 device: options.device,
                 adapter: AdapterWish { turn: backend, name: share.adapter.clone() },
                 filter: options.filter,
+                caster: options.caster,
                 cache_bytes: options.cache_bytes,
             },
             volume: volume.clone(),

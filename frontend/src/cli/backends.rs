@@ -3,7 +3,7 @@
 use super::parse::whole;
 use crate::adapter::BackendOptions;
 use clap::{Args, ValueEnum};
-use protocol::{DeviceChoice, FilterChoice};
+use protocol::{CasterChoice, DeviceChoice, FilterChoice};
 use std::path::Path;
 
 /// Back-ends, their devices and their caches.
@@ -18,6 +18,9 @@ pub struct BackendArgs {
     /// How voxels are interpolated.
     #[arg(long, value_enum, default_value = "auto")]
     pub filter: FilterArg,
+    /// What casts the rays.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub caster: CasterArg,
     /// Brick cache of each back-end.
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = whole(1..=1_u64 << 30), allow_hyphen_values = true)]
     pub cache_mib: u64,
@@ -29,6 +32,7 @@ impl BackendArgs {
         BackendOptions {
             device: self.device.into(),
             filter: self.filter.into(),
+            caster: self.caster.into(),
             cache_bytes: self.cache_mib << 20,
             traces: traces.map(Path::to_owned),
         }
@@ -73,6 +77,27 @@ impl From<FilterArg> for FilterChoice {
             FilterArg::Auto => FilterChoice::Auto,
             FilterArg::Hardware => FilterChoice::Hardware,
             FilterArg::Exact => FilterChoice::Exact,
+        }
+    }
+}
+
+/// See [`CasterChoice`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CasterArg {
+    /// What is as exact as the scene asks: rays.
+    Auto,
+    /// Each ray alone.
+    Rays,
+    /// Each screen row sampled once for all views: several times faster, and less exact. On the CPU alone.
+    Planes,
+}
+
+impl From<CasterArg> for CasterChoice {
+    fn from(caster: CasterArg) -> Self {
+        match caster {
+            CasterArg::Auto => CasterChoice::Auto,
+            CasterArg::Rays => CasterChoice::Rays,
+            CasterArg::Planes => CasterChoice::Planes,
         }
     }
 }

@@ -66,6 +66,7 @@ fn account(frame: u32) -> FrameReport {
     FrameReport {
         frame,
         backend: 0,
+        caster: protocol::Caster::Rays,
         projectors: (0..8).collect(),
         rays: 1000,
         samples: 12_500,

@@ -63,6 +63,8 @@ pub struct Totals {
     pub working_set_union: u64,
     /// Distinct bricks per view, added up over views; None where a frame was live, whose views count together.
     pub working_set_sum: Option<u64>,
+    /// What cast the rays: each sentence once.
+    pub casters: Vec<String>,
     /// Time per stage, added up over back-ends.
     pub stages: Stages,
     /// Bricks that cannot be read and were missed, added up over back-ends and frames.
@@ -95,6 +97,10 @@ impl Totals {
         self.working_set_union += report.working_set_union;
         self.working_set_sum = self.working_set_sum.zip(report.working_set_sum).map(|(a, b)| a + b);
         self.stages = stages_sum(self.stages, report.stages);
+        let caster = report.caster.to_string();
+        if !self.casters.contains(&caster) {
+            self.casters.push(caster);
+        }
         self.damaged_bricks += report.damaged_bricks;
         for sentence in &report.damaged {
             if !self.damaged.contains(sentence) {

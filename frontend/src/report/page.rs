@@ -160,6 +160,7 @@ fn scene_facts(report: &Report) -> String {
         ("patient axes", describe(&scene.facts.frame)),
         ("values", format!("{low} to {high}")),
         ("longest edge in the display", format!("{:.3} m", scene.longest_m)),
+        ("cast by", report.total.casters.join("; ")),
         ("step", format!("{} voxels", quality.step_voxels)),
         ("a ray ends when less than this can be added", format!("{:.2e}", quality.termination)),
         ("voxel size per display resolution", format!("{}", quality.lod_scale)),

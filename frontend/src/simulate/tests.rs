@@ -62,6 +62,7 @@ fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
     FrameReport {
         frame,
         backend,
+        caster: protocol::Caster::Rays,
         rays: 1200 * projectors.len() as u64,
         projectors,
         samples: 345_678,
@@ -177,6 +178,8 @@ fn all_files_appear_and_the_report_adds_up() {
     let why = "shared evenly, because the display file wires 1 back-end and 2 were started";
     assert_eq!(json["backends"][0]["why_these"], why);
     assert!(html.contains(why) && html.contains("2 to 3"));
+    assert_eq!(json["total"]["casters"], serde_json::json!(["rays"]));
+    assert!(html.contains("cast by"));
     assert!(json["peak_memory_bytes"].is_u64() || !Path::new("/proc/self/status").exists());
     assert_eq!(html.matches("<li>brick 7 of &lt;a.lloom&gt; is damaged</li>").count(), 1);
     assert!(html.contains("the cache is full &lt;b&gt;") && html.contains("outside the viewing zone"));

@@ -47,7 +47,7 @@ impl<F: Real> Brick<'_, F> {
     /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
     /// of a pair are asked as leave none of it farther than a voxel.
     #[inline(always)]
-    pub(super) fn pairs_unseen<K: Kernel>(&self, t: F, length: F) -> u32 {
+    pub fn pairs_unseen<K: Kernel>(&self, t: F, length: F) -> u32 {
         let both = F::of(2.0) * length;
         if self.has_fractions::<K>() {
             let [x, y, z] = self.own.slope.0.map(F::abs);

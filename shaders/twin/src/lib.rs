@@ -31,7 +31,7 @@ pub mod refine;
 pub mod sample;
 mod scene;
 pub mod shade;
-mod spread;
+pub mod spread;
 pub mod tables;
 pub mod traverse;
 pub mod vector;

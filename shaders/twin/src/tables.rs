@@ -25,6 +25,13 @@ pub struct Located<F> {
     pub(super) value: [F; 4],
 }
 
+impl<F: Real> Located<F> {
+    /// A table's values there.
+    pub fn value(&self) -> [F; 4] {
+        self.value
+    }
+}
+
 /// Position in cells, and the cell.
 #[inline(always)]
 fn cell_of<F: Real>(s: F) -> (F, usize) {

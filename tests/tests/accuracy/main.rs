@@ -18,6 +18,7 @@ mod layers;
 mod lean_twins;
 mod non_finite;
 mod paper;
+mod planes;
 mod random;
 mod random_canaries;
 mod reference;

@@ -7,12 +7,13 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 15] = [
+pub const CRATES: [(&str, &str, &[&str]); 16] = [
     ("display-config", "display-config", &[]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
     ("needs", "shaders/needs", &["layout", "optics"]),
     ("twin", "shaders/twin", &["display-config", "layout", "needs", "optics"]),
+    ("planes", "shaders/planes", &["layout", "needs", "twin"]),
     ("shaders", "shaders", &["layout", "needs", "optics"]),
     ("bricks", "backend/bricks", &["display-config", "layout", "optics"]),
     ("volumes", "backend/volumes", &["bricks"]),
@@ -28,6 +29,7 @@ pub const CRATES: [(&str, &str, &[&str]); 15] = [
             "layout",
             "needs",
             "optics",
+            "planes",
             "protocol",
             "reference",
             "shaders",
@@ -56,7 +58,8 @@ pub const CRATES: [(&str, &str, &[&str]); 15] = [
 ];
 pub const TESTS: &str = "lightloom-tests";
 /// Crates that one crate alone may depend on.
-const PRIVATE: [(&str, &str); 3] = [("wgpu", "renderer"), ("mpi", "transport"), ("bincode", "protocol")];
+const PRIVATE: [(&str, &str); 4] =
+    [("wgpu", "renderer"), ("mpi", "transport"), ("bincode", "protocol"), ("fearless_simd", "planes")];
 /// The only places where the paths of a crate may begin: a folder ends in a slash.
 const CONFINED: [(&str, &[&str]); 3] = [
     ("mpi", &["backend/transport/src/mpi.rs"]),

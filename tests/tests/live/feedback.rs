@@ -59,7 +59,8 @@ impl Stage {
     fn cast(&mut self, view: usize, gather: Gather, counts: bool) -> CastOutcome {
         let View { scene, rays } = &self.views[view];
         let (views, part, needs) = (std::slice::from_ref(rays), Part::Every { stride: 1 }, self.scene.needs);
-        let job = CastJob { scene, views, first_picture: 0, needs, part, gather, counts, stop: NEVER };
+        let job =
+            CastJob { scene, views, first_picture: 0, needs, fan: None, part, gather, counts, stop: NEVER };
         self.device.cast(&job).unwrap()
     }
 
@@ -152,6 +153,7 @@ fn views_cast_together_are_views_cast_one_by_one() {
             views: &views,
             first_picture: 1,
             needs: stage.scene.needs,
+            fan: None,
             part: Part::Every { stride: 1 },
             gather: Gather::Own,
             counts: true,

@@ -1,6 +1,7 @@
 //! The CPU device: the kernels' f32 twin on all cores.
 
 use super::job::ViewJob;
+use super::rows::cast_rows;
 use super::under_way::UnderWay;
 use super::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
 use bricks::BRICK_VOXELS;
@@ -89,6 +90,11 @@ impl CpuDevice {
             },
         };
         self.pictures.resize_with(self.pictures.len().max(job.first_picture + job.views.len()), Vec::new);
+        if let Some(fan) = job.fan.filter(|_| job.stride() == 1) {
+            let pictures = &mut self.pictures[job.first_picture..][..job.views.len()];
+            let outcome = cast_rows(&casting, job, fan, pictures);
+            return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
+        }
         let mut outcome = CastOutcome::nothing(job);
         for (index, mut view) in job.view_jobs() {
             let cast = |&tile: &u32| (!(job.stop)()).then(|| cast_tile(&casting, &view, tile));

@@ -31,6 +31,11 @@ impl Device {
         on_device!(self, device => device.slots())
     }
 
+    /// Whether it casts rows of all views at once.
+    pub fn has_planes(&self) -> bool {
+        matches!(self, Self::Cpu(_))
+    }
+
     /// Puts a brick's 32³ samples into a slot.
     pub fn write_brick(&mut self, slot: u32, samples: &[u16]) {
         on_device!(self, device => device.write_brick(slot, samples));

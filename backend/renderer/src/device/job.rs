@@ -2,6 +2,7 @@
 
 use layout::{FeedbackEntry, TILE_EDGE};
 use needs::Needs;
+use planes::Fan;
 use protocol::StopAsked;
 use std::borrow::Cow;
 use twin::{ProjectorRays, SceneNumbers};
@@ -90,6 +91,8 @@ pub struct CastJob<'a> {
     pub first_picture: usize,
     /// What the scene needs of a kernel.
     pub needs: Needs,
+    /// What the rows of its views share, where they are cast in their planes; None for each ray alone.
+    pub fan: Option<&'a Fan>,
     /// Which pixels.
     pub part: Part<'a>,
     /// Where its feedback goes.
@@ -135,9 +138,16 @@ impl CastJob<'_> {
         }
     }
 
+    /// Pixels between cast rays.
+    pub(super) fn stride(&self) -> u32 {
+        match self.part {
+            Part::Every { stride } | Part::Tiles { stride, .. } => stride,
+        }
+    }
+
     /// Whether samples are counted and missing tiles listed.
     pub(super) fn has_counts(&self) -> bool {
-        self.counts && matches!(self.part, Part::Every { stride: 1 } | Part::Tiles { stride: 1, .. })
+        self.counts && self.stride() == 1
     }
 }
 

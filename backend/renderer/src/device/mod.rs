@@ -9,6 +9,7 @@ mod error;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod job;
+mod rows;
 mod tag;
 mod under_way;
 

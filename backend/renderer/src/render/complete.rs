@@ -18,6 +18,9 @@ use std::time::Instant;
 /// The coarse look casts every 16th pixel along x and y.
 const COARSE_STRIDE: u32 = 16;
 
+/// And every so many of the views that are cast together.
+const LOOKING_VIEWS: usize = 12;
+
 /// Rounds of a view, at most: in each the cut grows by a level, or a family of a full cache makes room for another that is
 /// needed more. Only a source whose answers change could take more.
 const MOST_ROUNDS: u32 = 256;
@@ -88,10 +91,10 @@ impl Complete {
                 self.cast(work, Stage::Casting, None);
             }
             Stage::Casting if has_changed => {
-                let missing = work.missing.pop().unwrap_or_default();
+                let missing = std::mem::take(&mut work.missing);
                 self.cast(work, Stage::Casting, Some(missing));
             }
-            Stage::Casting => self.end_view(work, engine),
+            Stage::Casting => self.end_views(work, engine),
         }
         Ok(None)
     }
@@ -155,13 +158,22 @@ impl Complete {
     }
 
     /// Casts few rays, all, or some tiles again.
-    fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<u32>>) {
+    fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<Vec<u32>>>) {
         self.stage = stage;
-        let views = self.view..self.view + 1;
+        let views = self.view..self.view + work.views_at_once();
         let stride = if stage == Stage::Looking { COARSE_STRIDE } else { 1 };
         let mut pending = Pending::all(&work.setting, views, stride);
+        if stage == Stage::Looking {
+            // Views that share their rows see much the same.
+            pending
+                .tiles
+                .iter_mut()
+                .enumerate()
+                .filter(|(i, _)| i % LOOKING_VIEWS != 0)
+                .for_each(|(_, t)| t.clear());
+        }
         if let Some(tiles) = tiles {
-            pending.tiles = vec![tiles];
+            pending.tiles = tiles;
         }
         work.begin_cast(pending);
     }
@@ -172,7 +184,7 @@ impl Complete {
         self.sampled.iter().any(|&key| cut.node(cut.find_shown(key)).key != key)
     }
 
-    fn end_view(&mut self, work: &mut Work, engine: &mut Engine) {
+    fn end_views(&mut self, work: &mut Work, engine: &mut Engine) {
         let cut = engine.set.cut();
         let is_leaf = |key: &NodeKey| {
             let node = cut.node(cut.find_shown(*key));
@@ -188,11 +200,14 @@ impl Complete {
                 self.without_room.extend(engine.stock.shown(&family, &work.frame.optics));
             }
         }
-        let [width, height] = work.setting.rays[self.view].raster;
-        work.account.done += u64::from(width) * u64::from(height);
-        work.finals.push(work.setting.projectors[self.view]);
+        let views = self.view..self.view + work.views_at_once();
+        for view in views.clone() {
+            let [width, height] = work.setting.rays[view].raster;
+            work.account.done += u64::from(width) * u64::from(height);
+            work.finals.push(work.setting.projectors[view]);
+        }
         self.sampled.clear();
-        (self.view, self.stage, self.rounds) = (self.view + 1, Stage::Begun, 0);
+        (self.view, self.stage, self.rounds) = (views.end, Stage::Begun, 0);
     }
 
     fn report(&self, work: &Work, engine: &mut Engine) -> FrameReport {
@@ -207,7 +222,7 @@ impl Complete {
         FrameReport {
             bricks_wanted: resident + self.without_room.len() as u64,
             working_set_union: self.union.len() as u64,
-            working_set_sum: Some(self.sum),
+            working_set_sum: (work.views_at_once() == 1).then_some(self.sum),
             ..report
         }
     }

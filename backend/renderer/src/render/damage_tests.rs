@@ -139,6 +139,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
                 views,
                 first_picture: 0,
                 needs,
+                fan: None,
                 part,
                 gather,
                 counts,

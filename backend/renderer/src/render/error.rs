@@ -22,6 +22,9 @@ pub enum RenderError {
         /// What is wrong with its rays.
         why: String,
     },
+    /// Row planes were asked for and cannot serve the frame.
+    #[error("row planes cannot draw this frame: {0}; take --caster rays")]
+    Planes(&'static str),
     /// The optical model is out of bounds.
     #[error(transparent)]
     Optics(#[from] optics::OpticsError),

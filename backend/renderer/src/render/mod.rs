@@ -8,6 +8,7 @@
 mod account;
 mod ancestors;
 mod brick_ranges;
+mod caster;
 mod complete;
 mod course;
 mod damage;

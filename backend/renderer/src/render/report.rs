@@ -22,6 +22,7 @@ impl Engine {
             frame: work.frame.index,
             backend: self.options.backend,
             projectors: self.options.projectors.clone(),
+            caster: work.setting.caster.caster.clone(),
             rays: work.account.rays,
             samples: work.account.samples,
             bricks_wanted: 0,

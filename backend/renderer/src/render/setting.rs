@@ -1,6 +1,7 @@
 //! What the rays of a frame are cast with.
 
 use super::RenderError;
+use super::caster::CasterOfFrame;
 use super::engine::Engine;
 use super::rules::FrameRules;
 use super::views::{rays_of, scene_numbers};
@@ -26,6 +27,7 @@ pub(super) struct Setting {
     pub(super) needs: Needs,
     pub(super) tables: Arc<Tables>,
     pub(super) lod: LodRule,
+    pub(super) caster: CasterOfFrame,
     /// Whether the display asks for more than one level in this volume.
     has_borders: bool,
 }
@@ -38,9 +40,14 @@ impl Setting {
         let lod = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
         let needs =
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
+        let rays = rays_of(display, &projectors, frame)?;
+        let dims = shape.dims().as_dvec3();
+        let caster =
+            CasterOfFrame::choose(engine.options.caster, &engine.device, &needs, &rays, frame, dims)?;
         Ok(Self {
             scene,
-            rays: rays_of(display, &projectors, frame)?,
+            rays,
+            caster,
             projectors,
             needs,
             tables: engine.tables.of(&frame.optics, &needs),

@@ -71,10 +71,15 @@ impl Work {
         (self.account.done, self.account.total)
     }
 
-    /// The device's picture of a view: those of a complete frame follow each other in one, each presented before the next
-    /// is begun.
+    /// The device's picture of a view: those of a complete frame that are cast one by one follow each other in one, each
+    /// presented before the next is begun.
     pub(super) fn picture_of(&self, view: usize) -> usize {
-        if self.frame.pace == Pace::Complete { 0 } else { view }
+        if self.frame.pace == Pace::Complete { view % self.views_at_once() } else { view }
+    }
+
+    /// Views of a complete frame that are cast together.
+    pub(super) fn views_at_once(&self) -> usize {
+        if self.setting.caster.fan.is_some() { self.setting.rays.len() } else { 1 }
     }
 
     /// Begins another cast.
@@ -92,6 +97,7 @@ impl Work {
             scene: &self.setting.scene,
             views: &self.setting.rays[views.clone()],
             first_picture: self.picture_of(views.start),
+            fan: self.setting.caster.fan.as_ref(),
             needs: Needs { blends: engine.shelf.blends, spreads: engine.shelf.spreads, ..self.setting.needs },
             part: Part::Tiles { stride: *stride, tiles },
             gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },

@@ -1,0 +1,160 @@
+//! The transfer functions at equal distances, looked up for eight scalars at once.
+
+use crate::lanes::*;
+use crate::slab::LANES;
+use needs::tables::{TABLE_CELLS, Tables};
+use twin::tables::{locate, optics_between};
+
+/// Entries of each of the tables' cells.
+const PER_CELL: usize = 2;
+/// Entries, less one.
+const CELLS: usize = PER_CELL * TABLE_CELLS;
+/// Closer scalars than this have the mean of their values, as a difference of integrals would have no digits.
+pub(crate) const CLOSE: f32 = 1.0 / 2048.0;
+
+/// Means over fewer scalars than this to both sides are taken over as many.
+const LEAST_SPREAD: f32 = 2.0 / CELLS as f32;
+
+/// f = (τ c, τ) and F = ∫ f at equal distances.
+#[derive(Clone, Debug)]
+pub(crate) struct FineTable {
+    entries: Vec<[f32; LANES]>,
+    /// F alone.
+    integrals: Vec<[f32; 4]>,
+    /// The largest error of a mean that rounding makes, in units of the table.
+    pub(crate) rounding: f32,
+}
+
+/// What eight scalars look up: f and F, each (τ c, τ).
+#[derive(Clone, Copy)]
+pub(crate) struct Looked<S: Simd> {
+    pub(crate) value: [f32x8<S>; 4],
+    integral: [f32x8<S>; 4],
+}
+
+impl FineTable {
+    pub(crate) fn of(tables: &Tables) -> Self {
+        let places: Vec<_> = (0..=CELLS).map(|i| locate(tables, i as f32 / CELLS as f32)).collect();
+        let mut sums = [0.0f64; 4];
+        let mut entries = Vec::with_capacity(CELLS + 1);
+        for (i, place) in places.iter().enumerate() {
+            let value = place.value();
+            entries.push(std::array::from_fn(|c| if c < 4 { value[c] } else { sums[c - 4] as f32 }));
+            if let Some(next) = places.get(i + 1) {
+                let mean: [f32; 4] = optics_between(tables, place, next);
+                for (sum, mean) in sums.iter_mut().zip(mean) {
+                    *sum += f64::from(mean) / CELLS as f64;
+                }
+            }
+        }
+        let most = sums.into_iter().fold(0.0, f64::max);
+        let integrals = entries.iter().map(|e: &[f32; LANES]| [e[4], e[5], e[6], e[7]]).collect();
+        Self {
+            entries,
+            integrals,
+            rounding: (2.0 * most * f64::from(f32::EPSILON) / f64::from(CLOSE)) as f32,
+        }
+    }
+
+    /// At scalars in [0, 1].
+    #[inline(always)]
+    pub(crate) fn look_up<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> Looked<S> {
+        let u = scalars * splat(simd, CELLS as f32);
+        let u = u.min(splat(simd, CELLS as f32 - 0.5)).max(splat(simd, 0.0));
+        let whole: i32x8<S> = u.to_int();
+        let part = u - u.floor();
+        // F is a parabola between two entries.
+        let bend = part * (splat(simd, 1.0) - part) * splat(simd, -0.5 / CELLS as f32);
+        let (whole, part, bend) = (whole.to_array(), part.to_array(), bend.to_array());
+        let mut values = [0.0f32; 4 * LANES];
+        let mut integrals = [0.0f32; 4 * LANES];
+        for lane in 0..LANES {
+            let entry = (whole[lane] as usize).min(CELLS - 1);
+            let [low, high] = [&self.entries[entry], &self.entries[entry + 1]];
+            let (f0, f1) = (f32x4::from_slice(simd, &low[..4]), f32x4::from_slice(simd, &high[..4]));
+            let (i0, i1) = (f32x4::from_slice(simd, &low[4..]), f32x4::from_slice(simd, &high[4..]));
+            let (t, b) = (f32x4::splat(simd, part[lane]), f32x4::splat(simd, bend[lane]));
+            let rise = f1 - f0;
+            (f0 + rise * t).store_slice(&mut values[4 * lane..4 * lane + 4]);
+            (i0 + (i1 - i0) * t + rise * b).store_slice(&mut integrals[4 * lane..4 * lane + 4]);
+        }
+        Looked { value: columns(simd, &values), integral: columns(simd, &integrals) }
+    }
+}
+
+impl FineTable {
+    /// Mean of (τ c, τ) over segments between two scalars, each of which stands for those within `spread` of it; see
+    /// `twin::spread`.
+    #[inline(always)]
+    pub(crate) fn mean_around<S: Simd>(
+        &self,
+        simd: S,
+        [from, to]: [f32x8<S>; 2],
+        spread: f32x8<S>,
+    ) -> [f32x8<S>; 4] {
+        let (zero, one, half) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, 0.5));
+        // A narrower one tells no more, and the difference of integrals no digits.
+        let spread = spread.max(splat(simd, LEAST_SPREAD));
+        let along = half * (to - from);
+        let reach = (along * along + spread * spread).sqrt();
+        let middle = half * (from + to);
+        let (lowest, highest) = (middle - reach, middle + reach);
+        let (low, high) = (lowest.max(zero), highest.min(one));
+        let (at_low, at_high) = (self.integral_at(simd, low), self.integral_at(simd, high));
+        let per = one / (high - low);
+        let inside = each!(c of 4 => ((at_high[c] - at_low[c]) * per).max(zero));
+        let (below, above) = ((zero - lowest).max(zero), (highest - one).max(zero));
+        if !(below + above).simd_gt(zero).any_true() {
+            return inside;
+        }
+        let width = reach + reach;
+        let per = one / width.simd_gt(zero).select(width, one);
+        let within = (width - below - above) * per;
+        let (below, above) = (below * per, above * per);
+        let [lowest, highest] = [&self.entries[0], &self.entries[CELLS]];
+        each!(c of 4 => inside[c] * within + splat(simd, lowest[c]) * below + splat(simd, highest[c]) * above)
+    }
+}
+
+impl FineTable {
+    /// F alone, at scalars that are apart: straight between entries.
+    #[inline(always)]
+    fn integral_at<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> [f32x8<S>; 4] {
+        let u =
+            (scalars * splat(simd, CELLS as f32)).min(splat(simd, CELLS as f32 - 0.5)).max(splat(simd, 0.0));
+        let whole: i32x8<S> = u.to_int();
+        let (whole, part) = (whole.to_array(), (u - u.floor()).to_array());
+        let mut integrals = [0.0f32; 4 * LANES];
+        for lane in 0..LANES {
+            let entry = (whole[lane] as usize).min(CELLS - 1);
+            let [low, high] = [&self.integrals[entry], &self.integrals[entry + 1]];
+            let (i0, i1) = (f32x4::from_slice(simd, low), f32x4::from_slice(simd, high));
+            let at = i0 + (i1 - i0) * f32x4::splat(simd, part[lane]);
+            at.store_slice(&mut integrals[4 * lane..4 * lane + 4]);
+        }
+        columns(simd, &integrals)
+    }
+}
+
+/// Eight rows of four, as four columns of eight.
+#[inline(always)]
+fn columns<S: Simd>(simd: S, rows: &[f32; 4 * LANES]) -> [f32x8<S>; 4] {
+    let low = f32x4::load_four_interleaved(simd, &rows[..2 * LANES]);
+    let high = f32x4::load_four_interleaved(simd, &rows[2 * LANES..]);
+    [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
+}
+
+/// Mean of (τ c, τ) between scalars `apart` from each other.
+#[inline(always)]
+pub(crate) fn mean_between<S: Simd>(simd: S, a: &Looked<S>, b: &Looked<S>, apart: f32x8<S>) -> [f32x8<S>; 4] {
+    let half = splat(simd, 0.5);
+    let is_close = apart.abs().simd_lt(splat(simd, CLOSE));
+    if is_close.all_true() {
+        return each!(c of 4 => half * (a.value[c] + b.value[c]));
+    }
+    let per = splat(simd, 1.0) / is_close.select(splat(simd, 1.0), apart);
+    each!(c of 4 => {
+        let quotient = ((b.integral[c] - a.integral[c]) * per).max(splat(simd, 0.0));
+        is_close.select(half * (a.value[c] + b.value[c]), quotient)
+    })
+}

@@ -1,0 +1,122 @@
+//! Eight pixels in one instruction: the one file that knows which library does it.
+//!
+//! Nothing is contracted or reordered, so every level of instructions gives the same bits.
+
+pub(crate) use fearless_simd::prelude::*;
+pub(crate) use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8};
+
+// A closure is compiled without the instructions of the function around it, so none stands where lanes are computed with.
+
+/// The same number eight times.
+#[inline(always)]
+pub(crate) fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
+    f32x8::splat(simd, value)
+}
+
+/// Eight numbers of a list.
+#[inline(always)]
+pub(crate) fn load<S: Simd>(simd: S, list: &[f32], start: usize) -> f32x8<S> {
+    f32x8::from_slice(simd, &list[start..start + 8])
+}
+
+/// Three or four of something, one by one.
+macro_rules! each {
+    ($c:ident of 3 => $value:expr) => {{
+        let [a, b, c] = [0, 1, 2];
+        let first = { let $c = a; $value };
+        let second = { let $c = b; $value };
+        let third = { let $c = c; $value };
+        [first, second, third]
+    }};
+    ($c:ident of 4 => $value:expr) => {{
+        let [first, second, third] = each!($c of 3 => $value);
+        let fourth = { let $c = 3; $value };
+        [first, second, third, fourth]
+    }};
+}
+pub(crate) use each;
+
+/// The largest of eight numbers that are not negative.
+#[inline(always)]
+pub(crate) fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {
+    let mut most = 0.0;
+    for number in numbers.to_array() {
+        most = if number > most { number } else { most };
+    }
+    most
+}
+
+/// e^−x for x ≥ 0, to a few units of f32.
+#[inline(always)]
+pub(crate) fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
+    let t = (x * splat(simd, -std::f32::consts::LOG2_E)).max(splat(simd, -126.0));
+    let whole = (t + splat(simd, 0.5)).floor();
+    let y = (t - whole) * splat(simd, std::f32::consts::LN_2);
+    // |y| ≤ 0.35: what the series leaves out is below 1e-8.
+    let mut sum = splat(simd, 1.0 / 5040.0);
+    for factor in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+        sum = sum * y + splat(simd, factor);
+    }
+    let exponent: i32x8<S> = whole.to_int();
+    let scale: f32x8<S> = ((exponent + i32x8::splat(simd, 127)) << 23).bitcast();
+    sum * scale
+}
+
+/// (1 − e^−x) / x for x ≥ 0.
+#[inline(always)]
+pub(crate) fn attenuation_mean<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
+    let one = splat(simd, 1.0);
+    // The next term is x⁶/5040.
+    let mut series = splat(simd, 1.0 / 720.0);
+    for factor in [1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5] {
+        series = splat(simd, factor) - x * series;
+    }
+    let series = one - x * series;
+    let is_small = x.simd_lt(splat(simd, 0.25));
+    if is_small.all_true() {
+        return series;
+    }
+    let whole = (one - exp_of_negative(simd, x)) / x;
+    is_small.select(series, whole)
+}
+
+/// x^y for x in (0, 1] and y ≥ 0; 0 where x is.
+#[inline(always)]
+pub(crate) fn power<S: Simd>(simd: S, x: f32x8<S>, y: f32x8<S>) -> f32x8<S> {
+    let least = splat(simd, f32::MIN_POSITIVE);
+    let bits: i32x8<S> = x.max(least).bitcast();
+    // x = m 2^e with m in [1/√2, √2).
+    let offset = i32x8::splat(simd, 0x3f35_04f3);
+    let exponent = (bits - offset) >> 23;
+    let mantissa: f32x8<S> = (bits - (exponent << 23)).bitcast();
+    // ln m = 2 artanh((m − 1) / (m + 1)).
+    let one = splat(simd, 1.0);
+    let q = (mantissa - one) / (mantissa + one);
+    let square = q * q;
+    let mut sum = splat(simd, 2.0 / 9.0);
+    for factor in [2.0 / 7.0, 2.0 / 5.0, 2.0 / 3.0, 2.0] {
+        sum = sum * square + splat(simd, factor);
+    }
+    let whole: f32x8<S> = exponent.to_float();
+    let log = sum * q + whole * splat(simd, std::f32::consts::LN_2);
+    let power = exp_of_negative(simd, (splat(simd, 0.0) - log * y).max(splat(simd, 0.0)));
+    x.simd_lt(least).select(splat(simd, 0.0), power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attenuation_is_right_from_tiny_to_huge() {
+        let level = Level::new();
+        for exponent in -60..60 {
+            let x = 10f32.powf(exponent as f32 / 10.0);
+            let found = dispatch!(level, simd => attenuation_mean(simd, splat(simd, x)).to_array());
+            let truth = -(-f64::from(x)).exp_m1() / f64::from(x);
+            assert!((f64::from(found[3]) / truth - 1.0).abs() < 1e-6, "{x}: {found:?} for {truth}");
+        }
+        let none = dispatch!(level, simd => attenuation_mean(simd, splat(simd, 0.0)).to_array());
+        assert_eq!(none, [1.0; 8]);
+    }
+}

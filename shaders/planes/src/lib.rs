@@ -1,0 +1,25 @@
+//! Row planes: every view of a display from one sampling of each screen row, on the CPU.
+//!
+//! A display with horizontal parallax only sends all rays of a screen row, whichever projector they come from, through
+//! one plane. Where projectors differ in nothing but the place of their centres along x, a grid on that plane serves
+//! them all: at each depth its columns are a screen pixel apart as seen by every view, so that a view's row there is the grid's,
+//! shifted by a constant ([`Fan`]). So the volume is sampled once for all views ([`Slab`]), and each view only shifts
+//! and composites, eight pixels at a time.
+
+mod classify;
+mod fan;
+mod fill;
+mod fine;
+mod lanes;
+mod leaves;
+mod rough;
+mod row;
+mod slab;
+mod steep;
+mod sweep;
+mod thick;
+mod view_row;
+
+pub use fan::Fan;
+pub use row::{Planes, RowCast, Scratch};
+pub use slab::Slab;

@@ -1,0 +1,248 @@
+//! Cells too steep for means, met by eight neighbouring rays of a view.
+
+use crate::fine::{CLOSE, FineTable, Looked, mean_between};
+use crate::lanes::*;
+use crate::rough::Roughness;
+use crate::slab::LANES;
+use twin::Casting;
+use twin::gradient::LEAST_SQUARE;
+
+/// Parts of half a cell, at most.
+const MOST_PARTS: f32 = 32.0;
+
+/// The bound of the fine table's error is this many times what it comes to: few scalars lie beside a kink.
+const FINE_ENOUGH: f32 = 10.0;
+
+/// What eight rays meet between two depths.
+#[derive(Clone, Copy)]
+pub(crate) struct Cell<S: Simd> {
+    pub(crate) scalars: [f32x8<S>; 2],
+    /// Half-width of the scalars that each stands for; None where all stand for themselves.
+    pub(crate) spread: Option<f32x8<S>>,
+    /// Optical depth where the table says 1; 0 for rays that meet nothing.
+    pub(crate) thickness: f32x8<S>,
+    /// Along each axis at both ends, where light falls.
+    pub(crate) gradient: Option<[[f32x8<S>; 2]; 3]>,
+}
+
+/// What light makes of colours: τ c · body + τ · highlight.
+#[derive(Clone, Copy)]
+struct Light<S: Simd> {
+    body: f32x8<S>,
+    highlight: f32x8<S>,
+}
+
+/// Premultiplied red, green and blue, then opacity, of eight pixels.
+pub(crate) type Pixels<S> = [f32x8<S>; 4];
+
+/// What cells are looked at with.
+#[derive(Clone, Copy)]
+pub(crate) struct Steep<'a> {
+    pub(crate) casting: &'a Casting<'a, f32>,
+    pub(crate) fine: &'a FineTable,
+    pub(crate) roughness: &'a Roughness,
+    pub(crate) tolerance: f32,
+}
+
+impl Steep<'_> {
+    /// Whether the fine table tells all of what lies between two scalars, where a cell has `thickness`.
+    #[inline(always)]
+    pub(crate) fn is_fine(&self, low: f32, high: f32, thickness: f32) -> bool {
+        let error = self.roughness.bend(low, high, CLOSE).max(self.fine.rounding);
+        error * thickness <= FINE_ENOUGH * self.tolerance
+    }
+
+    /// Adds a cell, the light on which falls along `halfway` (toward the light, less the ray's direction; a unit vector).
+    /// The scalars' looks are those of its front; returned are those of its back.
+    #[inline(always)]
+    pub(crate) fn add<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        cell: &Cell<S>,
+        front: Option<Looked<S>>,
+        halfway: [f32x8<S>; 3],
+    ) -> Option<Looked<S>> {
+        if let Some(spread) = cell.spread {
+            self.add_spread(simd, pixels, cell, spread, halfway);
+            return None;
+        }
+        let [s0, s1] = cell.scalars;
+        let half = splat(simd, 0.5);
+        let apart = half * (s1 - s0);
+        let front = match front {
+            Some(front) => front,
+            None => self.fine.look_up(simd, s0),
+        };
+        let middle = self.fine.look_up(simd, s0 + apart);
+        let back = self.fine.look_up(simd, s1);
+        let a = mean_between(simd, &front, &middle, apart);
+        let b = mean_between(simd, &middle, &back, apart);
+        let zero = splat(simd, 0.0);
+        if !(a[3] + b[3]).simd_gt(zero).any_true() {
+            return Some(back);
+        }
+        let lights = self.lights(simd, cell.gradient, halfway);
+        let thickness = half * cell.thickness;
+        let parts = self.parts(simd, (a, b), thickness, pixels[3]);
+        if parts <= 1.0 {
+            composite(simd, pixels, a, thickness, lights[0]);
+            composite(simd, pixels, b, thickness, lights[1]);
+            return Some(back);
+        }
+        let count = 2 * parts as u32;
+        let share = 1.0 / count as f32;
+        let part = (s1 - s0) * splat(simd, share);
+        let thickness = cell.thickness * splat(simd, share);
+        let mut from = front;
+        for j in 1..=count {
+            let to = match j {
+                _ if 2 * j == count => middle,
+                _ if j == count => back,
+                _ => self.fine.look_up(simd, s0 + part * splat(simd, j as f32)),
+            };
+            let light = lights[usize::from(2 * j > count)];
+            composite(simd, pixels, mean_between(simd, &from, &to, part), thickness, light);
+            from = to;
+        }
+        Some(back)
+    }
+
+    /// The same where scalars stand for others around them.
+    #[inline(always)]
+    fn add_spread<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        cell: &Cell<S>,
+        spread: f32x8<S>,
+        halfway: [f32x8<S>; 3],
+    ) {
+        let [s0, s1] = cell.scalars;
+        let middle = splat(simd, 0.5) * (s0 + s1);
+        let a = self.fine.mean_around(simd, [s0, middle], spread);
+        let b = self.fine.mean_around(simd, [middle, s1], spread);
+        if !(a[3] + b[3]).simd_gt(splat(simd, 0.0)).any_true() {
+            return;
+        }
+        let lights = self.lights(simd, cell.gradient, halfway);
+        let thickness = splat(simd, 0.5) * cell.thickness;
+        let parts = self.parts(simd, (a, b), thickness, pixels[3]);
+        if parts <= 1.0 {
+            composite(simd, pixels, a, thickness, lights[0]);
+            composite(simd, pixels, b, thickness, lights[1]);
+            return;
+        }
+        let count = 2 * parts as u32;
+        let share = 1.0 / count as f32;
+        let part = (s1 - s0) * splat(simd, share);
+        let thickness = cell.thickness * splat(simd, share);
+        for j in 0..count {
+            let ends = [s0 + part * splat(simd, j as f32), s0 + part * splat(simd, (j + 1) as f32)];
+            let light = lights[usize::from(2 * j >= count)];
+            composite(simd, pixels, self.fine.mean_around(simd, ends, spread), thickness, light);
+        }
+    }
+
+    /// Parts of half a cell that the order of what it shows asks for, the most of all eight.
+    #[inline(always)]
+    fn parts<S: Simd>(
+        &self,
+        simd: S,
+        (a, b): ([f32x8<S>; 4], [f32x8<S>; 4]),
+        thickness: f32x8<S>,
+        alpha: f32x8<S>,
+    ) -> f32 {
+        let one = splat(simd, 1.0);
+        let order = each!(c of 3 => (a[c] * b[3] - b[c] * a[3]).abs());
+        let order = order[0].max(order[1]).max(order[2]);
+        let depth = (a[3] + b[3]) * thickness;
+        let worst = order * thickness * thickness * (one - alpha) / (one + depth * depth);
+        (largest(worst) / self.tolerance).sqrt().ceil().clamp(1.0, MOST_PARTS)
+    }
+
+    /// The light on each half of a cell, where any falls.
+    #[inline(always)]
+    fn lights<S: Simd>(
+        &self,
+        simd: S,
+        gradient: Option<[[f32x8<S>; 2]; 3]>,
+        halfway: [f32x8<S>; 3],
+    ) -> [Option<Light<S>>; 2] {
+        let Some(ends) = gradient else { return [None; 2] };
+        let near = each!(axis of 3 => ends[axis][0] + (ends[axis][1] - ends[axis][0]) * splat(simd, 0.25));
+        let far = each!(axis of 3 => ends[axis][0] + (ends[axis][1] - ends[axis][0]) * splat(simd, 0.75));
+        [Some(self.light(simd, near, halfway)), Some(self.light(simd, far, halfway))]
+    }
+
+    /// See `twin::shade::Phong`.
+    #[inline(always)]
+    fn light<S: Simd>(&self, simd: S, gradient: [f32x8<S>; 3], halfway: [f32x8<S>; 3]) -> Light<S> {
+        let scene = self.casting.scene;
+        let square = dot(gradient, gradient);
+        let has_direction = square.simd_ge(splat(simd, LEAST_SQUARE as f32));
+        let per_length = splat(simd, 1.0) / has_direction.select(square, splat(simd, 1.0)).sqrt();
+        let weight = square / (square + splat(simd, scene.gradient_half_square));
+        let weight = has_direction.select(weight, splat(simd, 0.0));
+        let toward_light = scene.toward_light.0;
+        let toward_light =
+            [splat(simd, toward_light[0]), splat(simd, toward_light[1]), splat(simd, toward_light[2])];
+        let lit = dot(gradient, toward_light).abs() * per_length;
+        let cosine = (dot(gradient, halfway).abs() * per_length).min(splat(simd, 1.0));
+        let [ambient, diffuse, specular, shininess] = scene.material;
+        let highlight = if specular > 0.0 {
+            weight * splat(simd, specular) * power(simd, cosine, splat(simd, shininess))
+        } else {
+            splat(simd, 0.0)
+        };
+        let body = splat(simd, 1.0) - weight + weight * (splat(simd, ambient) + splat(simd, diffuse) * lit);
+        Light { body, highlight }
+    }
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: [f32x8<S>; 3], b: [f32x8<S>; 3]) -> f32x8<S> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn composite<S: Simd>(
+    simd: S,
+    pixels: &mut Pixels<S>,
+    k: [f32x8<S>; 4],
+    thickness: f32x8<S>,
+    light: Option<Light<S>>,
+) {
+    let depth = k[3] * thickness;
+    let share = attenuation_mean(simd, depth) * (splat(simd, 1.0) - pixels[3]);
+    let through = share * thickness;
+    match light {
+        None => {
+            pixels[0] += k[0] * through;
+            pixels[1] += k[1] * through;
+            pixels[2] += k[2] * through;
+        }
+        Some(Light { body, highlight }) => {
+            let white = k[3] * highlight;
+            pixels[0] += (k[0] * body + white) * through;
+            pixels[1] += (k[1] * body + white) * through;
+            pixels[2] += (k[2] * body + white) * through;
+        }
+    }
+    pixels[3] += depth * share;
+}
+
+/// The lowest and the highest of those scalars that are numbers. None if there is none.
+#[inline(always)]
+pub(crate) fn range<S: Simd>(scalars: [f32x8<S>; 2]) -> Option<(f32, f32)> {
+    let (mut low, mut high) = (f32::MAX, f32::MIN);
+    let [front, back] = [scalars[0].to_array(), scalars[1].to_array()];
+    for lane in 0..LANES {
+        // Where nothing shows at one of the ends, nothing does; a comparison with NaN is false.
+        let (a, b) = (front[lane].min(back[lane]), front[lane].max(back[lane]));
+        let is_known = (front[lane] + back[lane]).is_finite();
+        low = if is_known && a < low { a } else { low };
+        high = if is_known && b > high { b } else { high };
+    }
+    (low <= high).then_some((low, high))
+}

@@ -1,0 +1,326 @@
+//! One view's row over a slab: shifted, composited, eight pixels at a time.
+
+use crate::Fan;
+use crate::fan::AtDepth;
+use crate::fine::Looked;
+use crate::lanes::*;
+use crate::slab::{LANES, STEEP, Slab};
+use crate::steep::{Cell, Pixels, Steep, range};
+use crate::thick::{self, Met};
+use crate::view_row::ViewRow;
+use twin::Casting;
+use twin::tables::is_vacant_around;
+
+/// Where a view's pixels meet the columns at one depth: between two columns, the same share of each for all of them.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// The phases of both.
+    phases: [usize; 2],
+    /// Entry of pixel 0, and by how much the second column's is further.
+    entry: i64,
+    further: usize,
+    /// The second column's share.
+    part: f32,
+}
+
+impl Place {
+    #[inline(always)]
+    fn new(slab: &Slab, fan: &Fan, view: usize, depth: &AtDepth) -> Self {
+        let phases = slab.phases as f64;
+        let place = phases * (0.5 + fan.shift(view, depth)) - 0.5;
+        let column = place.floor();
+        let (first, count) = (column as i64, slab.phases as i64);
+        let phase = first.rem_euclid(count);
+        let next = (phase + 1) % count;
+        Self {
+            phases: [phase as usize, next as usize],
+            entry: first.div_euclid(count) - slab.base,
+            further: usize::from(next == 0),
+            part: (place - column) as f32,
+        }
+    }
+}
+
+/// One row of one view.
+pub(crate) struct Sweep<'a> {
+    pub(crate) casting: &'a Casting<'a, f32>,
+    pub(crate) fan: &'a Fan,
+    pub(crate) slab: &'a Slab,
+    pub(crate) view: usize,
+    pub(crate) row: u32,
+    /// Optical depth of a cell where the table says 1.
+    pub(crate) thickness: f32,
+    pub(crate) steep: Steep<'a>,
+}
+
+/// Places of all cells' middles, and of all depths.
+#[derive(Debug, Default)]
+pub(crate) struct Places {
+    middles: Vec<Place>,
+    depths: Vec<Place>,
+}
+
+/// What lies between two columns, for eight pixels.
+#[inline(always)]
+fn between<S: Simd>(simd: S, list: &[f32], starts: [usize; 2], part: f32x8<S>) -> f32x8<S> {
+    let (a, b) = (load(simd, list, starts[0]), load(simd, list, starts[1]));
+    a + (b - a) * part
+}
+
+impl Sweep<'_> {
+    /// Adds what the slab shows to a view's row.
+    #[inline(always)]
+    pub(crate) fn add<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &mut Places) {
+        let Self { fan, slab, .. } = *self;
+        let place = |depth: &AtDepth| Place::new(slab, fan, self.view, depth);
+        places.middles.clear();
+        places.middles.extend(slab.middles.iter().map(place));
+        places.depths.clear();
+        places.depths.extend(slab.depths.iter().map(place));
+        let entries = places.depths.iter().map(|place| place.entry);
+        let (low, high) = entries.fold((i64::MAX, i64::MIN), |(low, high), e| (low.min(e), high.max(e)));
+        let last = slab.blocks_across() as i64 - 1;
+        let termination = self.casting.scene.termination;
+        for block in 0..view.closed.len() {
+            if view.closed[block] {
+                continue;
+            }
+            let pixel = (block * LANES) as i64;
+            let touched =
+                [low + pixel, high + pixel + LANES as i64].map(|entry| entry.div_euclid(LANES as i64));
+            if touched[1] < 0 || touched[0] > last {
+                continue;
+            }
+            let touched = touched.map(|block| block.clamp(0, last) as usize);
+            if slab.any[touched[0]..=touched[1]].iter().all(|&any| any == 0) {
+                continue;
+            }
+            self.add_block(simd, view, places, block);
+            let at = block * LANES;
+            let opaque = view.rgba[3][at..at + LANES].iter().all(|&alpha| 1.0 - alpha < termination);
+            view.closed[block] = opaque;
+        }
+    }
+
+    #[inline(always)]
+    fn add_block<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &Places, block: usize) {
+        let slab = self.slab;
+        let at = block * LANES;
+        let mut rgb = each!(c of 3 => load(simd, &view.rgba[c], at));
+        let mut alpha = load(simd, &view.rgba[3], at);
+        let length = load(simd, &view.lengths, at);
+        let one = f32x8::splat(simd, 1.0);
+        let zero = f32x8::splat(simd, 0.0);
+        let across = slab.blocks_across();
+        // What the scalars at a depth look up, from the cell in front of it.
+        let mut known = None;
+        for (cell, place) in places.middles.iter().enumerate() {
+            let entry = place.entry + at as i64;
+            if entry < 0 || entry as usize + LANES + 1 > slab.stride {
+                continue;
+            }
+            let entry = entry as usize;
+            let first = cell * across + entry / LANES;
+            let class = slab.blocks[first] | slab.blocks[(first + 1).min(slab.blocks.len() - 1)];
+            if class == 0 {
+                continue;
+            }
+            if class & STEEP != 0 {
+                let looks = match known {
+                    Some((behind, looks)) if behind == cell => Some(looks),
+                    Some(_) | None => None,
+                };
+                let mut pixels = [rgb[0], rgb[1], rgb[2], alpha];
+                known = self.add_steep(simd, &mut pixels, view, places, (cell, at), looks);
+                [rgb[0], rgb[1], rgb[2], alpha] = pixels;
+                continue;
+            }
+            let part = f32x8::splat(simd, place.part);
+            let near = 4 * slab.row_start(cell, place.phases[0]) + entry;
+            let far = 4 * slab.row_start(cell, place.phases[1]) + entry;
+            let (stride, further) = (slab.stride, place.further);
+            let opacity = between(simd, &slab.means, [near + 3 * stride, far + further + 3 * stride], part);
+            let depth = opacity * length;
+            if !depth.simd_gt(zero).any_true() {
+                continue;
+            }
+            let inside = if slab.is_outer { self.share_inside(simd, view, cell, at) } else { one };
+            let (depth, length) = (depth * inside, length * inside);
+            let share = attenuation_mean(simd, depth) * (one - alpha);
+            let lit = share * length;
+            rgb = each!(c of 3 => {
+                let mean = between(simd, &slab.means, [near + c * stride, far + further + c * stride], part);
+                rgb[c] + mean * lit
+            });
+            alpha += depth * share;
+        }
+        for (c, value) in rgb.iter().enumerate() {
+            value.store_slice(&mut view.rgba[c][at..at + LANES]);
+        }
+        alpha.store_slice(&mut view.rgba[3][at..at + LANES]);
+    }
+
+    /// Adds a cell that is too steep for means. What its back looks up, and the cell behind, if that was looked up.
+    #[inline(always)]
+    fn add_steep<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        view: &ViewRow,
+        places: &Places,
+        (cell, at): (usize, usize),
+        looks: Option<Looked<S>>,
+    ) -> Option<(usize, Looked<S>)> {
+        let Self { casting, slab, .. } = *self;
+        let ends = [&places.depths[cell], &places.depths[cell + 1]];
+        let entries = [ends[0].entry + at as i64, ends[1].entry + at as i64];
+        if entries.iter().any(|&entry| entry < 0 || entry as usize + LANES + 1 > slab.stride) {
+            return None;
+        }
+        let scalars = [
+            self.fetch(simd, &slab.scalars, (cell, 0), ends[0], entries[0], (1, 0)),
+            self.fetch(simd, &slab.scalars, (cell, 1), ends[1], entries[1], (1, 0)),
+        ];
+        let half = f32x8::splat(simd, 0.5);
+        let zero = f32x8::splat(simd, 0.0);
+        let spread = if slab.spreads.is_empty() {
+            None
+        } else {
+            Some(
+                (self.fetch(simd, &slab.spreads, (cell, 0), ends[0], entries[0], (1, 0))
+                    + self.fetch(simd, &slab.spreads, (cell, 1), ends[1], entries[1], (1, 0)))
+                    * half,
+            )
+        };
+        let widest = match spread {
+            Some(spread) => largest(spread),
+            None => 0.0,
+        };
+        let (low, high) = range(scalars)?;
+        if is_vacant_around(&casting.tables.cells, (low, high), widest) {
+            return None;
+        }
+        let is_open = (f32x8::splat(simd, 1.0) - pixels[3]).simd_ge(casting.scene.termination);
+        let sum = scalars[0] + scalars[1];
+        let is_met = sum.simd_eq(sum) & is_open;
+        if !is_met.any_true() {
+            return None;
+        }
+        let mut thickness = f32x8::splat(simd, self.thickness) * load(simd, &view.lengths, at);
+        if slab.is_outer {
+            thickness *= self.share_inside(simd, view, cell, at);
+        }
+        let gradient = if slab.gradients.is_empty() {
+            None
+        } else {
+            Some(each!(axis of 3 => {
+                let front = self.fetch(simd, &slab.gradients, (cell, 0), ends[0], entries[0], (3, axis));
+                let back = self.fetch(simd, &slab.gradients, (cell, 1), ends[1], entries[1], (3, axis));
+                [front, back]
+            }))
+        };
+        let reach = ((low - widest).max(0.0), (high + widest).min(1.0));
+        if !self.steep.is_fine(reach.0, reach.1, self.thickness) {
+            let spread = match spread {
+                Some(spread) => spread,
+                None => zero,
+            };
+            self.add_each(simd, pixels, (scalars, spread, thickness), gradient, at);
+            return None;
+        }
+        let lowest = f32x8::splat(simd, low);
+        let cell_met = Cell {
+            scalars: [is_met.select(scalars[0], lowest), is_met.select(scalars[1], lowest)],
+            spread: if widest > 0.0 { spread } else { None },
+            thickness: is_met.select(thickness, zero),
+            gradient,
+        };
+        let halfway = if slab.gradients.is_empty() {
+            [zero; 3]
+        } else {
+            each!(axis of 3 => load(simd, &view.halfway[axis], at))
+        };
+        // What is looked up for rays that meet nothing is not theirs.
+        let is_whole = is_met.all_true();
+        let looks = if is_whole { looks } else { None };
+        let back = self.steep.add(simd, pixels, &cell_met, looks, halfway);
+        match back {
+            Some(back) if is_whole => Some((cell + 1, back)),
+            Some(_) | None => None,
+        }
+    }
+
+    /// The share of a cell within which rays are in the volume.
+    #[inline(always)]
+    fn share_inside<S: Simd>(&self, simd: S, view: &ViewRow, cell: usize, at: usize) -> f32x8<S> {
+        let [front, back] = [self.slab.depths[cell].z as f32, self.slab.depths[cell + 1].z as f32];
+        let enter = load(simd, &view.ends[0], at).min(splat(simd, front));
+        let leave = load(simd, &view.ends[1], at).max(splat(simd, back));
+        ((enter - leave) * splat(simd, 1.0 / (front - back))).max(splat(simd, 0.0))
+    }
+
+    /// What a row of a list holds at an end of a cell, where the list has `rows` rows a depth and phase.
+    #[inline(always)]
+    fn fetch<S: Simd>(
+        &self,
+        simd: S,
+        list: &[f32],
+        (cell, end): (usize, usize),
+        place: &Place,
+        entry: i64,
+        (rows, row): (usize, usize),
+    ) -> f32x8<S> {
+        let slab = self.slab;
+        let first = entry as usize + row * slab.stride;
+        let near = rows * slab.row_start(cell + end, place.phases[0]) + first;
+        let far = rows * slab.row_start(cell + end, place.phases[1]) + first + place.further;
+        between(simd, list, [near, far], f32x8::splat(simd, place.part))
+    }
+
+    /// Adds a cell pixel by pixel, by the whole table.
+    #[inline(always)]
+    fn add_each<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        (scalars, spread, thickness): ([f32x8<S>; 2], f32x8<S>, f32x8<S>),
+        gradient: Option<[[f32x8<S>; 2]; 3]>,
+        at: usize,
+    ) {
+        let [s0, s1] = [scalars[0].to_array(), scalars[1].to_array()];
+        let (spread, thickness) = (spread.to_array(), thickness.to_array());
+        let mut middle = None;
+        if let Some(g) = gradient {
+            let half = f32x8::splat(simd, 0.5);
+            middle = Some(each!(axis of 3 => ((g[axis][0] + g[axis][1]) * half).to_array()));
+        }
+        let gradient = middle;
+        let mut rgba =
+            [pixels[0].to_array(), pixels[1].to_array(), pixels[2].to_array(), pixels[3].to_array()];
+        for lane in 0..LANES {
+            let is_open = 1.0 - rgba[3][lane] >= self.casting.scene.termination;
+            if !(s0[lane] + s1[lane]).is_finite() || !is_open {
+                continue;
+            }
+            let met = Met {
+                scalars: (s0[lane], s1[lane]),
+                spread: spread[lane],
+                thickness: thickness[lane],
+                gradient: gradient.map(|g| [g[0][lane], g[1][lane], g[2][lane]]),
+            };
+            let direction = if met.gradient.is_some() {
+                self.fan.direction(self.view, self.row, at + lane)
+            } else {
+                [0.0; 3]
+            };
+            let mut pixel = [rgba[0][lane], rgba[1][lane], rgba[2][lane], rgba[3][lane]];
+            thick::add(self.casting, &mut pixel, &met, direction);
+            for c in 0..4 {
+                rgba[c][lane] = pixel[c];
+            }
+        }
+        for c in 0..4 {
+            pixels[c] = f32x8::load_array(simd, rgba[c]);
+        }
+    }
+}

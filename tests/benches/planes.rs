@@ -1,0 +1,119 @@
+//! Row planes against single rays: seconds next to the error at which they were measured.
+//!
+//! `cargo bench -p lightloom-tests --bench planes`; LIGHTLOOM_BENCH_SCENES="name;name" takes those scenes, LIGHTLOOM_BENCH_RAY_VIEWS=n
+//! casts n views ray by ray (0: none), and LIGHTLOOM_BENCH_REPEATS=n draws each n times.
+
+use bricks::BrickSource;
+use display_config::Display;
+use glam::DQuat;
+use lightloom_tests::memory::peak_mib;
+use lightloom_tests::results::{Program, Results};
+use lightloom_tests::{compare, draw, scanned_head, scenes};
+use optics::{Light, Quality};
+use protocol::{CasterChoice, DeviceChoice, FrameState, ProjectorImage, RenderEvent};
+use renderer::Renderer;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Views whose pictures are compared with the reference.
+const COMPARED: [u32; 3] = [6, 35, 60];
+/// Every so many pixels of them, along x and y.
+const COMPARED_STRIDE: u32 = 12;
+
+struct Scene {
+    name: &'static str,
+    source: Arc<dyn BrickSource>,
+    frame: FrameState,
+}
+
+fn scenes(display: &Display, folder: &std::path::Path) -> Vec<Scene> {
+    let head: Arc<dyn BrickSource> = Arc::new(scanned_head::store(folder));
+    let place = scenes::placed(&*head, 0.75, DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
+    let mut all = Vec::new();
+    let (semi, opaque) = (scanned_head::semi_transparent(), scanned_head::opaque());
+    for (name, optics, light) in [
+        ("head, semi-transparent", semi, None),
+        ("head, opaque", opaque.clone(), None),
+        ("head, opaque, shaded", opaque, Some(Light::default())),
+    ] {
+        let frame = scenes::frame(display, place, optics, light);
+        all.push(Scene { name, source: Arc::clone(&head), frame: frame.clone() });
+        let finest = FrameState { quality: Quality { lod_scale: 0.0, ..frame.quality }, ..frame };
+        let name = match name {
+            "head, semi-transparent" => "head, semi-transparent, finest level",
+            "head, opaque" => "head, opaque, finest level",
+            _ => continue,
+        };
+        all.push(Scene { name, source: Arc::clone(&head), frame: finest });
+    }
+    let shells = scenes::shells(display);
+    all.push(Scene { name: "shells, shaded", source: shells.source, frame: shells.frame });
+    if let Some(cranium) = scenes::cranium(display) {
+        let plain = FrameState { light: None, ..cranium.frame.clone() };
+        all.push(Scene { name: "cranium", source: Arc::clone(&cranium.source), frame: plain });
+        all.push(Scene { name: "cranium, shaded", source: cranium.source, frame: cranium.frame });
+    }
+    all
+}
+
+fn measure(
+    renderer: &mut Renderer,
+    frame: &FrameState,
+    keep: &[u32],
+) -> (f64, u64, u64, Vec<ProjectorImage>) {
+    let started = Instant::now();
+    let mut images = Vec::new();
+    let mut sink = |event| match event {
+        RenderEvent::Image(image) if keep.contains(&image.projector) => images.push(image),
+        RenderEvent::Image(_) | RenderEvent::Progress { .. } => {}
+    };
+    let report = renderer.draw(frame, &mut sink).expect("the bench scene can be drawn");
+    (started.elapsed().as_secs_f64(), report.samples, report.working_set_union, images)
+}
+
+fn main() -> Result<(), String> {
+    let number =
+        |name: &str, default: usize| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(default);
+    let ray_views = number("LIGHTLOOM_BENCH_RAY_VIEWS", 3).min(72);
+    let repeats = number("LIGHTLOOM_BENCH_REPEATS", 3).max(1);
+    let wanted = std::env::var("LIGHTLOOM_BENCH_SCENES").unwrap_or_default();
+    let display = Display::load("holo72").expect("a preset");
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let mut results = Results::new(Program::Bench("planes"), "planes", "cpu");
+    results.line("| scene | caster | views | seconds | Gsamples | RMS, 99.9 %, largest error of 255 | bricks | peak MiB |");
+    results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+    for Scene { name, source, frame } in scenes(&display, folder.path()) {
+        if !wanted.is_empty() && !wanted.split(';').any(|part| name == part) {
+            continue;
+        }
+        let truth = compare::truth(&display, &frame, &source, &COMPARED, COMPARED_STRIDE);
+        let all: Vec<u32> = (0..72).collect();
+        let few: Vec<u32> = COMPARED
+            .into_iter()
+            .chain((0..72).step_by(4).filter(|p| !COMPARED.contains(p)))
+            .take(ray_views)
+            .collect();
+        for (caster, projectors) in [(CasterChoice::Planes, &all), (CasterChoice::Rays, &few)] {
+            if projectors.is_empty() {
+                continue;
+            }
+            let with = draw::With { cache_bytes: 1 << 30, caster, ..draw::With::device(DeviceChoice::Cpu) };
+            let (mut renderer, info) = draw::renderer(&display, &source, projectors, with);
+            results.drawn_by(&info.adapter);
+            let mut runs: Vec<_> = (0..repeats).map(|_| measure(&mut renderer, &frame, &COMPARED)).collect();
+            runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (seconds, samples, bricks, images) = runs.swap_remove((runs.len() - 1) / 2);
+            let kept: Vec<_> =
+                truth.iter().copied().filter(|pixel| projectors.contains(&pixel.projector)).collect();
+            let errors = compare::errors(&images, &kept);
+            let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
+            results.line(format!(
+                "| {name} | {caster:?} | {} | {seconds:.2} | {:.2} | {rms:.3}, {p999:.2}, {max:.2} | {bricks} | {:.0} |",
+                projectors.len(),
+                samples as f64 / 1e9,
+                peak_mib(),
+            ));
+        }
+    }
+    results.finish()
+}

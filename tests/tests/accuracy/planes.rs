@@ -1,0 +1,122 @@
+//! Row planes show what the reference has, as closely as their tolerance asks.
+
+use display_config::Display;
+use lightloom_tests::compare::{Errors, Limits, errors, truth};
+use lightloom_tests::draw::{self, With, draw};
+use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::twin_scene::{TwinScene, view};
+use optics::{Curve, Quality};
+use planes::{Fan, Planes, Scratch};
+use protocol::{Caster, CasterChoice, DeviceChoice};
+use twin::FeedbackCell;
+
+const PROJECTORS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+const COMPARED: [u32; 2] = [0, 5];
+
+fn display() -> Display {
+    with_raster(&Display::load("desk8").unwrap(), 96, 72)
+}
+
+/// What planes keep at default quality, about 1.4 times what they err: what a scalar half-way between two columns or depths is
+/// off, which is most where data vary from voxel to voxel.
+fn promised(display: &Display) -> Vec<(TestScene, Limits)> {
+    let mut all = vec![
+        (scenes::shells(display), Limits::of_255(0.25, 4.0, 6.0)),
+        (scenes::marschner_lobb(display), Limits::of_255(0.9, 12.0, 14.0)),
+        (scenes::sparse_vessels(display), Limits::of_255(0.4, 8.0, 14.0)),
+        (scenes::stored_vessels(display), Limits::of_255(0.5, 8.0, 15.0)),
+        (scenes::noise(display), Limits::of_255(6.0, 30.0, 36.0)),
+    ];
+    all.extend(scenes::cranium(display).map(|scene| (scene, Limits::of_255(1.5, 12.0, 20.0))));
+    all.extend(scenes::head_mri(display).map(|scene| (scene, Limits::of_255(1.2, 12.0, 20.0))));
+    all
+}
+
+fn errors_of(display: &Display, scene: &TestScene, quality: Quality) -> Errors {
+    let mut frame = scene.frame.clone();
+    let truth = truth(display, &frame, &scene.source, &COMPARED, 2);
+    frame.quality = quality;
+    let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
+    let drawn = draw(display, &frame, &scene.source, &PROJECTORS, with);
+    assert_eq!(drawn.report.caster, Caster::Planes { views: 8 });
+    assert!(drawn.report.complete, "{}", drawn.report.shortfall);
+    errors(&drawn.images, &truth)
+}
+
+#[test]
+fn planes_keep_their_promise_and_come_nearer_with_the_tolerance() {
+    let _turn = draw::turn();
+    let display = display();
+    for (scene, limits) in promised(&display) {
+        let quality = scene.frame.quality;
+        let found = errors_of(&display, &scene, quality);
+        let close = errors_of(&display, &scene, Quality { tolerance: quality.tolerance / 16.0, ..quality });
+        println!("{:20} {found}; at a sixteenth of the tolerance {close}", scene.name);
+        assert!(limits.hold(&found), "{}: {found}", scene.name);
+        // Samples four times as close; a kink between two of them costs more than the square of their distance.
+        assert!(close.rms < 0.5 * found.rms + 0.01 / 255.0, "{}: {close} after {found}", scene.name);
+    }
+}
+
+#[test]
+fn a_medium_that_is_too_thick_by_a_twentieth_is_found() {
+    let _turn = draw::turn();
+    let display = display();
+    let scene = scenes::shells(&display);
+    let (_, limits) = promised(&display).swap_remove(0);
+    let truth = truth(&display, &scene.frame, &scene.source, &COMPARED, 2);
+    let mut frame = scene.frame.clone();
+    frame.optics.extinction = scenes::scaled(&frame.optics.extinction, 1.05);
+    let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
+    let spoiled = errors(&draw(&display, &frame, &scene.source, &PROJECTORS, with).images, &truth);
+    assert!(!limits.hold(&spoiled), "{spoiled}");
+}
+
+/// The rows of all views, as bytes.
+fn rows(planes: &Planes, fan: &Fan, views: usize) -> Vec<u32> {
+    let mut scratch = Scratch::default();
+    let mut bytes = Vec::new();
+    for row in 0..fan.raster[1] {
+        let mut pixels = vec![vec![0.0f32; 4 * fan.raster[0] as usize]; views];
+        let mut out: Vec<&mut [f32]> = pixels.iter_mut().map(Vec::as_mut_slice).collect();
+        planes.cast_row(row, &mut scratch, &mut out);
+        bytes.extend(pixels.iter().flatten().map(|value| value.to_bits()));
+    }
+    bytes
+}
+
+#[test]
+fn every_level_of_instructions_gives_the_same_bytes() {
+    let _turn = draw::turn();
+    let display = display();
+    for scene in [scenes::shells(&display), scenes::stored_vessels(&display), scenes::noise(&display)] {
+        let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
+        let views: Vec<_> = PROJECTORS
+            .iter()
+            .map(|&projector| view(&display, projector, &scene.frame, &*scene.source).rounded())
+            .collect();
+        let rays: Vec<_> = views.iter().map(|view| view.rays).collect();
+        let fan = Fan::of(&rays).unwrap();
+        let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
+        let casting = twin.casting(&views[0].scene, &feedback);
+        let best = rows(&Planes::new(&casting, &fan), &fan, views.len());
+        let plain = rows(&Planes::new(&casting, &fan).plainly(), &fan, views.len());
+        assert!(best == plain, "{}", scene.name);
+        assert!(best.iter().any(|&bits| f32::from_bits(bits) > 0.1), "a black picture proves nothing");
+        assert!(feedback.iter().any(|cell| cell.entry().rays > 0), "{}: no node was noted", scene.name);
+    }
+}
+
+#[test]
+fn what_planes_cannot_draw_is_refused_by_name() {
+    let display = display();
+    let scene = scenes::shells(&display);
+    let mut frame = scene.frame.clone();
+    frame.optics.refraction = Some(Curve::new(vec![(0.0, 1.0), (1.0, 1.2)]).unwrap());
+    let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
+    let (mut renderer, _) = draw::renderer(&display, &scene.source, &PROJECTORS, with);
+    let error = renderer.draw(&frame, &mut |_| {}).unwrap_err().to_string();
+    assert_eq!(error, "row planes cannot draw this frame: light is bent; take --caster rays");
+    // The renderer goes on.
+    assert!(renderer.draw(&scene.frame, &mut |_| {}).unwrap().complete);
+}
