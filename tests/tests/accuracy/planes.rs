@@ -116,7 +116,7 @@ fn what_planes_cannot_draw_is_refused_by_name() {
     let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
     let (mut renderer, _) = draw::renderer(&display, &scene.source, &PROJECTORS, with);
     let error = renderer.draw(&frame, &mut |_| {}).unwrap_err().to_string();
-    assert_eq!(error, "row planes cannot draw this frame: light is bent; take --caster rays");
+    assert_eq!(error, "row planes cannot draw this frame: light is bent; --caster rays can");
     // The renderer goes on.
     assert!(renderer.draw(&scene.frame, &mut |_| {}).unwrap().complete);
 }

@@ -40,7 +40,7 @@ impl CasterOfFrame {
         let serving = if device.has_planes() {
             Planes::refusal(needs).map_or_else(|| Fan::of(rays), Err)
         } else {
-            Err("a GPU has no kernels for them yet, take --device cpu")
+            Err("a GPU has no kernels for them yet, --device cpu has")
         };
         let reaches = |fan: Fan| {
             let corner =

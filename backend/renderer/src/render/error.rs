@@ -23,7 +23,7 @@ pub enum RenderError {
         why: String,
     },
     /// Row planes were asked for and cannot serve the frame.
-    #[error("row planes cannot draw this frame: {0}; take --caster rays")]
+    #[error("row planes cannot draw this frame: {0}; --caster rays can")]
     Planes(&'static str),
     /// The optical model is out of bounds.
     #[error(transparent)]
