@@ -34,5 +34,10 @@ fn cast_with_avx2(
 
 #[inline(always)]
 fn cast_leanly(casting: &Casting<f32>, rays: &ProjectorRays<f32>, pixels: &[(u32, u32)]) -> Vec<Cast<f32>> {
-    pixels.iter().map(|&(x, y)| cast_pixel(casting, rays, x, y)).collect()
+    let mut casts = Vec::with_capacity(pixels.len());
+    // Not a closure: it would be compiled without the wider instructions of the function that this is inlined into.
+    for &(x, y) in pixels {
+        casts.push(cast_pixel(casting, rays, x, y));
+    }
+    casts
 }
