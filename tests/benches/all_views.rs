@@ -11,41 +11,13 @@ use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scanned_head::{self, DIMS};
 use lightloom_tests::{compare, draw, scenes};
 use optics::{Light, Quality};
-use protocol::{DeviceChoice, FrameState, ProjectorImage, RenderEvent};
-use renderer::Renderer;
+use protocol::DeviceChoice;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Views whose pictures are compared with the reference.
 const COMPARED: usize = 3;
 /// Every so many pixels of them, along x and y.
 const COMPARED_STRIDE: u32 = 12;
-
-struct Measured {
-    seconds: f64,
-    samples: u64,
-    complete: bool,
-    images: Vec<ProjectorImage>,
-    peak_mib: f64,
-}
-
-/// Draws all views, and keeps the pictures of those that will be compared.
-fn measure(renderer: &mut Renderer, frame: &FrameState, keep: &[u32]) -> Measured {
-    let started = Instant::now();
-    let mut images = Vec::new();
-    let mut sink = |event| match event {
-        RenderEvent::Image(image) if keep.contains(&image.projector) => images.push(image),
-        RenderEvent::Image(_) | RenderEvent::Progress { .. } => {}
-    };
-    let report = renderer.draw(frame, &mut sink).expect("the bench scene can be drawn");
-    Measured {
-        seconds: started.elapsed().as_secs_f64(),
-        samples: report.samples,
-        complete: report.complete,
-        images,
-        peak_mib: peak_mib(),
-    }
-}
 
 /// Which views are drawn, and what of them is compared.
 struct Plan {
@@ -78,17 +50,17 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
             let with = draw::With { cache_bytes: 512 << 20, ..draw::With::device(device) };
             let (mut renderer, info) = draw::renderer(display, source, projectors, with);
             results.drawn_by(&info.adapter);
-            let Measured { seconds, samples, complete, images, peak_mib } =
-                measure(&mut renderer, &frame, keep);
+            let (seconds, report, images) = draw::timed(&mut renderer, &frame, keep);
+            let peak_mib = peak_mib();
             drop(renderer);
             let truth = compare::truth(display, &frame, source, keep, COMPARED_STRIDE);
             let errors = compare::errors(&images, &truth);
-            let rate = samples as f64 / seconds / 1e6;
+            let rate = report.samples as f64 / seconds / 1e6;
             let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
-            let whole = if complete { "" } else { ", INCOMPLETE" };
+            let whole = if report.complete { "" } else { ", INCOMPLETE" };
             results.line(format!(
                 "| {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {rms:.3}, {p999:.2}, {max:.2}{whole} | {peak_mib:.0} |",
-                samples as f64 / 1e9,
+                report.samples as f64 / 1e9,
             ));
         }
     }

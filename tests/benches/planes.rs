@@ -9,11 +9,9 @@ use glam::DQuat;
 use lightloom_tests::memory::peak_mib;
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::{compare, draw, scanned_head, scenes};
-use optics::{Light, Quality};
-use protocol::{CasterChoice, DeviceChoice, FrameState, ProjectorImage, RenderEvent};
-use renderer::Renderer;
+use optics::Light;
+use protocol::{CasterChoice, DeviceChoice, FrameState};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Views whose pictures are compared with the reference.
 const COMPARED: [u32; 3] = [6, 35, 60];
@@ -37,14 +35,7 @@ fn scenes(display: &Display, folder: &std::path::Path) -> Vec<Scene> {
         ("head, opaque, shaded", opaque, Some(Light::default())),
     ] {
         let frame = scenes::frame(display, place, optics, light);
-        all.push(Scene { name, source: Arc::clone(&head), frame: frame.clone() });
-        let finest = FrameState { quality: Quality { lod_scale: 0.0, ..frame.quality }, ..frame };
-        let name = match name {
-            "head, semi-transparent" => "head, semi-transparent, finest level",
-            "head, opaque" => "head, opaque, finest level",
-            _ => continue,
-        };
-        all.push(Scene { name, source: Arc::clone(&head), frame: finest });
+        all.push(Scene { name, source: Arc::clone(&head), frame });
     }
     let shells = scenes::shells(display);
     all.push(Scene { name: "shells, shaded", source: shells.source, frame: shells.frame });
@@ -54,21 +45,6 @@ fn scenes(display: &Display, folder: &std::path::Path) -> Vec<Scene> {
         all.push(Scene { name: "cranium, shaded", source: cranium.source, frame: cranium.frame });
     }
     all
-}
-
-fn measure(
-    renderer: &mut Renderer,
-    frame: &FrameState,
-    keep: &[u32],
-) -> (f64, u64, u64, Vec<ProjectorImage>) {
-    let started = Instant::now();
-    let mut images = Vec::new();
-    let mut sink = |event| match event {
-        RenderEvent::Image(image) if keep.contains(&image.projector) => images.push(image),
-        RenderEvent::Image(_) | RenderEvent::Progress { .. } => {}
-    };
-    let report = renderer.draw(frame, &mut sink).expect("the bench scene can be drawn");
-    (started.elapsed().as_secs_f64(), report.samples, report.working_set_union, images)
 }
 
 fn main() -> Result<(), String> {
@@ -100,17 +76,19 @@ fn main() -> Result<(), String> {
             let with = draw::With { cache_bytes: 1 << 30, caster, ..draw::With::device(DeviceChoice::Cpu) };
             let (mut renderer, info) = draw::renderer(&display, &source, projectors, with);
             results.drawn_by(&info.adapter);
-            let mut runs: Vec<_> = (0..repeats).map(|_| measure(&mut renderer, &frame, &COMPARED)).collect();
+            let mut runs: Vec<_> =
+                (0..repeats).map(|_| draw::timed(&mut renderer, &frame, &COMPARED)).collect();
             runs.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let (seconds, samples, bricks, images) = runs.swap_remove((runs.len() - 1) / 2);
+            let (seconds, report, images) = runs.swap_remove((runs.len() - 1) / 2);
             let kept: Vec<_> =
                 truth.iter().copied().filter(|pixel| projectors.contains(&pixel.projector)).collect();
             let errors = compare::errors(&images, &kept);
             let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
             results.line(format!(
-                "| {name} | {caster:?} | {} | {seconds:.2} | {:.2} | {rms:.3}, {p999:.2}, {max:.2} | {bricks} | {:.0} |",
+                "| {name} | {caster:?} | {} | {seconds:.2} | {:.2} | {rms:.3}, {p999:.2}, {max:.2} | {} | {:.0} |",
                 projectors.len(),
-                samples as f64 / 1e9,
+                report.samples as f64 / 1e9,
+                report.working_set_union,
                 peak_mib(),
             ));
         }

@@ -11,6 +11,7 @@ use protocol::{
 };
 use renderer::Renderer;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Instant;
 
 /// What a device made of a frame.
 #[derive(Clone, Debug)]
@@ -99,6 +100,22 @@ pub fn draw_with(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorI
     };
     let report = renderer.draw(frame, &mut sink).expect("a test scene can be drawn");
     (images, report)
+}
+
+/// The seconds that a frame takes, its account, and the pictures of the projectors to keep.
+pub fn timed(
+    renderer: &mut Renderer,
+    frame: &FrameState,
+    keep: &[u32],
+) -> (f64, FrameReport, Vec<ProjectorImage>) {
+    let started = Instant::now();
+    let mut images = Vec::new();
+    let mut sink = |event| match event {
+        RenderEvent::Image(image) if keep.contains(&image.projector) => images.push(image),
+        RenderEvent::Image(_) | RenderEvent::Progress { .. } => {}
+    };
+    let report = renderer.draw(frame, &mut sink).expect("the scene of a bench can be drawn");
+    (started.elapsed().as_secs_f64(), report, images)
 }
 
 /// How many tests draw at once. One would leave cores idle while it compiles a kernel or makes a volume.

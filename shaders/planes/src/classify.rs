@@ -131,7 +131,7 @@ impl Classing<'_> {
         if widest > 0.0 {
             let spread = f32x8::load_array(simd, spread);
             let k = self.steep.fine.mean_around(simd, [front, behind], spread);
-            store(simd, slab, out, k, thickness);
+            store(slab, out, k, thickness);
             return None;
         }
         let is_whole = is_met.all_true();
@@ -140,7 +140,7 @@ impl Classing<'_> {
             Some(_) | None => self.steep.fine.look_up(simd, front),
         };
         let far = self.steep.fine.look_up(simd, behind);
-        store(simd, slab, out, mean_between(simd, &near, &far, behind - front), thickness);
+        store(slab, out, mean_between(simd, &near, &far, behind - front), thickness);
         if is_whole { Some(far) } else { None }
     }
 
@@ -178,8 +178,7 @@ impl Classing<'_> {
 
 /// Keeps the means of eight columns.
 #[inline(always)]
-fn store<S: Simd>(simd: S, slab: &mut Slab, out: usize, k: [f32x8<S>; 4], thickness: f32x8<S>) {
-    let _ = simd;
+fn store<S: Simd>(slab: &mut Slab, out: usize, k: [f32x8<S>; 4], thickness: f32x8<S>) {
     for (c, k) in k.into_iter().enumerate() {
         let start = out + c * slab.stride;
         (k * thickness).store_slice(&mut slab.means[start..start + LANES]);

@@ -101,6 +101,12 @@ impl Fan {
         (self.observer[0] - self.screen_y(row)) / self.observer[1]
     }
 
+    /// dx/dz of a pixel's ray.
+    fn x_slope(&self, view: usize, pixel: usize) -> f64 {
+        let screen_x = self.x[0] + self.x[1] * (pixel as f64 + 0.5);
+        ((self.slope - 1.0) * screen_x + self.offsets[view]) / self.observer[1]
+    }
+
     /// Metres per column at a depth.
     pub(crate) fn pitch(&self, depth: &AtDepth) -> f64 {
         self.x[1] * depth.scale
@@ -133,8 +139,7 @@ impl Fan {
         let y = self.y_slope(row);
         let base = 1.0 + y * y;
         for (i, length) in out.iter_mut().enumerate() {
-            let screen_x = self.x[0] + self.x[1] * (i as f64 + 0.5);
-            let x = ((self.slope - 1.0) * screen_x + self.offsets[view]) / self.observer[1];
+            let x = self.x_slope(view, i);
             *length = (base + x * x).sqrt() as f32;
         }
     }
@@ -148,8 +153,7 @@ impl Fan {
 
     /// The unit direction of a ray.
     pub(crate) fn direction(&self, view: usize, row: u32, pixel: usize) -> [f32; 3] {
-        let screen_x = self.x[0] + self.x[1] * (pixel as f64 + 0.5);
-        let x = ((self.slope - 1.0) * screen_x + self.offsets[view]) / self.observer[1];
+        let x = self.x_slope(view, pixel);
         let y = self.y_slope(row);
         let length = (1.0 + x * x + y * y).sqrt();
         [-x / length, -y / length, -1.0 / length].map(|c| c as f32)

@@ -28,7 +28,7 @@ pub(crate) struct FineTable {
 /// What eight scalars look up: f and F, each (τ c, τ).
 #[derive(Clone, Copy)]
 pub(crate) struct Looked<S: Simd> {
-    pub(crate) value: [f32x8<S>; 4],
+    value: [f32x8<S>; 4],
     integral: [f32x8<S>; 4],
 }
 
@@ -59,17 +59,14 @@ impl FineTable {
     /// At scalars in [0, 1].
     #[inline(always)]
     pub(crate) fn look_up<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> Looked<S> {
-        let u = scalars * splat(simd, CELLS as f32);
-        let u = u.min(splat(simd, CELLS as f32 - 0.5)).max(splat(simd, 0.0));
-        let whole: i32x8<S> = u.to_int();
-        let part = u - u.floor();
+        let (whole, part) = place_of(simd, scalars);
         // F is a parabola between two entries.
         let bend = part * (splat(simd, 1.0) - part) * splat(simd, -0.5 / CELLS as f32);
-        let (whole, part, bend) = (whole.to_array(), part.to_array(), bend.to_array());
+        let (part, bend) = (part.to_array(), bend.to_array());
         let mut values = [0.0f32; 4 * LANES];
         let mut integrals = [0.0f32; 4 * LANES];
         for lane in 0..LANES {
-            let entry = (whole[lane] as usize).min(CELLS - 1);
+            let entry = whole[lane];
             let [low, high] = [&self.entries[entry], &self.entries[entry + 1]];
             let (f0, f1) = (f32x4::from_slice(simd, &low[..4]), f32x4::from_slice(simd, &high[..4]));
             let (i0, i1) = (f32x4::from_slice(simd, &low[4..]), f32x4::from_slice(simd, &high[4..]));
@@ -80,9 +77,7 @@ impl FineTable {
         }
         Looked { value: columns(simd, &values), integral: columns(simd, &integrals) }
     }
-}
 
-impl FineTable {
     /// Mean of (τ c, τ) over segments between two scalars, each of which stands for those within `spread` of it; see
     /// `twin::spread`.
     #[inline(always)]
@@ -114,19 +109,15 @@ impl FineTable {
         let [lowest, highest] = [&self.entries[0], &self.entries[CELLS]];
         each!(c of 4 => inside[c] * within + splat(simd, lowest[c]) * below + splat(simd, highest[c]) * above)
     }
-}
 
-impl FineTable {
     /// F alone, at scalars that are apart: straight between entries.
     #[inline(always)]
     fn integral_at<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> [f32x8<S>; 4] {
-        let u =
-            (scalars * splat(simd, CELLS as f32)).min(splat(simd, CELLS as f32 - 0.5)).max(splat(simd, 0.0));
-        let whole: i32x8<S> = u.to_int();
-        let (whole, part) = (whole.to_array(), (u - u.floor()).to_array());
+        let (whole, part) = place_of(simd, scalars);
+        let part = part.to_array();
         let mut integrals = [0.0f32; 4 * LANES];
         for lane in 0..LANES {
-            let entry = (whole[lane] as usize).min(CELLS - 1);
+            let entry = whole[lane];
             let [low, high] = [&self.integrals[entry], &self.integrals[entry + 1]];
             let (i0, i1) = (f32x4::from_slice(simd, low), f32x4::from_slice(simd, high));
             let at = i0 + (i1 - i0) * f32x4::splat(simd, part[lane]);
@@ -134,6 +125,20 @@ impl FineTable {
         }
         columns(simd, &integrals)
     }
+}
+
+/// The entries at or below eight scalars, none of them the last, and how far they are from there to the next.
+#[inline(always)]
+fn place_of<S: Simd>(simd: S, scalars: f32x8<S>) -> ([usize; LANES], f32x8<S>) {
+    let u = scalars * splat(simd, CELLS as f32);
+    let u = u.min(splat(simd, CELLS as f32 - 0.5)).max(splat(simd, 0.0));
+    let whole: i32x8<S> = u.to_int();
+    let whole = whole.to_array();
+    let mut entries = [0; LANES];
+    for lane in 0..LANES {
+        entries[lane] = (whole[lane] as usize).min(CELLS - 1);
+    }
+    (entries, u - u.floor())
 }
 
 /// Eight rows of four, as four columns of eight.

@@ -247,7 +247,7 @@ impl<'a> Planes<'a> {
                 }
             }
             for (view, state) in views.iter_mut().enumerate() {
-                let sweep = Sweep { casting: self.casting, fan: self.fan, slab, view, row, thickness, steep };
+                let sweep = Sweep { fan: self.fan, slab, view, row, thickness, steep };
                 sweep.add(simd, state, places);
             }
         }

@@ -90,7 +90,7 @@ impl Slab {
         (column.rem_euclid(phases) as usize, (column.div_euclid(phases) - self.base) as usize)
     }
 
-    /// Where the row of a phase at a depth begins, in rows of `of` numbers each.
+    /// Where the row of a phase at a depth begins, in lists of one row for each.
     #[inline(always)]
     pub(crate) fn row_start(&self, depth: usize, phase: usize) -> usize {
         (depth * self.phases + phase) * self.stride

@@ -8,7 +8,6 @@ use crate::slab::{LANES, STEEP, Slab};
 use crate::steep::{Cell, Pixels, Steep, range};
 use crate::thick::{self, Met};
 use crate::view_row::ViewRow;
-use twin::Casting;
 use twin::tables::is_vacant_around;
 
 /// Where a view's pixels meet the columns at one depth: between two columns, the same share of each for all of them.
@@ -43,7 +42,6 @@ impl Place {
 
 /// One row of one view.
 pub(crate) struct Sweep<'a> {
-    pub(crate) casting: &'a Casting<'a, f32>,
     pub(crate) fan: &'a Fan,
     pub(crate) slab: &'a Slab,
     pub(crate) view: usize,
@@ -80,7 +78,7 @@ impl Sweep<'_> {
         let entries = places.depths.iter().map(|place| place.entry);
         let (low, high) = entries.fold((i64::MAX, i64::MIN), |(low, high), e| (low.min(e), high.max(e)));
         let last = slab.blocks_across() as i64 - 1;
-        let termination = self.casting.scene.termination;
+        let termination = self.steep.casting.scene.termination;
         for block in 0..view.closed.len() {
             if view.closed[block] {
                 continue;
@@ -171,7 +169,7 @@ impl Sweep<'_> {
         (cell, at): (usize, usize),
         looks: Option<Looked<S>>,
     ) -> Option<(usize, Looked<S>)> {
-        let Self { casting, slab, .. } = *self;
+        let (casting, slab) = (self.steep.casting, self.slab);
         let ends = [&places.depths[cell], &places.depths[cell + 1]];
         let entries = [ends[0].entry + at as i64, ends[1].entry + at as i64];
         if entries.iter().any(|&entry| entry < 0 || entry as usize + LANES + 1 > slab.stride) {
@@ -298,7 +296,7 @@ impl Sweep<'_> {
         let mut rgba =
             [pixels[0].to_array(), pixels[1].to_array(), pixels[2].to_array(), pixels[3].to_array()];
         for lane in 0..LANES {
-            let is_open = 1.0 - rgba[3][lane] >= self.casting.scene.termination;
+            let is_open = 1.0 - rgba[3][lane] >= self.steep.casting.scene.termination;
             if !(s0[lane] + s1[lane]).is_finite() || !is_open {
                 continue;
             }
@@ -314,7 +312,7 @@ impl Sweep<'_> {
                 [0.0; 3]
             };
             let mut pixel = [rgba[0][lane], rgba[1][lane], rgba[2][lane], rgba[3][lane]];
-            thick::add(self.casting, &mut pixel, &met, direction);
+            thick::add(self.steep.casting, &mut pixel, &met, direction);
             for c in 0..4 {
                 rgba[c][lane] = pixel[c];
             }
