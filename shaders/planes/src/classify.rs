@@ -1,24 +1,27 @@
 //! What a slab's samples show between two depths, and whether means say enough of it.
 
-use crate::fine::{Looked, mean_between};
+use crate::blocks::Blocks;
 use crate::lanes::*;
-use crate::slab::{EMPTY, LANES, SOFT, STEEP, Slab};
-use crate::steep::{Steep, range};
+use crate::rough::Variation;
+use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
+use crate::steep::Steep;
 use twin::Casting;
 use twin::composite::Over;
 use twin::spread::sample_over;
-use twin::tables::{Located, is_vacant_around, locate};
+use twin::tables::{Located, is_vacant_around};
 
 /// What classification goes by.
 pub(crate) struct Classing<'a> {
     pub(crate) steep: Steep<'a>,
+    pub(crate) variation: &'a Variation,
     /// Optical depth of a cell where the table says 1.
     pub(crate) thickness: f32,
     /// The largest error of a cell's light that means may have.
     pub(crate) tolerance: f32,
-    /// Whether each view has to look for itself wherever anything shows.
-    pub(crate) views_differ: bool,
 }
+
+/// Where this share of the tolerance bounds what means err, nothing else is asked.
+const SURE: f32 = 0.25;
 
 /// The scalars of a block at two depths.
 #[derive(Clone, Copy)]
@@ -35,11 +38,11 @@ struct Range {
 impl Classing<'_> {
     /// What each block holds, by the range of its scalars.
     #[inline(always)]
-    pub(crate) fn find_blocks(&self, slab: &mut Slab) {
+    pub(crate) fn find_blocks<S: Simd>(&self, simd: S, slab: &mut Slab, wanted: &Blocks) {
         let across = slab.blocks_across();
-        for cell in 0..slab.cells() {
-            for block in 0..across {
-                let Some(range) = range_of(slab, cell, block) else { continue };
+        for block in wanted.iter() {
+            for cell in 0..slab.cells() {
+                let Some(range) = range_of(simd, slab, cell, block) else { continue };
                 if is_vacant_around(&self.steep.casting.tables.cells, (range.low, range.high), range.spread) {
                     continue;
                 }
@@ -51,138 +54,119 @@ impl Classing<'_> {
                     range.apart / (2.0 * range.least_spread)
                 };
                 let bend = share * self.steep.roughness.bend(reach.0, reach.1, range.apart);
-                let class =
-                    if self.views_differ || bend * self.thickness > self.tolerance { STEEP } else { SOFT };
-                slab.blocks[cell * across + block] = class;
-                slab.any[block] |= class;
+                let is_sure = bend * self.thickness <= SURE * self.tolerance;
+                slab.errors[cell * across + block] = 0.0;
+                slab.is_sure[cell * across + block] = is_sure;
+                slab.any[block] = true;
             }
         }
     }
 
-    /// Means, where they serve.
+    /// Finds means of all that shows and the error that each makes: how far it is from straight between columns, what it hides
+    /// there, and how much the order of what a cell and the next show matters.
     #[inline(always)]
-    pub(crate) fn find_means<S: Simd>(&self, simd: S, slab: &mut Slab) {
+    pub(crate) fn settle<S: Simd>(&self, simd: S, slab: &mut Slab, wanted: &Blocks) {
         let across = slab.blocks_across();
-        for block in 0..across {
-            for phase in 0..slab.phases {
-                let mut known = None;
-                for cell in 0..slab.cells() {
-                    // Views that meet a block may meet its neighbours' means as well.
-                    known = if slab.blocks[cell * across + block] == EMPTY {
-                        None
-                    } else {
-                        self.means_of(simd, slab, (cell, block, phase), known)
-                    };
-                }
-            }
-        }
-        self.find_unordered(slab);
-    }
-
-    /// Means of one block and phase. What the scalars at its back look up, if they were.
-    #[inline(always)]
-    fn means_of<S: Simd>(
-        &self,
-        simd: S,
-        slab: &mut Slab,
-        (cell, block, phase): (usize, usize, usize),
-        looks: Option<Looked<S>>,
-    ) -> Option<Looked<S>> {
-        let row = slab.row_start(cell, phase) + block * LANES;
-        let front = f32x8::from_slice(simd, &slab.scalars[row..row + LANES]);
-        let back = slab.row_start(cell + 1, phase) + block * LANES;
-        let behind = f32x8::from_slice(simd, &slab.scalars[back..back + LANES]);
-        let (low, high) = range([front, behind])?;
-        let mut spread = [0.0; LANES];
-        if !slab.spreads.is_empty() {
-            for (lane, spread) in spread.iter_mut().enumerate() {
-                *spread = 0.5 * (slab.spreads[row + lane] + slab.spreads[back + lane]);
-            }
-        }
-        let widest = largest(f32x8::load_array(simd, spread));
-        if is_vacant_around(&self.steep.casting.tables.cells, (low, high), widest) {
-            return None;
-        }
-        let thickness = f32x8::splat(simd, self.thickness);
-        let out = 4 * slab.row_start(cell, phase) + block * LANES;
-        let sum = front + behind;
-        let is_met = sum.simd_eq(sum);
-        let zero = f32x8::splat(simd, 0.0);
-        let reach = ((low - widest).max(0.0), (high + widest).min(1.0));
-        if !self.steep.is_fine(reach.0, reach.1, self.thickness) {
-            let scalars = (front.to_array(), behind.to_array());
-            let thickness = is_met.select(thickness, zero).to_array();
-            for lane in 0..LANES {
-                if thickness[lane] == 0.0 {
+        self.find_means(simd, slab, wanted);
+        for block in wanted.iter() {
+            for cell in 0..slab.cells() {
+                let at = cell * across + block;
+                if slab.errors[at] == EMPTY {
                     continue;
                 }
-                let (casting, ends) = (self.steep.casting, (scalars.0[lane], scalars.1[lane]));
-                let (a, b) = (locate(casting.tables, ends.0), locate(casting.tables, ends.1));
-                let k = mean(casting, [&a, &b], ends, spread[lane]);
-                for (c, k) in k.into_iter().enumerate() {
-                    slab.means[out + c * slab.stride + lane] = k * thickness[lane];
+                if !slab.is_sure[at] {
+                    let bent = 0.125 * bent(simd, slab, cell, block);
+                    slab.errors[at] = slab.errors[at].max(bent).max(self.hidden(simd, slab, cell, block));
                 }
             }
-            return None;
-        }
-        let lowest = f32x8::splat(simd, low);
-        let (front, behind) = (is_met.select(front, lowest), is_met.select(behind, lowest));
-        let thickness = is_met.select(thickness, zero);
-        if widest > 0.0 {
-            let spread = f32x8::load_array(simd, spread);
-            let k = self.steep.fine.mean_around(simd, [front, behind], spread);
-            store(slab, out, k, thickness);
-            return None;
-        }
-        let is_whole = is_met.all_true();
-        let near = match looks {
-            Some(looks) if is_whole => looks,
-            Some(_) | None => self.steep.fine.look_up(simd, front),
-        };
-        let far = self.steep.fine.look_up(simd, behind);
-        store(slab, out, mean_between(simd, &near, &far, behind - front), thickness);
-        if is_whole { Some(far) } else { None }
-    }
-
-    /// Where the order of what a cell and the next show matters, means do not do.
-    #[inline(always)]
-    fn find_unordered(&self, slab: &mut Slab) {
-        let (across, stride) = (slab.blocks_across(), slab.stride);
-        for cell in 0..slab.cells().saturating_sub(1) {
-            for block in 0..across {
+            for cell in 0..slab.cells().saturating_sub(1) {
                 let both = [cell * across + block, (cell + 1) * across + block];
-                if both.iter().any(|&at| slab.blocks[at] != SOFT) {
-                    continue;
-                }
-                let mut worst = 0.0f32;
-                for phase in 0..slab.phases {
-                    let [a, b] = [cell, cell + 1].map(|cell| 4 * slab.row_start(cell, phase) + block * LANES);
-                    for lane in 0..LANES {
-                        let k = |start: usize, c: usize| slab.means[start + c * stride + lane];
-                        let (ta, tb) = (k(a, 3), k(b, 3));
-                        for c in 0..3 {
-                            worst = worst.max((k(a, c) * tb - k(b, c) * ta).abs());
-                        }
-                    }
-                }
-                if worst > self.tolerance {
+                if slab.errors[both[0]] != EMPTY && slab.errors[both[1]] != EMPTY {
+                    let disorder = disorder_of_both(simd, slab, cell, block);
                     for at in both {
-                        slab.blocks[at] |= STEEP;
+                        slab.errors[at] = slab.errors[at].max(disorder);
                     }
-                    slab.any[block] |= STEEP;
                 }
             }
         }
+    }
+
+    /// The largest optical depth that lies between two columns of a block and shows at neither.
+    #[inline(always)]
+    fn hidden<S: Simd>(&self, simd: S, slab: &Slab, cell: usize, block: usize) -> f32 {
+        let mut most = 0.0f32;
+        for phase in 0..slab.phases {
+            let (next_phase, entry) = if phase + 1 == slab.phases { (0, 1) } else { (phase + 1, 0) };
+            let here = slab.row_start(cell, phase) + block * LANES;
+            let next = slab.row_start(cell, next_phase) + block * LANES + entry;
+            let depth = slab.phases * slab.stride;
+            let (a, b) = (load(simd, &slab.scalars, here), load(simd, &slab.scalars, here + depth));
+            let (c, d) = (load(simd, &slab.scalars, next), load(simd, &slab.scalars, next + depth));
+            let low = a.max(b).min(c.max(d));
+            let high = a.min(b).max(c.min(d));
+            let sum = a + b + c + d;
+            let is_met = sum.simd_eq(sum);
+            if !(high.simd_gt(low) & is_met).any_true() {
+                continue;
+            }
+            let (low, high) = (is_met.select(low, high).to_array(), high.to_array());
+            for lane in 0..LANES {
+                let spread = if slab.spreads.is_empty() { 0.0 } else { slab.spreads[here + lane] };
+                if high[lane] - low[lane] > 2.0 * spread {
+                    most = most.max(self.variation.hidden(low[lane] + spread, high[lane] - spread));
+                }
+            }
+        }
+        most * self.thickness
     }
 }
 
-/// Keeps the means of eight columns.
+/// The largest second difference of a cell's means across the columns of a block.
 #[inline(always)]
-fn store<S: Simd>(slab: &mut Slab, out: usize, k: [f32x8<S>; 4], thickness: f32x8<S>) {
-    for (c, k) in k.into_iter().enumerate() {
-        let start = out + c * slab.stride;
-        (k * thickness).store_slice(&mut slab.means[start..start + LANES]);
+fn bent<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> f32 {
+    let mut most = splat(simd, 0.0);
+    let two = splat(simd, 2.0);
+    let (phases, means) = (slab.phases, &slab.means);
+    for phase in 0..phases {
+        // The column before each and the one after. The first of all is compared with no other block.
+        let (before, entry) = if phase == 0 { (phases - 1, 0) } else { (phase - 1, 1) };
+        let starts = [
+            slab.mean_start(cell, before) + block * LANES + entry - 1,
+            slab.mean_start(cell, phase) + block * LANES,
+            slab.mean_start(cell, (phase + 1) % phases) + block * LANES + (phase + 1) / phases,
+        ];
+        let mut here = splat(simd, 0.0);
+        for c in 0..PLAIN_ROWS {
+            let ends = each!(i of 3 => load(simd, means, starts[i] + c * slab.stride));
+            here = here.max((ends[0] + ends[2] - two * ends[1]).abs());
+        }
+        if phase == 0 {
+            let mut lanes = here.to_array();
+            lanes[0] = 0.0;
+            here = f32x8::load_array(simd, lanes);
+        }
+        most = most.max(here);
     }
+    largest(most)
+}
+
+/// How much the order of what a cell and the next show matters, at most.
+#[inline(always)]
+fn disorder_of_both<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> f32 {
+    let mut most = splat(simd, 0.0);
+    let means = &slab.means;
+    for phase in 0..slab.phases {
+        let [a, b] =
+            [cell, cell + 1].map(|cell| slab.mean_start(cell, phase) + block * LANES);
+        let opacity = 3 * slab.stride;
+        let (ta, tb) = (load(simd, means, a + opacity), load(simd, means, b + opacity));
+        for c in 0..3 {
+            let colour = c * slab.stride;
+            let (ka, kb) = (load(simd, means, a + colour), load(simd, means, b + colour));
+            most = most.max((ka * tb - kb * ta).abs());
+        }
+    }
+    largest(most)
 }
 
 /// Mean (τ c, τ) between two scalars.
@@ -198,44 +182,40 @@ pub(crate) fn mean(
 
 /// The scalars of a block and of the column after it. None if there are none.
 #[inline(always)]
-fn range_of(slab: &Slab, cell: usize, block: usize) -> Option<Range> {
-    let mut range = Range { low: f32::MAX, high: f32::MIN, apart: 0.0, spread: 0.0, least_spread: f32::MAX };
+fn range_of<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> Option<Range> {
+    let zero = splat(simd, 0.0);
+    let (mut low, mut high) = (splat(simd, f32::MAX), splat(simd, f32::MIN));
+    let mut apart = zero;
+    let (mut spread, mut least_spread) = (zero, splat(simd, f32::MAX));
     for depth in [cell, cell + 1] {
         for phase in 0..slab.phases {
-            let start = slab.row_start(depth, phase) + block * LANES;
             let (next_phase, further) = if phase + 1 < slab.phases { (phase + 1, 0) } else { (0, 1) };
-            let next = slab.row_start(depth, next_phase) + block * LANES + further;
-            let is_last = block + 1 == slab.blocks_across();
-            for lane in 0..LANES - usize::from(is_last) {
-                let (s, t) = (slab.scalars[start + lane], slab.scalars[next + lane]);
-                // A comparison with NaN is false.
-                if s < range.low {
-                    range.low = s;
-                }
-                if s > range.high {
-                    range.high = s;
-                }
-                if t < range.low {
-                    range.low = t;
-                }
-                if t > range.high {
-                    range.high = t;
-                }
-                let apart = (s - t).abs();
-                if apart > range.apart {
-                    range.apart = apart;
-                }
-            }
+            let start = slab.row_start(depth, phase) + block * LANES;
+            let here = load(simd, &slab.scalars, start);
+            let next =
+                load(simd, &slab.scalars, slab.row_start(depth, next_phase) + block * LANES + further);
+            // A comparison with NaN is false.
+            low = here.simd_lt(low).select(here, low);
+            high = here.simd_gt(high).select(here, high);
+            let between = (here - next).abs();
+            let are_known = between.simd_ge(zero);
+            low = (are_known & next.simd_lt(low)).select(next, low);
+            high = (are_known & next.simd_gt(high)).select(next, high);
+            apart = between.simd_gt(apart).select(between, apart);
             if !slab.spreads.is_empty() {
-                for lane in 0..LANES {
-                    if !slab.scalars[start + lane].is_nan() {
-                        let spread = slab.spreads[start + lane];
-                        range.spread = range.spread.max(spread);
-                        range.least_spread = range.least_spread.min(spread);
-                    }
-                }
+                let is_known = here.simd_eq(here);
+                let around = load(simd, &slab.spreads, start);
+                spread = is_known.select(spread.max(around), spread);
+                least_spread = is_known.select(least_spread.min(around), least_spread);
             }
         }
     }
-    (range.low <= range.high).then_some(range)
+    let (low, high) = (least(low), -least(zero - high));
+    (low <= high).then_some(Range {
+        low,
+        high,
+        apart: largest(apart),
+        spread: largest(spread),
+        least_spread: least(least_spread),
+    })
 }

@@ -1,9 +1,14 @@
 //! Samples of the volume on a row's grid.
 
 use crate::Fan;
+use crate::blocks::Blocks;
 use crate::fan::AtDepth;
 use crate::leaves::Leaf;
-use crate::slab::{Keeps, LANES, Slab};
+use crate::gradients::{gradients_every, spread_gradients};
+use crate::lanes::*;
+use crate::sample::scalars_at;
+use crate::slab::{HALO, Keeps, LANES, Slab};
+use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
 use twin::gradient::Gradients;
 use twin::kernel::Kernel;
@@ -23,10 +28,9 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// The blocks of its columns.
-    pub(crate) fn blocks(&self, slab: &Slab) -> impl Iterator<Item = usize> {
-        let [from, to] = [self.columns[0], self.columns[1] - 1].map(|column| slab.place(column).1 / LANES);
-        from..=to
+    /// Blocks that its columns, and those beside them, lie in.
+    pub(crate) fn blocks(&self, slab: &Slab) -> std::ops::RangeInclusive<usize> {
+        slab.block_of(self.columns[0] - HALO as i64)..=slab.block_of(self.columns[1])
     }
 }
 
@@ -39,6 +43,28 @@ pub(crate) struct Grid<'a> {
 }
 
 impl Grid<'_> {
+    /// Finds where a view's rays enter the volume and leave it.
+    #[inline(always)]
+    pub(crate) fn find_ends(&self, index: usize, view: &mut ViewRow) {
+        let dims = self.casting.scene.dims.0;
+        view.find_ends(self.fan, (index, self.row), self.volume_from_display, dims);
+    }
+
+    /// Columns of pixels, the first and the last, that some view meets in leaves between two depths, or more.
+    pub(crate) fn extent(&self, leaves: &[Leaf], ends: [&AtDepth; 2]) -> [i64; 2] {
+        let mut seen = [f64::MAX, f64::MIN];
+        let mut held = [f64::MAX, f64::MIN];
+        for depth in ends {
+            let (low, high) = self.fan.seen(depth);
+            seen = [seen[0].min(low), seen[1].max(high)];
+            for x in leaves.iter().flat_map(|leaf| leaf.x) {
+                let column = self.fan.column_of(x, depth);
+                held = [held[0].min(column), held[1].max(column)];
+            }
+        }
+        [seen[0].max(held[0]).floor() as i64 - 2, seen[1].min(held[1]).ceil() as i64 + 2]
+    }
+
     /// The columns of each leaf at each depth of a slab.
     pub(crate) fn spans(&self, slab: &Slab, leaves: &[Leaf], spans: &mut Vec<Span>) {
         spans.clear();
@@ -82,135 +108,106 @@ impl Grid<'_> {
         ray.turned(self.casting.scene, Vec3([1.0, 0.0, 0.0]))
     }
 
-    /// Samples the columns of spans that may show something and that `wanted` names, block by block. How many there were.
+    /// Samples the columns that may show something, of those blocks that are `wanted`. How many there were.
+    ///
+    /// What a block holds depends on nothing but the block, so that it is the same whoever else looks.
     #[inline(always)]
-    pub(crate) fn fill<K: Kernel>(
+    pub(crate) fn fill<S: Simd, K: Kernel>(
         &self,
+        simd: S,
         slab: &mut Slab,
         spans: &[Span],
-        wanted: &[bool],
+        wanted: &Blocks,
         keeps: Keeps,
     ) -> u64 {
         let mut samples = 0;
-        let mut line = None;
+        let mut rays = Rays { grid: self, last: None };
         for span in spans {
-            let depth = slab.depths[span.depth as usize];
-            let ray = match line {
-                Some((known, ray)) if known == span.depth => ray,
-                _ => self.line(&depth),
-            };
-            line = Some((span.depth, ray));
-            let node = &self.casting.volume.nodes[span.node as usize];
-            let brick = Brick::new::<K>(self.casting, node, &ray);
-            let pitch = (self.fan.pitch(&depth) / slab.phases as f64) as f32;
-            let first_x = self.fan.x_of((span.columns[0] as f64 + 0.5) / slab.phases as f64, &depth) as f32;
-            let x_of = |column: i64| first_x + (column - span.columns[0]) as f32 * pitch;
-            let rows = slab.row_start(span.depth as usize, 0);
-            let line = Line { casting: self.casting, ray: &ray, brick: &brick, rows, keeps };
-            let mut column = Column::at(slab, span.columns[0]);
-            let mut was_seen = false;
-            while column.index < span.columns[1] {
-                let block = column.entry / LANES;
-                let unseen = if wanted[block] {
-                    let half = 0.5 * pitch;
-                    i64::from(brick.pairs_unseen::<K>(x_of(column.index) - half, half))
-                } else {
-                    // To the next block.
-                    let next = (slab.base + ((block + 1) * LANES) as i64) * slab.phases as i64;
-                    next - column.index
-                };
-                // What shows is known one column farther on both sides, so that what lies between is, too.
-                if unseen > 0 {
-                    if was_seen {
-                        samples += line.put::<K>(slab, column, x_of(column.index), false);
-                    }
-                    was_seen = false;
-                    column = Column::at(slab, column.index + unseen);
+            let mut known = None;
+            for block in span.blocks(slab) {
+                if !wanted.contains(block) {
                     continue;
                 }
-                if !was_seen {
-                    let before = Column::at(slab, column.index - 1);
-                    samples += line.put::<K>(slab, before, x_of(before.index), false);
+                if known.is_none() {
+                    known = Some(rays.line_of::<K>(slab, span, keeps));
                 }
-                samples += line.put::<K>(slab, column, x_of(column.index), true);
-                was_seen = true;
-                column = column.next(slab);
-            }
-            if was_seen {
-                let end = Column::at(slab, span.columns[1]);
-                samples += line.put::<K>(slab, end, x_of(end.index), false);
+                let Some(line) = &known else { continue };
+                let next = block + 1;
+                let has_halo = next < slab.blocks_across() && !wanted.contains(next);
+                samples += line.fill_block::<S, K>(simd, slab, block, if has_halo { HALO } else { 0 });
             }
         }
         samples
     }
 
-    /// Gradients where something shows in front of a sample or behind it.
+    /// Gradients where something shows in front of a sample or behind it, of those blocks that are `wanted`. Where samples lie
+    /// closer than at the first two spacings, gradients are taken as far apart as at the second, and lie between them elsewhere.
     #[inline(always)]
-    pub(crate) fn fill_gradients<K: Kernel>(&self, slab: &mut Slab, spans: &[Span]) {
+    pub(crate) fn fill_gradients<S: Simd, K: Kernel>(
+        &self,
+        simd: S,
+        slab: &mut Slab,
+        spans: &[Span],
+        wanted: &Blocks,
+        keeps: Keeps,
+        spacing: usize,
+    ) {
         let cells = slab.cells();
+        let every = gradients_every(spacing);
+        let mut rays = Rays { grid: self, last: None };
         for span in spans {
-            let depth_index = span.depth as usize;
-            let depth = slab.depths[depth_index];
-            let mut known: Option<(Ray<f32>, Brick<f32>)> = None;
-            for column in span.columns[0] - 1..span.columns[1] + 1 {
-                let (phase, entry) = slab.place(column);
-                let row = slab.row_start(depth_index, phase);
-                if slab.scalars[row + entry].is_nan() {
+            let depth = span.depth as usize;
+            if depth % every != 0 && depth != cells {
+                continue;
+            }
+            let near = [depth.saturating_sub(every), (depth + every).min(cells)];
+            let mut known = None;
+            for block in span.blocks(slab) {
+                if !wanted.contains(block) || !slab.shows(block, near) {
                     continue;
                 }
-                let is_own = column >= span.columns[0] && column < span.columns[1];
-                let block = entry / LANES;
-                // A view that meets a block meets the next one's first columns as well.
-                let shows = |cell: usize| {
-                    let at = cell * slab.blocks_across() + block;
-                    slab.blocks[at] != 0 || (block > 0 && slab.blocks[at - 1] != 0)
-                };
-                if !((depth_index > 0 && shows(depth_index - 1))
-                    || (depth_index < cells && shows(depth_index)))
-                {
-                    continue;
+                if known.is_none() {
+                    known = Some(rays.line_of::<K>(slab, span, keeps));
                 }
-                let at = 3 * row + entry;
-                if !is_own && slab.gradients[at..].iter().step_by(slab.stride).take(3).any(|&g| g != 0.0) {
-                    continue;
-                }
-                let (ray, brick) = known.get_or_insert_with(|| {
-                    let ray = self.line(&depth);
-                    let node = &self.casting.volume.nodes[span.node as usize];
-                    (ray, Brick::new::<K>(self.casting, node, &ray))
-                });
-                let x = self.fan.x_of((column as f64 + 0.5) / slab.phases as f64, &depth) as f32;
-                let gradient = Gradients::new::<K>(self.casting, brick, ray, x).at;
-                for axis in 0..3 {
-                    slab.gradients[at + axis * slab.stride] = gradient.0[axis];
-                }
+                let Some(line) = &known else { continue };
+                line.fill_gradients::<K>(slab, block, every);
+            }
+        }
+        if every > 1 {
+            for block in wanted.iter() {
+                spread_gradients(simd, slab, block, every);
             }
         }
     }
 }
 
-/// A column, and where a slab keeps it.
-#[derive(Clone, Copy)]
-struct Column {
-    index: i64,
-    phase: usize,
-    entry: usize,
+/// The lines of columns at depths that follow each other.
+struct Rays<'a> {
+    grid: &'a Grid<'a>,
+    last: Option<(u32, Ray<f32>)>,
 }
 
-impl Column {
+impl<'a> Rays<'a> {
     #[inline(always)]
-    fn at(slab: &Slab, index: i64) -> Self {
-        let (phase, entry) = slab.place(index);
-        Self { index, phase, entry }
-    }
-
-    #[inline(always)]
-    fn next(self, slab: &Slab) -> Self {
-        let index = self.index + 1;
-        if self.phase + 1 < slab.phases {
-            Self { index, phase: self.phase + 1, ..self }
-        } else {
-            Self { index, phase: 0, entry: self.entry + 1 }
+    fn line_of<K: Kernel>(&mut self, slab: &Slab, span: &Span, keeps: Keeps) -> Line<'a> {
+        let Grid { casting, fan, .. } = *self.grid;
+        let depth = &slab.depths[span.depth as usize];
+        let ray = match self.last {
+            Some((known, ray)) if known == span.depth => ray,
+            _ => self.grid.line(depth),
+        };
+        self.last = Some((span.depth, ray));
+        let phases = slab.phases as f64;
+        let node = &casting.volume.nodes[span.node as usize];
+        Line {
+            casting,
+            ray,
+            brick: Brick::new::<K>(casting, node, &ray),
+            depth: span.depth as usize,
+            columns: span.columns,
+            first_x: fan.x_of((span.columns[0] as f64 + 0.5) / phases, depth) as f32,
+            pitch: (fan.pitch(depth) / phases) as f32,
+            keeps,
         }
     }
 }
@@ -218,36 +215,144 @@ impl Column {
 /// A leaf's part of the columns at a depth.
 struct Line<'a> {
     casting: &'a Casting<'a, f32>,
-    ray: &'a Ray<f32>,
-    brick: &'a Brick<'a, f32>,
-    /// Where the depth's rows begin.
-    rows: usize,
+    ray: Ray<f32>,
+    brick: Brick<'a, f32>,
+    depth: usize,
+    /// The leaf's own: the first, and one past the last.
+    columns: [i64; 2],
+    /// x of the first, and from each to the next.
+    first_x: f32,
+    pitch: f32,
     keeps: Keeps,
 }
 
 impl Line<'_> {
+    #[inline(always)]
+    fn x_of(&self, column: i64) -> f32 {
+        self.first_x + (column - self.columns[0]) as f32 * self.pitch
+    }
+
+    #[inline(always)]
+    fn is_own(&self, column: i64) -> bool {
+        self.columns[0] <= column && column < self.columns[1]
+    }
+
+    /// Samples a block, and the columns of the next that are known with it. How many there were.
+    #[inline(always)]
+    fn fill_block<S: Simd, K: Kernel>(&self, simd: S, slab: &mut Slab, block: usize, halo: usize) -> u64 {
+        let [first, past] = slab.columns(block);
+        let past = past + halo as i64;
+        let mut samples = 0;
+        let half = 0.5 * self.pitch;
+        let mut column = (first - 1).max(self.columns[0]);
+        let last = (past + 1).min(self.columns[1]);
+        // What shows is known one column farther on both sides, so that what lies between is, too.
+        let mut known = [first; 2];
+        while column < last {
+            let t = self.x_of(column) - half;
+            let (shows, count) = if self.brick.has_fractions::<K>() {
+                let unseen = self.brick.pairs_unseen::<K>(t, half);
+                (unseen == 0, unseen.max(1))
+            } else {
+                self.brick.pairs_alike(t, half)
+            };
+            let next = (column + i64::from(count)).min(last);
+            if shows {
+                let shown = [(column - 1).max(known[1]), (next + 1).min(past)];
+                if shown[0] > known[1] {
+                    samples += self.put_all::<S, K>(simd, slab, block, known);
+                    known[0] = shown[0];
+                }
+                known[1] = shown[1].max(known[1]);
+            }
+            column = next;
+        }
+        samples + self.put_all::<S, K>(simd, slab, block, known)
+    }
+
+    /// Samples a block's columns from one to before another. How many samples that took.
+    #[inline(always)]
+    fn put_all<S: Simd, K: Kernel>(
+        &self,
+        simd: S,
+        slab: &mut Slab,
+        block: usize,
+        [from, to]: [i64; 2],
+    ) -> u64 {
+        let [first, _] = slab.columns(block);
+        let own = [from.max(self.columns[0]), to.min(self.columns[1])];
+        let mut samples = 0;
+        for column in from..to {
+            let is_alone = column < own[0] || column >= own[1];
+            if is_alone || self.brick.has_levels::<K>() {
+                let at = slab.place(self.depth, block, (column - first) as usize);
+                samples += self.put::<K>(slab, column, at);
+            }
+        }
+        if self.brick.has_levels::<K>() {
+            return samples;
+        }
+        let spreads = self.keeps.spreads && self.brick.own.has_deviations();
+        let mut column = own[0];
+        while column < own[1] {
+            let count = (own[1] - column).min(LANES as i64) as usize;
+            let further = splat(simd, (column - self.columns[0]) as f32) + ramp(simd);
+            let x = splat(simd, self.first_x) + further * splat(simd, self.pitch);
+            let scalars = scalars_at(simd, &self.brick.own, x).to_array();
+            for (lane, &scalar) in scalars.iter().enumerate().take(count) {
+                let at = slab.place(self.depth, block, (column - first) as usize + lane);
+                slab.scalars[at] = scalar;
+                if spreads {
+                    let x = self.x_of(column + lane as i64);
+                    slab.spreads[at] = self.brick.spread_at::<K>(self.casting, &self.ray, x);
+                }
+            }
+            samples += count as u64;
+            column += count as i64;
+        }
+        samples
+    }
+
     /// Samples a column; one that is not the leaf's own only where nothing is known. How many samples that took.
     #[inline(always)]
-    fn put<K: Kernel>(&self, slab: &mut Slab, column: Column, x: f32, is_own: bool) -> u64 {
-        let at = self.rows + column.phase * slab.stride + column.entry;
-        if !is_own && !slab.scalars[at].is_nan() {
+    fn put<K: Kernel>(&self, slab: &mut Slab, column: i64, at: usize) -> u64 {
+        if !self.is_own(column) && !slab.scalars[at].is_nan() {
             return 0;
         }
-        slab.scalars[at] = self.brick.scalar_at::<K>(self.casting, self.ray, x);
+        let x = self.x_of(column);
+        slab.scalars[at] = self.brick.scalar_at::<K>(self.casting, &self.ray, x);
         if self.keeps.spreads {
-            slab.spreads[at] = self.brick.spread_at::<K>(self.casting, self.ray, x);
+            slab.spreads[at] = self.brick.spread_at::<K>(self.casting, &self.ray, x);
         }
         1
     }
-}
 
-/// The first and the last column of all spans, in pixels.
-pub(crate) fn extent(spans: &[Span], phases: usize) -> Option<(i64, i64)> {
-    let pixels = |column: i64| column.div_euclid(phases as i64);
-    spans.iter().fold(None, |extent: Option<(i64, i64)>, span| {
-        let (first, last) = (pixels(span.columns[0] - 1), pixels(span.columns[1]));
-        Some(extent.map_or((first, last), |(low, high)| (low.min(first), high.max(last))))
-    })
+    /// Gradients of a block, `every` so many columns: those that are the leaf's own, or near them and nobody else's.
+    #[inline(always)]
+    fn fill_gradients<K: Kernel>(&self, slab: &mut Slab, block: usize, every: usize) {
+        let [first, past] = slab.columns(block);
+        let near = every as i64;
+        let past = if every > 1 { past + 1 } else { past };
+        for column in (first..past).step_by(every) {
+            if column < self.columns[0] - near || column >= self.columns[1] + near {
+                continue;
+            }
+            let place = slab.place(self.depth, block, (column - first) as usize);
+            if every == 1 && slab.scalars[place].is_nan() {
+                continue;
+            }
+            // Three rows for each of the scalars'.
+            let at = place + 2 * (place / slab.stride) * slab.stride;
+            let is_known = [0, 1, 2].iter().any(|axis| slab.gradients[at + axis * slab.stride] != 0.0);
+            if is_known && !self.is_own(column) {
+                continue;
+            }
+            let gradient = Gradients::new::<K>(self.casting, &self.brick, &self.ray, self.x_of(column)).at;
+            for axis in 0..3 {
+                slab.gradients[at + axis * slab.stride] = gradient.0[axis];
+            }
+        }
+    }
 }
 
 /// Where the line from `origin` along `direction` is in the leaf's box: [from, to).

@@ -28,7 +28,7 @@ pub(crate) struct FineTable {
 /// What eight scalars look up: f and F, each (τ c, τ).
 #[derive(Clone, Copy)]
 pub(crate) struct Looked<S: Simd> {
-    value: [f32x8<S>; 4],
+    pub(crate) value: [f32x8<S>; 4],
     integral: [f32x8<S>; 4],
 }
 
@@ -76,6 +76,22 @@ impl FineTable {
             (i0 + (i1 - i0) * t + rise * b).store_slice(&mut integrals[4 * lane..4 * lane + 4]);
         }
         Looked { value: columns(simd, &values), integral: columns(simd, &integrals) }
+    }
+
+    /// f alone, at scalars in [0, 1].
+    #[inline(always)]
+    pub(crate) fn value_at<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> [f32x8<S>; 4] {
+        let (whole, part) = place_of(simd, scalars);
+        let part = part.to_array();
+        let mut values = [0.0f32; 4 * LANES];
+        for lane in 0..LANES {
+            let entry = whole[lane];
+            let low = f32x4::from_slice(simd, &self.entries[entry][..4]);
+            let high = f32x4::from_slice(simd, &self.entries[entry + 1][..4]);
+            let at = low + (high - low) * f32x4::splat(simd, part[lane]);
+            at.store_slice(&mut values[4 * lane..4 * lane + 4]);
+        }
+        columns(simd, &values)
     }
 
     /// Mean of (τ c, τ) over segments between two scalars, each of which stands for those within `spread` of it; see

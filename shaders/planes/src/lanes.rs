@@ -3,7 +3,7 @@
 //! Nothing is contracted or reordered, so every level of instructions gives the same bits.
 
 pub(crate) use fearless_simd::prelude::*;
-pub(crate) use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8};
+pub(crate) use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8, mask32x8};
 
 // A closure is compiled without the instructions of the function around it, so none stands where lanes are computed with.
 
@@ -11,6 +11,12 @@ pub(crate) use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8};
 #[inline(always)]
 pub(crate) fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
     f32x8::splat(simd, value)
+}
+
+/// 0 to 7.
+#[inline(always)]
+pub(crate) fn ramp<S: Simd>(simd: S) -> f32x8<S> {
+    f32x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
 }
 
 /// Eight numbers of a list.
@@ -44,6 +50,16 @@ pub(crate) fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {
         most = if number > most { number } else { most };
     }
     most
+}
+
+/// The least of eight numbers.
+#[inline(always)]
+pub(crate) fn least<S: Simd>(numbers: f32x8<S>) -> f32 {
+    let mut least = f32::INFINITY;
+    for number in numbers.to_array() {
+        least = if number < least { number } else { least };
+    }
+    least
 }
 
 /// e^−x for x ≥ 0, to a few units of f32.

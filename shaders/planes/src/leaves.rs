@@ -15,6 +15,8 @@ pub(crate) struct Leaf {
     pub(crate) rows: [u32; 2],
     /// Nearest to the viewers and farthest from them, metres.
     pub(crate) z: [f64; 2],
+    /// Its extent along the screen, metres.
+    pub(crate) x: [f64; 2],
     /// Whether one of its faces is the volume's.
     pub(crate) is_outer: bool,
     /// Its box, finest voxels; a voxel more where a face is the volume's, so that what lies up to there is known.
@@ -51,12 +53,14 @@ pub(crate) fn leaves(casting: &Casting<f32>, fan: &Fan) -> Vec<Leaf> {
         let high = DVec3::select(is_last, dims + edge, high);
         let (mut first, mut last) = (f64::MAX, f64::MIN);
         let (mut near, mut far) = (f64::MIN, f64::MAX);
+        let mut x = [f64::MAX, f64::MIN];
         for corner in 0..8u32 {
             let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
             let p = display_from_volume.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
             let row = fan.row_of(p.y, p.z);
             first = first.min(row.unwrap_or(-1.0));
             last = last.max(row.unwrap_or(f64::from(rows)));
+            x = [x[0].min(p.x), x[1].max(p.x)];
             near = near.max(p.z);
             far = far.min(p.z);
         }
@@ -69,6 +73,7 @@ pub(crate) fn leaves(casting: &Casting<f32>, fan: &Fan) -> Vec<Leaf> {
             node: index as u32,
             rows,
             z,
+            x,
             is_outer,
             low,
             high,

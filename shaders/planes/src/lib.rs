@@ -6,14 +6,20 @@
 //! shifted by a constant ([`Fan`]). So the volume is sampled once for all views ([`Slab`]), and each view only shifts
 //! and composites, eight pixels at a time.
 
+mod blocks;
 mod classify;
 mod fan;
 mod fill;
 mod fine;
+mod gradients;
 mod lanes;
 mod leaves;
 mod rough;
+mod march;
+mod means;
+mod need;
 mod row;
+mod sample;
 mod slab;
 mod steep;
 mod sweep;

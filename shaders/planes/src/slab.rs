@@ -1,16 +1,21 @@
 //! A slab of a row's plane: what all views share over some depths.
 
+use crate::Fan;
+use crate::blocks::Blocks;
 use crate::fan::AtDepth;
 
 /// Pixels that are swept at once.
 pub(crate) const LANES: usize = 8;
 
-/// What a block of [`LANES`] columns between two depths holds.
-pub(crate) const EMPTY: u8 = 0;
-/// Means per column stand for what lies between them.
-pub(crate) const SOFT: u8 = 1;
-/// Each view looks at the scalars itself.
-pub(crate) const STEEP: u8 = 2;
+/// Columns of the next block that are known with a block.
+pub(crate) const HALO: usize = 2;
+
+/// The error of a block's means between two depths where nothing shows.
+pub(crate) const EMPTY: f32 = -1.0;
+
+/// Rows of a cell's means and phase: without light, and with.
+pub(crate) const PLAIN_ROWS: usize = 4;
+pub(crate) const LIT_ROWS: usize = 7;
 
 /// Samples at `depths.len()` depths of `phases` columns per pixel, and what lies between two depths.
 ///
@@ -27,18 +32,24 @@ pub struct Slab {
     pub(crate) base: i64,
     /// Entries of a phase's row, a multiple of [`LANES`].
     pub(crate) stride: usize,
+    /// Where each column of the first block, and of those known with a block, is kept.
+    offsets: Vec<usize>,
     /// Depth by depth, phase by phase; NaN where nothing shows.
     pub(crate) scalars: Vec<f32>,
     /// Half-width of the scalars that each stands for, likewise; empty where each stands for itself.
     pub(crate) spreads: Vec<f32>,
     /// Gradients, three rows per depth and phase; empty where no light falls.
     pub(crate) gradients: Vec<f32>,
-    /// Between depths: optical depth times colour, and optical depth, of a ray along z; four rows per cell and phase.
+    /// Between depths, where anything shows: optical depth times colour, lit but for the highlight, and optical depth, of a ray along z; where light
+    /// falls the gradient as well. As many rows per cell and phase.
     pub(crate) means: Vec<f32>,
-    /// Cell by cell, what each block of columns holds.
-    pub(crate) blocks: Vec<u8>,
-    /// Of each block, all of them over the slab.
-    pub(crate) any: Vec<u8>,
+    pub(crate) mean_rows: usize,
+    /// Cell by cell, the largest error of light that each block's means make; [`EMPTY`] where nothing shows.
+    pub(crate) errors: Vec<f32>,
+    /// Likewise, whether those between columns are known to be small.
+    pub(crate) is_sure: Vec<bool>,
+    /// Of each block, whether anything shows in the slab.
+    pub(crate) any: Vec<bool>,
     /// Whether part of it lies outside the volume.
     pub(crate) is_outer: bool,
 }
@@ -50,9 +61,11 @@ pub(crate) struct Keeps {
     pub(crate) gradients: bool,
 }
 
-fn fill(list: &mut Vec<f32>, len: usize, value: f32) {
-    list.clear();
-    list.resize(len, value);
+/// Gives a list room for `len` numbers, whatever they are.
+fn reserve(list: &mut Vec<f32>, len: usize) {
+    if list.len() < len {
+        list.resize(len, 0.0);
+    }
 }
 
 impl Slab {
@@ -65,29 +78,100 @@ impl Slab {
         self.stride / LANES
     }
 
-    /// Makes room for the columns from pixel `first` to `last`, of which nothing is known.
-    pub(crate) fn clear(&mut self, first: i64, last: i64, keeps: Keeps) {
+    /// Its first depth and its last.
+    pub(crate) fn ends(&self) -> [&AtDepth; 2] {
+        [&self.depths[0], &self.depths[self.depths.len() - 1]]
+    }
+
+    /// Lays rows out for the columns from one pixel to another.
+    pub(crate) fn lay_columns(&mut self, [first, last]: [i64; 2]) {
         let lanes = LANES as i64;
         self.base = first.div_euclid(lanes) * lanes - lanes;
         let past = (last + 1 + lanes).div_euclid(lanes) * lanes + 2 * lanes;
         self.stride = (past - self.base) as usize;
-        let row = self.phases * self.stride;
-        let (depths, cells) = (self.depths.len(), self.cells());
-        fill(&mut self.scalars, depths * row, f32::NAN);
-        fill(&mut self.spreads, if keeps.spreads { depths * row } else { 0 }, 0.0);
-        fill(&mut self.gradients, if keeps.gradients { 3 * depths * row } else { 0 }, 0.0);
-        fill(&mut self.means, 4 * cells * row, 0.0);
-        self.blocks.clear();
-        self.blocks.resize(cells * self.blocks_across(), EMPTY);
-        self.any.clear();
-        self.any.resize(self.blocks_across(), EMPTY);
     }
 
-    /// Phase and entry of a column.
+    /// Makes room for samples of the blocks that are `wanted`, of which nothing is known.
+    pub(crate) fn clear(&mut self, wanted: &Blocks, keeps: Keeps) {
+        let (rows, cells) = (self.depths.len() * self.phases, self.cells());
+        let of = |keeps: bool, len: usize| if keeps { len } else { 0 };
+        reserve(&mut self.scalars, rows * self.stride);
+        self.mean_rows = if keeps.gradients { LIT_ROWS } else { PLAIN_ROWS };
+        reserve(&mut self.means, self.mean_rows * cells * self.phases * self.stride);
+        for (list, len) in [
+            (&mut self.spreads, of(keeps.spreads, rows * self.stride)),
+            (&mut self.gradients, of(keeps.gradients, 3 * rows * self.stride)),
+        ] {
+            list.truncate(len);
+            reserve(list, len);
+        }
+        let columns = self.phases * LANES + HALO;
+        self.offsets.clear();
+        self.offsets.extend((0..columns).map(|i| i % self.phases * self.stride + i / self.phases));
+        let across = self.blocks_across();
+        for block in wanted.iter() {
+            // A little of the next block is sampled, too.
+            let entries = block * LANES..(block + 2).min(across) * LANES;
+            for start in (0..rows).map(|row| row * self.stride) {
+                let at = start + entries.start..start + entries.end;
+                self.scalars[at.clone()].fill(f32::NAN);
+                if keeps.spreads {
+                    self.spreads[at].fill(0.0);
+                }
+            }
+            for start in (0..of(keeps.gradients, 3 * rows)).map(|row| row * self.stride) {
+                self.gradients[start + entries.start..start + entries.end].fill(0.0);
+            }
+        }
+        self.errors.clear();
+        self.errors.resize(cells * across, EMPTY);
+        self.is_sure.clear();
+        self.is_sure.resize(cells * across, false);
+        self.any.clear();
+        self.any.resize(across, false);
+    }
+
+    /// The blocks that the first block of a view's pixels meets, counted from the slab's first: the least and the most. Its
+    /// other blocks meet as many more.
+    pub(crate) fn reach(&self, fan: &Fan, view: usize) -> [i64; 2] {
+        let [a, b] = self.ends().map(|depth| (0.5 + fan.shift(view, depth)).floor() as i64 - self.base);
+        let lanes = LANES as i64;
+        [(a.min(b) - 1).div_euclid(lanes), (a.max(b) + 1 + lanes).div_euclid(lanes)]
+    }
+
+    /// The columns of a block: the first, and one past the last.
     #[inline(always)]
-    pub(crate) fn place(&self, column: i64) -> (usize, usize) {
-        let phases = self.phases as i64;
-        (column.rem_euclid(phases) as usize, (column.div_euclid(phases) - self.base) as usize)
+    pub(crate) fn columns(&self, block: usize) -> [i64; 2] {
+        [block, block + 1].map(|block| (self.base + (block * LANES) as i64) * self.phases as i64)
+    }
+
+    /// Whether a block, or the one before it, shows anything between two depths: views that meet one meet both.
+    #[inline(always)]
+    pub(crate) fn shows(&self, block: usize, [from, to]: [usize; 2]) -> bool {
+        for cell in from..to {
+            let at = cell * self.blocks_across() + block;
+            if self.errors[at] != EMPTY || self.errors[at.saturating_sub(1)] != EMPTY {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The block that a column lies in.
+    pub(crate) fn block_of(&self, column: i64) -> usize {
+        (column.div_euclid(self.phases as i64) - self.base) as usize / LANES
+    }
+
+    /// Where a block's column is kept, its `index`th, in lists of one row for each depth and phase.
+    #[inline(always)]
+    pub(crate) fn place(&self, depth: usize, block: usize, index: usize) -> usize {
+        self.row_start(depth, 0) + block * LANES + self.offsets[index]
+    }
+
+    /// Where the rows of means of a phase and cell begin.
+    #[inline(always)]
+    pub(crate) fn mean_start(&self, cell: usize, phase: usize) -> usize {
+        self.mean_rows * self.row_start(cell, phase)
     }
 
     /// Where the row of a phase at a depth begins, in lists of one row for each.

@@ -32,6 +32,13 @@ struct Light<S: Simd> {
     highlight: f32x8<S>,
 }
 
+/// Of a gradient: 1 over its length, and how much of a surface it makes.
+#[derive(Clone, Copy)]
+struct Direction<S: Simd> {
+    per_length: f32x8<S>,
+    weight: f32x8<S>,
+}
+
 /// Premultiplied red, green and blue, then opacity, of eight pixels.
 pub(crate) type Pixels<S> = [f32x8<S>; 4];
 
@@ -69,19 +76,24 @@ impl Steep<'_> {
         }
         let [s0, s1] = cell.scalars;
         let half = splat(simd, 0.5);
-        let apart = half * (s1 - s0);
         let front = match front {
             Some(front) => front,
             None => self.fine.look_up(simd, s0),
         };
-        let middle = self.fine.look_up(simd, s0 + apart);
         let back = self.fine.look_up(simd, s1);
-        let a = mean_between(simd, &front, &middle, apart);
-        let b = mean_between(simd, &middle, &back, apart);
-        let zero = splat(simd, 0.0);
-        if !(a[3] + b[3]).simd_gt(zero).any_true() {
+        let whole = mean_between(simd, &front, &back, s1 - s0);
+        if !whole[3].simd_gt(splat(simd, 0.0)).any_true() {
             return Some(back);
         }
+        let ends = [front.value, whole, back.value];
+        if self.is_one(simd, ends, cell.thickness, pixels[3]) {
+            composite(simd, pixels, whole, cell.thickness, self.light_halfway(simd, cell.gradient, halfway));
+            return Some(back);
+        }
+        let apart = half * (s1 - s0);
+        let middle = self.fine.look_up(simd, s0 + apart);
+        let a = mean_between(simd, &front, &middle, apart);
+        let b = mean_between(simd, &middle, &back, apart);
         let lights = self.lights(simd, cell.gradient, halfway);
         let thickness = half * cell.thickness;
         let parts = self.parts(simd, (a, b), thickness, pixels[3]);
@@ -119,6 +131,15 @@ impl Steep<'_> {
         halfway: [f32x8<S>; 3],
     ) {
         let [s0, s1] = cell.scalars;
+        let whole = self.fine.mean_around(simd, cell.scalars, spread);
+        if !whole[3].simd_gt(splat(simd, 0.0)).any_true() {
+            return;
+        }
+        let ends = [self.fine.value_at(simd, s0), whole, self.fine.value_at(simd, s1)];
+        if self.is_one(simd, ends, cell.thickness, pixels[3]) {
+            composite(simd, pixels, whole, cell.thickness, self.light_halfway(simd, cell.gradient, halfway));
+            return;
+        }
         let middle = splat(simd, 0.5) * (s0 + s1);
         let a = self.fine.mean_around(simd, [s0, middle], spread);
         let b = self.fine.mean_around(simd, [middle, s1], spread);
@@ -142,6 +163,33 @@ impl Steep<'_> {
             let light = lights[usize::from(2 * j >= count)];
             composite(simd, pixels, self.fine.mean_around(simd, ends, spread), thickness, light);
         }
+    }
+
+    /// Whether a cell may be composited at once: whether the order of what it shows in front, in the mean and behind matters to
+    /// none of its rays.
+    #[inline(always)]
+    fn is_one<S: Simd>(
+        &self,
+        simd: S,
+        ends: [[f32x8<S>; 4]; 3],
+        thickness: f32x8<S>,
+        alpha: f32x8<S>,
+    ) -> bool {
+        let worst = disorder(simd, ends, thickness) * (splat(simd, 1.0) - alpha);
+        largest(worst) <= self.tolerance
+    }
+
+    /// The light in the middle of a cell, where any falls.
+    #[inline(always)]
+    fn light_halfway<S: Simd>(
+        &self,
+        simd: S,
+        gradient: Option<[[f32x8<S>; 2]; 3]>,
+        halfway: [f32x8<S>; 3],
+    ) -> Option<Light<S>> {
+        let Some(ends) = gradient else { return None };
+        let middle = each!(axis of 3 => (ends[axis][0] + ends[axis][1]) * splat(simd, 0.5));
+        Some(self.light(simd, middle, halfway))
     }
 
     /// Parts of half a cell that the order of what it shows asks for, the most of all eight.
@@ -178,26 +226,79 @@ impl Steep<'_> {
     /// See `twin::shade::Phong`.
     #[inline(always)]
     fn light<S: Simd>(&self, simd: S, gradient: [f32x8<S>; 3], halfway: [f32x8<S>; 3]) -> Light<S> {
-        let scene = self.casting.scene;
+        let direction = self.direction(simd, gradient);
+        Light {
+            body: self.body_of(simd, gradient, direction),
+            highlight: self.highlight_of(simd, gradient, direction, halfway),
+        }
+    }
+
+    /// What light makes of colours but for the highlight.
+    #[inline(always)]
+    pub(crate) fn body<S: Simd>(&self, simd: S, gradient: [f32x8<S>; 3]) -> f32x8<S> {
+        self.body_of(simd, gradient, self.direction(simd, gradient))
+    }
+
+    /// The highlight, as a share of the extinction.
+    #[inline(always)]
+    pub(crate) fn highlight<S: Simd>(
+        &self,
+        simd: S,
+        gradient: [f32x8<S>; 3],
+        halfway: [f32x8<S>; 3],
+    ) -> f32x8<S> {
+        self.highlight_of(simd, gradient, self.direction(simd, gradient), halfway)
+    }
+
+    #[inline(always)]
+    fn direction<S: Simd>(&self, simd: S, gradient: [f32x8<S>; 3]) -> Direction<S> {
         let square = dot(gradient, gradient);
         let has_direction = square.simd_ge(splat(simd, LEAST_SQUARE as f32));
         let per_length = splat(simd, 1.0) / has_direction.select(square, splat(simd, 1.0)).sqrt();
-        let weight = square / (square + splat(simd, scene.gradient_half_square));
-        let weight = has_direction.select(weight, splat(simd, 0.0));
-        let toward_light = scene.toward_light.0;
-        let toward_light =
-            [splat(simd, toward_light[0]), splat(simd, toward_light[1]), splat(simd, toward_light[2])];
-        let lit = dot(gradient, toward_light).abs() * per_length;
-        let cosine = (dot(gradient, halfway).abs() * per_length).min(splat(simd, 1.0));
-        let [ambient, diffuse, specular, shininess] = scene.material;
-        let highlight = if specular > 0.0 {
-            weight * splat(simd, specular) * power(simd, cosine, splat(simd, shininess))
-        } else {
-            splat(simd, 0.0)
-        };
-        let body = splat(simd, 1.0) - weight + weight * (splat(simd, ambient) + splat(simd, diffuse) * lit);
-        Light { body, highlight }
+        let weight = square / (square + splat(simd, self.casting.scene.gradient_half_square));
+        Direction { per_length, weight: has_direction.select(weight, splat(simd, 0.0)) }
     }
+
+    #[inline(always)]
+    fn body_of<S: Simd>(&self, simd: S, gradient: [f32x8<S>; 3], direction: Direction<S>) -> f32x8<S> {
+        let Direction { per_length, weight } = direction;
+        let scene = self.casting.scene;
+        let toward_light = each!(axis of 3 => splat(simd, scene.toward_light.0[axis]));
+        let lit = dot(gradient, toward_light).abs() * per_length;
+        let [ambient, diffuse, ..] = scene.material;
+        splat(simd, 1.0) - weight + weight * (splat(simd, ambient) + splat(simd, diffuse) * lit)
+    }
+
+    #[inline(always)]
+    fn highlight_of<S: Simd>(
+        &self,
+        simd: S,
+        gradient: [f32x8<S>; 3],
+        direction: Direction<S>,
+        halfway: [f32x8<S>; 3],
+    ) -> f32x8<S> {
+        let [_, _, specular, shininess] = self.casting.scene.material;
+        if specular <= 0.0 {
+            return splat(simd, 0.0);
+        }
+        let Direction { per_length, weight } = direction;
+        let cosine = (dot(gradient, halfway).abs() * per_length).min(splat(simd, 1.0));
+        weight * splat(simd, specular) * power(simd, cosine, splat(simd, shininess))
+    }
+}
+
+/// How much the order of what a cell shows in front, in the mean and behind matters, as light.
+#[inline(always)]
+pub(crate) fn disorder<S: Simd>(
+    simd: S,
+    [near, mean, far]: [[f32x8<S>; 4]; 3],
+    thickness: f32x8<S>,
+) -> f32x8<S> {
+    let a = each!(c of 3 => (near[c] * mean[3] - mean[c] * near[3]).abs());
+    let b = each!(c of 3 => (mean[c] * far[3] - far[c] * mean[3]).abs());
+    let order = a[0].max(a[1]).max(a[2]) + b[0].max(b[1]).max(b[2]);
+    let depth = mean[3] * thickness;
+    splat(simd, 0.125) * order * thickness * thickness / (splat(simd, 1.0) + depth * depth)
 }
 
 #[inline(always)]

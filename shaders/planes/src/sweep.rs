@@ -1,12 +1,12 @@
 //! One view's row over a slab: shifted, composited, eight pixels at a time.
 
 use crate::Fan;
-use crate::fan::AtDepth;
+use crate::blocks::Blocks;
 use crate::fine::Looked;
 use crate::lanes::*;
-use crate::slab::{LANES, STEEP, Slab};
+use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
 use crate::steep::{Cell, Pixels, Steep, range};
-use crate::thick::{self, Met};
+use crate::thick;
 use crate::view_row::ViewRow;
 use twin::tables::is_vacant_around;
 
@@ -24,17 +24,19 @@ struct Place {
 
 impl Place {
     #[inline(always)]
-    fn new(slab: &Slab, fan: &Fan, view: usize, depth: &AtDepth) -> Self {
+    fn new(slab: &Slab, shift: f64) -> Self {
         let phases = slab.phases as f64;
-        let place = phases * (0.5 + fan.shift(view, depth)) - 0.5;
+        let place = phases * (0.5 + shift) - 0.5;
         let column = place.floor();
-        let (first, count) = (column as i64, slab.phases as i64);
-        let phase = first.rem_euclid(count);
-        let next = (phase + 1) % count;
+        // A whole number of columns, and so never on the edge between two.
+        let entry = ((column + 0.5) / phases).floor();
+        let phase = (column - entry * phases) as usize;
+        let further = usize::from(phase + 1 == slab.phases);
+        let next = if further == 1 { 0 } else { phase + 1 };
         Self {
-            phases: [phase as usize, next as usize],
-            entry: first.div_euclid(count) - slab.base,
-            further: usize::from(next == 0),
+            phases: [phase, next],
+            entry: entry as i64 - slab.base,
+            further,
             part: (place - column) as f32,
         }
     }
@@ -49,6 +51,8 @@ pub(crate) struct Sweep<'a> {
     /// Optical depth of a cell where the table says 1.
     pub(crate) thickness: f32,
     pub(crate) steep: Steep<'a>,
+    /// The largest error of a cell's light that means may make.
+    pub(crate) tolerance: f32,
 }
 
 /// Places of all cells' middles, and of all depths.
@@ -65,38 +69,61 @@ fn between<S: Simd>(simd: S, list: &[f32], starts: [usize; 2], part: f32x8<S>) -
     a + (b - a) * part
 }
 
-impl Sweep<'_> {
-    /// Adds what the slab shows to a view's row.
+impl Places {
     #[inline(always)]
-    pub(crate) fn add<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &mut Places) {
+    fn find(&mut self, slab: &Slab, fan: &Fan, view: usize) {
+        for (list, depths) in [(&mut self.middles, &slab.middles), (&mut self.depths, &slab.depths)] {
+            list.clear();
+            for depth in depths {
+                list.push(Place::new(slab, fan.shift(view, depth)));
+            }
+        }
+    }
+}
+
+/// What eight pixels meet of a cell's means.
+struct Met<'a, S: Simd> {
+    list: &'a [f32],
+    starts: [usize; 2],
+    stride: usize,
+    part: f32x8<S>,
+}
+
+impl<S: Simd> Met<'_, S> {
+    #[inline(always)]
+    fn row(&self, simd: S, row: usize) -> f32x8<S> {
+        let further = row * self.stride;
+        between(simd, self.list, [self.starts[0] + further, self.starts[1] + further], self.part)
+    }
+}
+
+impl Sweep<'_> {
+    /// Adds what the slab shows to some blocks of a view's row.
+    #[inline(always)]
+    pub(crate) fn add<S: Simd>(&self, simd: S, view: &mut ViewRow, pixels: &Blocks, places: &mut Places) {
         let Self { fan, slab, .. } = *self;
-        let place = |depth: &AtDepth| Place::new(slab, fan, self.view, depth);
-        places.middles.clear();
-        places.middles.extend(slab.middles.iter().map(place));
-        places.depths.clear();
-        places.depths.extend(slab.depths.iter().map(place));
-        let entries = places.depths.iter().map(|place| place.entry);
-        let (low, high) = entries.fold((i64::MAX, i64::MIN), |(low, high), e| (low.min(e), high.max(e)));
+        let reach = slab.reach(fan, self.view);
         let last = slab.blocks_across() as i64 - 1;
         let termination = self.steep.casting.scene.termination;
-        for block in 0..view.closed.len() {
-            if view.closed[block] {
-                continue;
-            }
-            let pixel = (block * LANES) as i64;
-            let touched =
-                [low + pixel, high + pixel + LANES as i64].map(|entry| entry.div_euclid(LANES as i64));
+        let mut is_placed = false;
+        for block in pixels.iter() {
+            let touched = [reach[0] + block as i64, reach[1] + block as i64];
             if touched[1] < 0 || touched[0] > last {
                 continue;
             }
             let touched = touched.map(|block| block.clamp(0, last) as usize);
-            if slab.any[touched[0]..=touched[1]].iter().all(|&any| any == 0) {
+            if !slab.any[touched[0]..=touched[1]].contains(&true) {
                 continue;
+            }
+            if !is_placed {
+                places.find(slab, fan, self.view);
+                is_placed = true;
             }
             self.add_block(simd, view, places, block);
             let at = block * LANES;
-            let opaque = view.rgba[3][at..at + LANES].iter().all(|&alpha| 1.0 - alpha < termination);
-            view.closed[block] = opaque;
+            if view.rgba[3][at..at + LANES].iter().all(|&alpha| 1.0 - alpha < termination) {
+                view.open.remove(block);
+            }
         }
     }
 
@@ -112,18 +139,20 @@ impl Sweep<'_> {
         let across = slab.blocks_across();
         // What the scalars at a depth look up, from the cell in front of it.
         let mut known = None;
-        for (cell, place) in places.middles.iter().enumerate() {
+        for cell in 0..slab.cells() {
+            let place = &places.middles[cell];
             let entry = place.entry + at as i64;
             if entry < 0 || entry as usize + LANES + 1 > slab.stride {
                 continue;
             }
             let entry = entry as usize;
             let first = cell * across + entry / LANES;
-            let class = slab.blocks[first] | slab.blocks[(first + 1).min(slab.blocks.len() - 1)];
-            if class == 0 {
+            let error = slab.errors[first].max(slab.errors[(first + 1).min(slab.errors.len() - 1)]);
+            if error == EMPTY {
                 continue;
             }
-            if class & STEEP != 0 {
+            // What lies behind something shows less of it.
+            if error > self.tolerance && error * largest(one - alpha) > self.tolerance {
                 let looks = match known {
                     Some((behind, looks)) if behind == cell => Some(looks),
                     Some(_) | None => None,
@@ -134,10 +163,16 @@ impl Sweep<'_> {
                 continue;
             }
             let part = f32x8::splat(simd, place.part);
-            let near = 4 * slab.row_start(cell, place.phases[0]) + entry;
-            let far = 4 * slab.row_start(cell, place.phases[1]) + entry;
-            let (stride, further) = (slab.stride, place.further);
-            let opacity = between(simd, &slab.means, [near + 3 * stride, far + further + 3 * stride], part);
+            let met = Met {
+                list: &slab.means,
+                starts: [
+                    slab.mean_start(cell, place.phases[0]) + entry,
+                    slab.mean_start(cell, place.phases[1]) + entry + place.further,
+                ],
+                stride: slab.stride,
+                part,
+            };
+            let opacity = met.row(simd, 3);
             let depth = opacity * length;
             if !depth.simd_gt(zero).any_true() {
                 continue;
@@ -146,10 +181,14 @@ impl Sweep<'_> {
             let (depth, length) = (depth * inside, length * inside);
             let share = attenuation_mean(simd, depth) * (one - alpha);
             let lit = share * length;
-            rgb = each!(c of 3 => {
-                let mean = between(simd, &slab.means, [near + c * stride, far + further + c * stride], part);
-                rgb[c] + mean * lit
-            });
+            let white = if slab.gradients.is_empty() {
+                zero
+            } else {
+                let gradient = each!(axis of 3 => met.row(simd, PLAIN_ROWS + axis));
+                let halfway = each!(axis of 3 => load(simd, &view.halfway[axis], at));
+                opacity * self.steep.highlight(simd, gradient, halfway)
+            };
+            rgb = each!(c of 3 => rgb[c] + (met.row(simd, c) + white) * lit);
             alpha += depth * share;
         }
         for (c, value) in rgb.iter().enumerate() {
@@ -300,7 +339,7 @@ impl Sweep<'_> {
             if !(s0[lane] + s1[lane]).is_finite() || !is_open {
                 continue;
             }
-            let met = Met {
+            let met = thick::Met {
                 scalars: (s0[lane], s1[lane]),
                 spread: spread[lane],
                 thickness: thickness[lane],

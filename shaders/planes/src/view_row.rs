@@ -1,6 +1,7 @@
 //! What a view gathers along the rays of one row.
 
 use crate::Fan;
+use crate::blocks::Blocks;
 use crate::slab::LANES;
 use glam::DAffine3;
 
@@ -15,8 +16,8 @@ pub(crate) struct ViewRow {
     pub(crate) halfway: [Vec<f32>; 3],
     /// z at which each ray enters the volume and leaves it, once they are needed.
     pub(crate) ends: [Vec<f32>; 2],
-    /// Blocks of pixels that see no farther.
-    pub(crate) closed: Vec<bool>,
+    /// Blocks of pixels that see farther.
+    pub(crate) open: Blocks,
 }
 
 impl ViewRow {
@@ -42,8 +43,7 @@ impl ViewRow {
                 (x[i], y[i], z[i]) = (way[0] * per_length, way[1] * per_length, way[2] * per_length);
             }
         }
-        self.closed.clear();
-        self.closed.resize(padded / LANES, false);
+        self.open.fill(padded / LANES);
     }
 }
 

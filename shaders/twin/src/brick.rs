@@ -43,6 +43,14 @@ impl<F: Real> Brick<'_, F> {
 }
 
 impl<F: Real> Brick<'_, F> {
+    /// Whether a pair at `t` may show something, and how many from there on say the same; of nodes that no ancestor has a share
+    /// of.
+    #[inline(always)]
+    pub fn pairs_alike(&self, t: F, length: F) -> (bool, u32) {
+        let middle = self.own.point(t + length);
+        (self.is_visible_at(middle), self.pairs_across(middle, F::of(2.0) * length))
+    }
+
     /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something.
     /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
     /// of a pair are asked as leave none of it farther than a voxel.

@@ -50,10 +50,22 @@ impl<'a, F: Real> Level<'a, F> {
         self.base + self.slope * t
     }
 
+    /// Whether samples stand for others around them.
+    #[inline(always)]
+    pub fn has_deviations(&self) -> bool {
+        self.deviations.is_some()
+    }
+
     /// The standard deviation at t of what samples stand for.
     #[inline(always)]
     pub fn spread(&self, t: F) -> F {
         self.deviations.map_or(F::ZERO, |(codes, scale)| scale * sample_deviations(codes, self.point(t)))
+    }
+
+    /// The scalar of the lowest code, and what the highest adds to it.
+    #[inline(always)]
+    pub fn code_range(&self) -> [F; 2] {
+        [self.offset, self.scale]
     }
 
     /// The scalar at t, not held to [0, 1].

@@ -61,6 +61,12 @@ impl<'a, F: Real> Brick<'a, F> {
         K::BLENDS && self.weights.is_blended
     }
 
+    /// Whether scalars are not of the node's own level alone.
+    #[inline(always)]
+    pub fn has_levels<K: Features>(&self) -> bool {
+        (K::IS_FULL && self.filters_levels) || self.is_blended::<K>()
+    }
+
     /// Whether samples may be of levels above the node's.
     #[inline(always)]
     pub fn has_fractions<K: Features>(&self) -> bool {

@@ -1,0 +1,284 @@
+//! A row's plane, from the front to the back: how far apart samples lie in each part of it, and what every view adds of them.
+
+use crate::blocks::Blocks;
+use crate::classify::Classing;
+use crate::fill::{Grid, Span};
+use crate::gradients::gradients_every;
+use crate::lanes::Simd;
+use crate::leaves::Leaf;
+use crate::need::{Judge, SPACINGS};
+use crate::rough::Variation;
+use crate::row::RowCast;
+use crate::slab::{Keeps, Slab};
+use crate::steep::Steep;
+use crate::sweep::{Places, Sweep};
+use crate::view_row::ViewRow;
+use twin::kernel::Kernel;
+
+/// Cells of a slab at the widest spacing: what of it needs a closer one is found out for all of its depth.
+const CELLS: usize = 4;
+/// Cells of a slab at closer spacings: what is sampled of them fits a core's own cache beside the views' rows.
+const FINE_CELLS: usize = 16;
+
+/// The widest distance between samples, in voxels of the finest leaf around: from one depth to the next, and from one column to
+/// the next, at most.
+const WIDEST: [f64; 2] = [1.0, 1.0];
+
+/// Columns per pixel, at most: more are worth no memory.
+const MOST_PHASES: f64 = 256.0;
+
+/// What one thread keeps from slab to slab.
+#[derive(Debug, Default)]
+pub(crate) struct Room {
+    wide: Slab,
+    close: Slab,
+    spans: Vec<Span>,
+    near: Vec<Leaf>,
+    places: Places,
+    bends: Vec<f32>,
+    wanted: Blocks,
+    need: [Blocks; SPACINGS],
+    pixels: Blocks,
+}
+
+/// A row of all views.
+pub(crate) struct March<'a> {
+    pub(crate) grid: Grid<'a>,
+    pub(crate) variation: &'a Variation,
+    pub(crate) steep: Steep<'a>,
+    /// Voxels per metre of depth.
+    pub(crate) speed: f64,
+    pub(crate) keeps: Keeps,
+    /// The largest error of a cell's light that distances between samples may make, and that means may.
+    pub(crate) tolerances: [f32; 2],
+}
+
+/// A part of a row's plane, from z to z, of voxels of some edge.
+#[derive(Clone, Copy)]
+struct Part {
+    z: [f64; 2],
+    edge: f64,
+    cells: usize,
+}
+
+impl March<'_> {
+    /// Adds all that the leaves show to the views.
+    #[inline(always)]
+    pub(crate) fn run<S: Simd, K: Kernel>(
+        &self,
+        simd: S,
+        leaves: &[Leaf],
+        views: &mut [ViewRow],
+        room: &mut Room,
+    ) -> RowCast {
+        let mut cast = RowCast::default();
+        let mut has_ends = false;
+        let bottom = leaves.iter().fold(f64::MAX, |z, leaf| z.min(leaf.z[1]));
+        let mut z = leaves.iter().fold(f64::MIN, |z, leaf| z.max(leaf.z[0]));
+        while z > bottom {
+            let Some((edge, to)) = next_slab(leaves, z, CELLS as f64 * WIDEST[0] / self.speed) else {
+                z = leaves.iter().filter(|leaf| leaf.z[0] < z).fold(f64::MIN, |z, leaf| z.max(leaf.z[0]));
+                continue;
+            };
+            let to = to.max(bottom);
+            let cells = ((z - to) * self.speed / (edge * WIDEST[0])).ceil().max(1.0) as usize;
+            let part = Part { z: [z, to], edge, cells };
+            room.near.clear();
+            room.near.extend(leaves.iter().filter(|leaf| leaf.z[0] > to && leaf.z[1] < z));
+            z = to;
+            self.add_part::<S, K>(simd, part, views, room, &mut has_ends, &mut cast);
+        }
+        cast
+    }
+
+    #[inline(always)]
+    fn add_part<S: Simd, K: Kernel>(
+        &self,
+        simd: S,
+        part: Part,
+        views: &mut [ViewRow],
+        room: &mut Room,
+        has_ends: &mut bool,
+        cast: &mut RowCast,
+    ) {
+        let is_outer = room.near.iter().any(|leaf| leaf.is_outer);
+        let slab = &mut room.wide;
+        self.lay_out(slab, part, 0, is_outer);
+        self.grid.spans(slab, &room.near, &mut room.spans);
+        if room.spans.is_empty() {
+            return;
+        }
+        let columns = self.grid.extent(&room.near, slab.ends());
+        slab.lay_columns(columns);
+        room.wanted.clear(slab.blocks_across());
+        for (view, state) in views.iter().enumerate() {
+            room.wanted.add_moved(&state.open, slab.reach(self.grid.fan, view));
+        }
+        // The last one is there for what is loaded beyond another.
+        room.wanted.remove(slab.blocks_across() - 1);
+        if room.wanted.is_empty() {
+            return;
+        }
+        slab.clear(&room.wanted, self.keeps);
+        let samples = self.grid.fill::<S, K>(simd, slab, &room.spans, &room.wanted, self.keeps);
+        self.note(slab, &room.spans, &room.wanted, cast);
+        cast.samples += samples;
+        if samples == 0 {
+            return;
+        }
+        let step = (part.z[0] - part.z[1]) / part.cells as f64;
+        let extinction = self.grid.casting.scene.extinction_per_metre;
+        let judge = Judge {
+            tables: self.grid.casting.tables,
+            variation: self.variation,
+            thickness: extinction * step as f32,
+            tolerance: self.tolerances[0],
+        };
+        judge.find(simd, slab, &room.wanted, &mut room.bends, &mut room.need);
+        if room.need[0].is_empty() {
+            return;
+        }
+        if is_outer && !*has_ends {
+            *has_ends = true;
+            for (view, state) in views.iter_mut().enumerate() {
+                self.grid.find_ends(view, state);
+            }
+        }
+        for spacing in 0..SPACINGS {
+            if room.need[spacing].is_empty() {
+                break;
+            }
+            self.add_spacing::<S, K>(simd, (part, spacing, is_outer), views, room, cast);
+        }
+    }
+
+    /// Adds those pixels of a part that need one spacing.
+    #[inline(always)]
+    fn add_spacing<S: Simd, K: Kernel>(
+        &self,
+        simd: S,
+        (part, spacing, is_outer): (Part, usize, bool),
+        views: &mut [ViewRow],
+        room: &mut Room,
+        cast: &mut RowCast,
+    ) {
+        let Room { wide, close, spans, near, places, wanted, need, pixels, .. } = room;
+        let fan = self.grid.fan;
+        let closer = need.get(spacing + 1);
+        let cells = part.cells << spacing;
+        let count = if spacing == 0 { 1 } else { cells.div_ceil(FINE_CELLS) };
+        for slice in 0..count {
+            let bounds = [slice * cells / count, (slice + 1) * cells / count];
+            let z = bounds.map(|cell| part.z[0] + (part.z[1] - part.z[0]) * (cell as f64 / cells as f64));
+            let slice = Part { z, cells: bounds[1] - bounds[0], ..part };
+            if spacing > 0 {
+                self.lay_out(close, slice, spacing, is_outer);
+                (close.base, close.stride) = (wide.base, wide.stride);
+            }
+            wanted.clear(wide.blocks_across());
+            for (view, state) in views.iter().enumerate() {
+                if pixels_of(state, wide.reach(fan, view), &need[spacing], closer, pixels) {
+                    let of = if spacing == 0 { &*wide } else { &*close };
+                    wanted.add_moved(pixels, of.reach(fan, view));
+                }
+            }
+            wanted.remove(wide.blocks_across() - 1);
+            if wanted.is_empty() {
+                continue;
+            }
+            let slab = if spacing == 0 { &mut *wide } else { &mut *close };
+            if spacing > 0 {
+                self.grid.spans(slab, near, spans);
+                slab.clear(wanted, self.keeps);
+                let samples = self.grid.fill::<S, K>(simd, slab, spans, wanted, self.keeps);
+                cast.samples += samples;
+                if samples == 0 {
+                    continue;
+                }
+            }
+            let depth = (slice.z[0] - slice.z[1]) / slice.cells as f64;
+            let thickness = self.grid.casting.scene.extinction_per_metre * depth as f32;
+            let tolerance = self.tolerances[1] / (1 << spacing) as f32;
+            let classing = Classing { steep: self.steep, variation: self.variation, thickness, tolerance };
+            classing.find_blocks(simd, slab, wanted);
+            if self.keeps.gradients {
+                self.grid.fill_gradients::<S, K>(simd, slab, spans, wanted, self.keeps, spacing);
+            }
+            classing.settle(simd, slab, wanted);
+            for (view, state) in views.iter_mut().enumerate() {
+                if pixels_of(state, wide.reach(fan, view), &need[spacing], closer, pixels) {
+                    let slab = if spacing == 0 { &*wide } else { &*close };
+                    let sweep =
+                        Sweep { fan, slab, view, row: self.grid.row, thickness, steep: self.steep, tolerance };
+                    sweep.add(simd, state, pixels, places);
+                }
+            }
+        }
+    }
+
+    /// Says where a slab lies.
+    #[inline(always)]
+    fn lay_out(&self, slab: &mut Slab, part: Part, spacing: usize, is_outer: bool) {
+        let fan = self.grid.fan;
+        let Part { z: [z, to], edge, cells } = part;
+        let at = |k: f64| fan.at(z + (to - z) * (k / cells as f64));
+        slab.depths.clear();
+        slab.depths.extend((0..=cells).map(|k| at(k as f64)));
+        slab.middles.clear();
+        slab.middles.extend((0..cells).map(|k| at(k as f64 + 0.5)));
+        let across = fan.pitch(&slab.depths[0]).max(fan.pitch(&slab.depths[cells]));
+        let voxels = across * self.grid.volume_from_display.matrix3.x_axis.length() / edge;
+        let closer = f64::from(1 << spacing);
+        let phases = (voxels * closer / WIDEST[1]).ceil().clamp(1.0, MOST_PHASES) as usize;
+        slab.phases = phases.next_multiple_of(gradients_every(spacing));
+        slab.is_outer = is_outer;
+    }
+
+    /// Notes the leaves that were looked at.
+    fn note(&self, slab: &Slab, spans: &[Span], wanted: &Blocks, cast: &mut RowCast) {
+        for span in spans {
+            if span.is_first && span.blocks(slab).any(|block| wanted.contains(block)) {
+                let casting = self.grid.casting;
+                let node = &casting.volume.nodes[span.node as usize];
+                casting.observer.note(span.node, node.deficit);
+                cast.is_missing |= node.deficit > 0.0;
+            }
+        }
+    }
+}
+
+/// Those blocks of a view's pixels that meet blocks in `need`, but none in `closer`. Whether there is any.
+#[inline(always)]
+fn pixels_of(
+    view: &ViewRow,
+    [least, most]: [i64; 2],
+    need: &Blocks,
+    closer: Option<&Blocks>,
+    pixels: &mut Blocks,
+) -> bool {
+    pixels.clear(view.open.len());
+    pixels.add_moved(need, [-most, -least]);
+    if pixels.is_empty() {
+        return false;
+    }
+    pixels.intersect(&view.open);
+    if let Some(closer) = closer {
+        pixels.subtract_moved(closer, [-most, -least]);
+    }
+    !pixels.is_empty()
+}
+
+/// The voxel's edge by which the slab from z on is spaced, the coarsest that no leaf in it is finer than; and where it ends,
+/// that many times `depth` away. None where no leaf is.
+fn next_slab(leaves: &[Leaf], z: f64, depth: f64) -> Option<(f64, f64)> {
+    let mut edges: Vec<f64> = leaves.iter().map(|leaf| leaf.edge).collect();
+    edges.sort_by(|a, b| b.total_cmp(a));
+    edges.dedup();
+    let meets = |to: f64| leaves.iter().filter(move |leaf| leaf.z[0] > to && leaf.z[1] < z);
+    let end = |edge: f64| z - edge * depth;
+    meets(end(*edges.last()?)).next()?;
+    edges
+        .into_iter()
+        .map(|edge| (edge, end(edge)))
+        .find(|&(edge, to)| meets(to).all(|leaf| leaf.edge >= edge))
+}

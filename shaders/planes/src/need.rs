@@ -1,0 +1,177 @@
+//! How closely a slab has to be sampled, block by block: from what samples a voxel apart say.
+
+use crate::blocks::Blocks;
+use crate::lanes::*;
+use crate::rough::Variation;
+use crate::slab::{LANES, Slab};
+use needs::tables::Tables;
+use twin::tables::is_vacant_around;
+
+/// Distances between samples, each half the one before.
+pub(crate) const SPACINGS: usize = 5;
+
+/// What is left of an error at half the distance: between a quarter, where scalars bend evenly, and a half, at a kink.
+const LEFT_AT_HALF: f32 = 0.35;
+
+/// What the judgement goes by.
+pub(crate) struct Judge<'a> {
+    pub(crate) tables: &'a Tables,
+    pub(crate) variation: &'a Variation,
+    /// Optical depth from one sample to the next where the table says 1.
+    pub(crate) thickness: f32,
+    /// The largest error of a cell's light.
+    pub(crate) tolerance: f32,
+}
+
+impl Judge<'_> {
+    /// Which of the `wanted` blocks show anything, and which need at least each spacing but the first.
+    #[inline(always)]
+    pub(crate) fn find<S: Simd>(
+        &self,
+        simd: S,
+        slab: &Slab,
+        wanted: &Blocks,
+        bends: &mut Vec<f32>,
+        need: &mut [Blocks; SPACINGS],
+    ) {
+        for blocks in need.iter_mut() {
+            blocks.clear(slab.blocks_across());
+        }
+        for block in wanted.iter() {
+            if let Some(error) = self.error_of(simd, slab, block, bends) {
+                for blocks in &mut need[..=self.spacing(error)] {
+                    blocks.insert(block);
+                }
+            }
+        }
+    }
+
+    /// The spacing that keeps an error at the widest one small enough.
+    fn spacing(&self, error: f32) -> usize {
+        let mut left = error.min(1.0);
+        let mut spacing = 0;
+        while left > self.tolerance && spacing + 1 < SPACINGS {
+            left *= LEFT_AT_HALF;
+            spacing += 1;
+        }
+        spacing
+    }
+
+    /// The largest error of light that scalars half-way between a block's samples make. None if nothing shows.
+    #[inline(always)]
+    fn error_of<S: Simd>(&self, simd: S, slab: &Slab, block: usize, bends: &mut Vec<f32>) -> Option<f32> {
+        let most_bend = find_bends(simd, slab, block, bends);
+        let most_spread = most_spread(slab, block);
+        let mut worst: Option<f32> = None;
+        let per = self.thickness / self.tolerance;
+        for cell in 0..slab.cells() {
+            for phase in 0..slab.phases {
+                let [front, back] = [cell, cell + 1].map(|depth| (depth * slab.phases + phase) * LANES);
+                let corners = [
+                    column(simd, slab, (cell, phase, block), 0),
+                    column(simd, slab, (cell, phase, block), 1),
+                    column(simd, slab, (cell + 1, phase, block), 0),
+                    column(simd, slab, (cell + 1, phase, block), 1),
+                ];
+                let mut low = splat(simd, f32::MAX);
+                let mut high = splat(simd, f32::MIN);
+                for corner in corners {
+                    low = corner.simd_lt(low).select(corner, low);
+                    high = corner.simd_gt(high).select(corner, high);
+                }
+                let (low, high) = (low.to_array(), high.to_array());
+                let (mut lowest, mut highest) = (f32::MAX, f32::MIN);
+                for lane in 0..LANES {
+                    lowest = if low[lane] < lowest { low[lane] } else { lowest };
+                    highest = if high[lane] > highest { high[lane] } else { highest };
+                }
+                let reach = most_bend + most_spread;
+                if lowest > highest || is_vacant_around(&self.tables.cells, (lowest, highest), reach) {
+                    continue;
+                }
+                let mut found = worst.unwrap_or(0.0);
+                if self.variation.total(lowest, highest, reach) * per <= 0.5 {
+                    worst = Some(found);
+                    continue;
+                }
+                let twist = ((corners[3] - corners[2]) - (corners[1] - corners[0])).abs();
+                let bent = load(simd, bends, front).max(load(simd, bends, back));
+                let twist = twist.simd_eq(twist).select(twist, splat(simd, 0.0));
+                let error = (splat(simd, 0.125) * (bent + twist)).to_array();
+                for lane in 0..LANES {
+                    if low[lane] > high[lane] {
+                        continue;
+                    }
+                    let spread = error[lane] + most_spread;
+                    if is_vacant_around(&self.tables.cells, (low[lane], high[lane]), spread) {
+                        continue;
+                    }
+                    let change = self.variation.change(low[lane], high[lane], error[lane]);
+                    found = found.max(self.thickness * change);
+                    worst = Some(found);
+                }
+            }
+        }
+        worst
+    }
+}
+
+/// Eight columns of a phase, and those `further` on.
+#[inline(always)]
+fn column<S: Simd>(
+    simd: S,
+    slab: &Slab,
+    (depth, phase, block): (usize, usize, usize),
+    further: usize,
+) -> f32x8<S> {
+    let at = phase + further;
+    let (phase, entry) = (at % slab.phases, at / slab.phases);
+    load(simd, &slab.scalars, slab.row_start(depth, phase) + block * LANES + entry)
+}
+
+/// How far scalars of a block bend at each depth and phase, across and along, and the most of it; 0 where some are not known.
+#[inline(always)]
+fn find_bends<S: Simd>(simd: S, slab: &Slab, block: usize, bends: &mut Vec<f32>) -> f32 {
+    let depths = slab.depths.len();
+    bends.clear();
+    bends.resize(depths * slab.phases * LANES, 0.0);
+    let zero = splat(simd, 0.0);
+    let mut most = zero;
+    for depth in 0..depths {
+        let middle = depth.min(depths - 2).max(1);
+        for phase in 0..slab.phases {
+            // Across: of the column after each, so that none of the block before is asked for.
+            let at = (depth, phase, block);
+            let ends = each!(further of 3 => column(simd, slab, at, further));
+            let across = ((ends[0] - ends[1]) + (ends[2] - ends[1])).abs();
+            let mut bend = across.simd_gt(zero).select(across, zero);
+            if depths > 2 {
+                let ends = each!(further of 3 => column(simd, slab, (middle - 1 + further, phase, block), 0));
+                let along = ((ends[0] - ends[1]) + (ends[2] - ends[1])).abs();
+                bend += along.simd_gt(zero).select(along, zero);
+            }
+            most = most.max(bend);
+            let at = (depth * slab.phases + phase) * LANES;
+            bend.store_slice(&mut bends[at..at + LANES]);
+        }
+    }
+    largest(most)
+}
+
+/// The largest spread of a block's samples.
+#[inline(always)]
+fn most_spread(slab: &Slab, block: usize) -> f32 {
+    let mut most = 0.0f32;
+    if slab.spreads.is_empty() {
+        return most;
+    }
+    for row in 0..slab.depths.len() * slab.phases {
+        let start = row * slab.stride + block * LANES;
+        for lane in start..start + LANES {
+            if !slab.scalars[lane].is_nan() {
+                most = most.max(slab.spreads[lane]);
+            }
+        }
+    }
+    most
+}
