@@ -118,8 +118,7 @@ mod tests {
             let mut moved = of(130, &[]);
             moved.add_moved(&start, range);
             let all = start.iter().flat_map(|i| (range[0]..=range[1]).map(move |by| i as i64 + by));
-            let mut truth: Vec<usize> =
-                all.filter(|i| (0..130).contains(i)).map(|i| i as usize).collect();
+            let mut truth: Vec<usize> = all.filter(|i| (0..130).contains(i)).map(|i| i as usize).collect();
             truth.sort_unstable();
             truth.dedup();
             assert_eq!(moved.iter().collect::<Vec<_>>(), truth, "{range:?}");

@@ -3,7 +3,7 @@
 use crate::blocks::Blocks;
 use crate::lanes::*;
 use crate::rough::Variation;
-use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
+use crate::slab::{EMPTY, LANES, Slab};
 use crate::steep::Steep;
 use twin::Casting;
 use twin::composite::Over;
@@ -75,7 +75,8 @@ impl Classing<'_> {
                     continue;
                 }
                 if !slab.is_sure[at] {
-                    let bent = 0.125 * bent(simd, slab, cell, block);
+                    let after = self.mean_after(simd, slab, cell, block);
+                    let bent = 0.125 * bent(simd, slab, (cell, block), after);
                     slab.errors[at] = slab.errors[at].max(bent).max(self.hidden(simd, slab, cell, block));
                 }
             }
@@ -121,9 +122,9 @@ impl Classing<'_> {
     }
 }
 
-/// The largest second difference of a cell's means across the columns of a block.
+/// The largest second difference of a cell's means across the columns of a block and the one `after` it.
 #[inline(always)]
-fn bent<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> f32 {
+fn bent<S: Simd>(simd: S, slab: &Slab, (cell, block): (usize, usize), after: [f32; 4]) -> f32 {
     let mut most = splat(simd, 0.0);
     let two = splat(simd, 2.0);
     let (phases, means) = (slab.phases, &slab.means);
@@ -136,8 +137,13 @@ fn bent<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> f32 {
             slab.mean_start(cell, (phase + 1) % phases) + block * LANES + (phase + 1) / phases,
         ];
         let mut here = splat(simd, 0.0);
-        for c in 0..PLAIN_ROWS {
-            let ends = each!(i of 3 => load(simd, means, starts[i] + c * slab.stride));
+        for (c, after) in after.into_iter().enumerate() {
+            let mut ends = each!(i of 3 => load(simd, means, starts[i] + c * slab.stride));
+            if phase + 1 == phases {
+                let mut lanes = ends[2].to_array();
+                lanes[LANES - 1] = after;
+                ends[2] = f32x8::load_array(simd, lanes);
+            }
             here = here.max((ends[0] + ends[2] - two * ends[1]).abs());
         }
         if phase == 0 {
@@ -156,8 +162,7 @@ fn disorder_of_both<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) ->
     let mut most = splat(simd, 0.0);
     let means = &slab.means;
     for phase in 0..slab.phases {
-        let [a, b] =
-            [cell, cell + 1].map(|cell| slab.mean_start(cell, phase) + block * LANES);
+        let [a, b] = [cell, cell + 1].map(|cell| slab.mean_start(cell, phase) + block * LANES);
         let opacity = 3 * slab.stride;
         let (ta, tb) = (load(simd, means, a + opacity), load(simd, means, b + opacity));
         for c in 0..3 {
@@ -192,8 +197,7 @@ fn range_of<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> Option<
             let (next_phase, further) = if phase + 1 < slab.phases { (phase + 1, 0) } else { (0, 1) };
             let start = slab.row_start(depth, phase) + block * LANES;
             let here = load(simd, &slab.scalars, start);
-            let next =
-                load(simd, &slab.scalars, slab.row_start(depth, next_phase) + block * LANES + further);
+            let next = load(simd, &slab.scalars, slab.row_start(depth, next_phase) + block * LANES + further);
             // A comparison with NaN is false.
             low = here.simd_lt(low).select(here, low);
             high = here.simd_gt(high).select(here, high);

@@ -3,9 +3,9 @@
 use crate::Fan;
 use crate::blocks::Blocks;
 use crate::fan::AtDepth;
-use crate::leaves::Leaf;
 use crate::gradients::{gradients_every, spread_gradients};
 use crate::lanes::*;
+use crate::leaves::Leaf;
 use crate::sample::scalars_at;
 use crate::slab::{HALO, Keeps, LANES, Slab};
 use crate::view_row::ViewRow;
@@ -28,9 +28,10 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// Blocks that its columns, and those beside them, lie in.
-    pub(crate) fn blocks(&self, slab: &Slab) -> std::ops::RangeInclusive<usize> {
-        slab.block_of(self.columns[0] - HALO as i64)..=slab.block_of(self.columns[1])
+    /// Blocks that its columns lie in, and those up to `beside` it.
+    pub(crate) fn blocks(&self, slab: &Slab, beside: usize) -> std::ops::RangeInclusive<usize> {
+        let beside = beside as i64;
+        slab.block_of(self.columns[0] - beside)..=slab.block_of(self.columns[1] - 1 + beside)
     }
 }
 
@@ -124,7 +125,7 @@ impl Grid<'_> {
         let mut rays = Rays { grid: self, last: None };
         for span in spans {
             let mut known = None;
-            for block in span.blocks(slab) {
+            for block in span.blocks(slab, HALO) {
                 if !wanted.contains(block) {
                     continue;
                 }
@@ -157,12 +158,12 @@ impl Grid<'_> {
         let mut rays = Rays { grid: self, last: None };
         for span in spans {
             let depth = span.depth as usize;
-            if depth % every != 0 && depth != cells {
+            if !depth.is_multiple_of(every) && depth != cells {
                 continue;
             }
             let near = [depth.saturating_sub(every), (depth + every).min(cells)];
             let mut known = None;
-            for block in span.blocks(slab) {
+            for block in span.blocks(slab, every.max(HALO)) {
                 if !wanted.contains(block) || !slab.shows(block, near) {
                     continue;
                 }

@@ -15,13 +15,13 @@ pub(crate) fn spread_gradients<S: Simd>(simd: S, slab: &mut Slab, block: usize, 
     let cells = slab.cells();
     let mut before = 0;
     for depth in 0..=cells {
-        if depth % every != 0 && depth != cells {
+        if !depth.is_multiple_of(every) && depth != cells {
             continue;
         }
         let shows_behind = slab.shows(block, [depth, (depth + every).min(cells)]);
         let shows_in_front = slab.shows(block, [depth.saturating_sub(every), depth]);
         if shows_in_front || shows_behind {
-            for phase in (0..slab.phases).filter(|phase| phase % every != 0) {
+            for phase in (0..slab.phases).filter(|phase| !phase.is_multiple_of(every)) {
                 let first = phase - phase % every;
                 let next = if first + every == slab.phases { (0, 1) } else { (first + every, 0) };
                 let ends = [(depth, first, 0), (depth, next.0, next.1)];

@@ -208,8 +208,15 @@ impl March<'_> {
             for (view, state) in views.iter_mut().enumerate() {
                 if pixels_of(state, wide.reach(fan, view), &need[spacing], closer, pixels) {
                     let slab = if spacing == 0 { &*wide } else { &*close };
-                    let sweep =
-                        Sweep { fan, slab, view, row: self.grid.row, thickness, steep: self.steep, tolerance };
+                    let sweep = Sweep {
+                        fan,
+                        slab,
+                        view,
+                        row: self.grid.row,
+                        thickness,
+                        steep: self.steep,
+                        tolerance,
+                    };
                     sweep.add(simd, state, pixels, places);
                 }
             }
@@ -237,7 +244,7 @@ impl March<'_> {
     /// Notes the leaves that were looked at.
     fn note(&self, slab: &Slab, spans: &[Span], wanted: &Blocks, cast: &mut RowCast) {
         for span in spans {
-            if span.is_first && span.blocks(slab).any(|block| wanted.contains(block)) {
+            if span.is_first && span.blocks(slab, 0).any(|block| wanted.contains(block)) {
                 let casting = self.grid.casting;
                 let node = &casting.volume.nodes[span.node as usize];
                 casting.observer.note(span.node, node.deficit);

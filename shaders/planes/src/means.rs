@@ -36,16 +36,35 @@ impl Classing<'_> {
                     }
                 }
             }
-            if wanted.contains(block + 1) {
-                continue;
-            }
-            // The first column of the next block is compared with this one's.
-            for cell in 0..slab.cells() {
-                if slab.errors[cell * across + block] != EMPTY {
-                    self.means_of(simd, slab, (cell, block + 1, 0), None);
-                }
-            }
         }
+    }
+
+    /// Mean of the first column after a block, alone: the same whether its own block is looked at or not. It is lit as the last
+    /// column before it.
+    #[inline(always)]
+    pub(crate) fn mean_after<S: Simd>(&self, simd: S, slab: &Slab, cell: usize, block: usize) -> [f32; 4] {
+        let next = (block + 1) * LANES;
+        let [front, behind] = [cell, cell + 1].map(|depth| slab.row_start(depth, 0) + next);
+        let scalars = (slab.scalars[front], slab.scalars[behind]);
+        let mut means = [0.0; 4];
+        if !(scalars.0 + scalars.1).is_finite() {
+            return means;
+        }
+        let mut spread = 0.0;
+        if !slab.spreads.is_empty() {
+            spread = 0.5 * (slab.spreads[front] + slab.spreads[behind]);
+        }
+        let casting = self.steep.casting;
+        let (a, b) = (locate(casting.tables, scalars.0), locate(casting.tables, scalars.1));
+        let k = mean(casting, [&a, &b], scalars, spread);
+        let mut body = 1.0;
+        if let Some(gradient) = gather(simd, slab, (cell, block, slab.phases - 1)).gradient {
+            body = self.steep.body(simd, gradient).to_array()[LANES - 1];
+        }
+        for c in 0..4 {
+            means[c] = k[c] * self.thickness * if c < 3 { body } else { 1.0 };
+        }
+        means
     }
 
     /// Means of one block and phase. What the scalars at its back look up, if they were.
@@ -136,17 +155,15 @@ impl Classing<'_> {
         let mut body = splat(simd, 1.0);
         if let Some(gradient) = gradient {
             body = self.steep.body(simd, gradient);
-            for axis in 0..3 {
+            for (axis, along) in gradient.into_iter().enumerate() {
                 let start = out + (PLAIN_ROWS + axis) * stride;
-                gradient[axis].store_slice(&mut means[start..start + LANES]);
+                along.store_slice(&mut means[start..start + LANES]);
             }
         }
-        for c in 0..3 {
+        for (c, k) in [k[0] * body, k[1] * body, k[2] * body, k[3]].into_iter().enumerate() {
             let start = out + c * stride;
-            (k[c] * body).store_slice(&mut means[start..start + LANES]);
+            k.store_slice(&mut means[start..start + LANES]);
         }
-        let start = out + 3 * stride;
-        k[3].store_slice(&mut means[start..start + LANES]);
     }
 }
 

@@ -8,7 +8,7 @@ use needs::tables::Tables;
 use twin::tables::is_vacant_around;
 
 /// Distances between samples, each half the one before.
-pub(crate) const SPACINGS: usize = 5;
+pub(crate) const SPACINGS: usize = 6;
 
 /// What is left of an error at half the distance: between a quarter, where scalars bend evenly, and a half, at a kink.
 const LEFT_AT_HALF: f32 = 0.35;

@@ -19,7 +19,7 @@ use twin::shade::Plain;
 
 /// Bounds of the error of a cell's means, and of the order of what a cell shows, in tolerances: as bounds they lie far above
 /// the errors themselves.
-const SPACING_ERROR: f32 = 300.0;
+const SPACING_ERROR: f32 = 250.0;
 const MEAN_ERROR: f32 = 300.0;
 const ORDER_ERROR: f32 = 10.0;
 

@@ -187,7 +187,7 @@ impl Steep<'_> {
         gradient: Option<[[f32x8<S>; 2]; 3]>,
         halfway: [f32x8<S>; 3],
     ) -> Option<Light<S>> {
-        let Some(ends) = gradient else { return None };
+        let ends = gradient?;
         let middle = each!(axis of 3 => (ends[axis][0] + ends[axis][1]) * splat(simd, 0.5));
         Some(self.light(simd, middle, halfway))
     }

@@ -42,8 +42,9 @@ impl Setting {
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
         let rays = rays_of(display, &projectors, frame)?;
         let dims = shape.dims().as_dvec3();
-        let caster =
-            CasterOfFrame::choose(engine.options.caster, &engine.device, &needs, &rays, frame, dims)?;
+        let all = rays_of(display, &(0..display.projectors.len() as u32).collect::<Vec<_>>(), frame)?;
+        let asked = engine.options.caster;
+        let caster = CasterOfFrame::choose(asked, &engine.device, &needs, [&rays, &all], frame, dims)?;
         Ok(Self {
             scene,
             rays,
