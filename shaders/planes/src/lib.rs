@@ -27,5 +27,6 @@ mod thick;
 mod view_row;
 
 pub use fan::Fan;
-pub use row::{Planes, RowCast, Scratch};
+pub use march::RowCast;
+pub use row::{Planes, Scratch};
 pub use slab::Slab;

@@ -8,7 +8,6 @@ use crate::lanes::Simd;
 use crate::leaves::Leaf;
 use crate::need::{Judge, SPACINGS};
 use crate::rough::Variation;
-use crate::row::RowCast;
 use crate::slab::{Keeps, Slab};
 use crate::steep::Steep;
 use crate::sweep::{Places, Sweep};
@@ -39,6 +38,15 @@ pub(crate) struct Room {
     wanted: Blocks,
     need: [Blocks; SPACINGS],
     pixels: Blocks,
+}
+
+/// What a row brought back, its colours apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RowCast {
+    /// Samples of the volume.
+    pub samples: u64,
+    /// Whether a node on the way was too coarse.
+    pub is_missing: bool,
 }
 
 /// A row of all views.

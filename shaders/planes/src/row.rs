@@ -5,7 +5,7 @@ use crate::fill::Grid;
 use crate::fine::FineTable;
 use crate::lanes::{Level, Simd, dispatch};
 use crate::leaves::{Leaf, leaves, volume_from_display};
-use crate::march::{March, Room};
+use crate::march::{March, Room, RowCast};
 use crate::rough::{Roughness, Variation};
 use crate::slab::Keeps;
 use crate::steep::Steep;
@@ -41,15 +41,6 @@ pub struct Scratch {
     leaves: Vec<Leaf>,
     views: Vec<ViewRow>,
     room: Room,
-}
-
-/// What a row brought back, its colours apart.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RowCast {
-    /// Samples of the volume.
-    pub samples: u64,
-    /// Whether a node on the way was too coarse.
-    pub is_missing: bool,
 }
 
 impl<'a> Planes<'a> {
