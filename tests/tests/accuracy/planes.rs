@@ -21,7 +21,7 @@ fn display() -> Display {
 /// is off, where it was thought to be small enough.
 fn promised(display: &Display) -> Vec<(TestScene, Limits)> {
     let mut all = vec![
-        (scenes::shells(display), Limits::of_255(0.25, 4.0, 6.5)),
+        (scenes::shells(display), Limits::of_255(0.25, 4.0, 6.0)),
         (scenes::marschner_lobb(display), Limits::of_255(0.9, 10.0, 11.0)),
         (scenes::sparse_vessels(display), Limits::of_255(0.3, 6.0, 13.0)),
         (scenes::stored_vessels(display), Limits::of_255(0.35, 8.0, 13.0)),
