@@ -8,7 +8,7 @@ use crate::steep::Steep;
 use twin::Casting;
 use twin::composite::Over;
 use twin::spread::sample_over;
-use twin::tables::{Located, is_vacant_around};
+use twin::tables::{Located, is_vacant_around, locate};
 
 /// What classification goes by.
 pub(crate) struct Classing<'a> {
@@ -71,10 +71,7 @@ impl Classing<'_> {
         for block in wanted.iter() {
             for cell in 0..slab.cells() {
                 let at = cell * across + block;
-                if slab.errors[at] == EMPTY {
-                    continue;
-                }
-                if !slab.is_sure[at] {
+                if slab.errors[at] != EMPTY && !slab.is_sure[at] {
                     let after = self.mean_after(simd, slab, cell, block);
                     let bent = 0.125 * bent(simd, slab, (cell, block), after);
                     slab.errors[at] = slab.errors[at].max(bent).max(self.hidden(simd, slab, cell, block));
@@ -97,7 +94,7 @@ impl Classing<'_> {
     fn hidden<S: Simd>(&self, simd: S, slab: &Slab, cell: usize, block: usize) -> f32 {
         let mut most = 0.0f32;
         for phase in 0..slab.phases {
-            let (next_phase, entry) = if phase + 1 == slab.phases { (0, 1) } else { (phase + 1, 0) };
+            let (next_phase, entry) = slab.step(phase, 1);
             let here = slab.row_start(cell, phase) + block * LANES;
             let next = slab.row_start(cell, next_phase) + block * LANES + entry;
             let depth = slab.phases * slab.stride;
@@ -131,10 +128,11 @@ fn bent<S: Simd>(simd: S, slab: &Slab, (cell, block): (usize, usize), after: [f3
     for phase in 0..phases {
         // The column before each and the one after. The first of all is compared with no other block.
         let (before, entry) = if phase == 0 { (phases - 1, 0) } else { (phase - 1, 1) };
+        let (after_phase, further) = slab.step(phase, 1);
         let starts = [
             slab.mean_start(cell, before) + block * LANES + entry - 1,
             slab.mean_start(cell, phase) + block * LANES,
-            slab.mean_start(cell, (phase + 1) % phases) + block * LANES + (phase + 1) / phases,
+            slab.mean_start(cell, after_phase) + block * LANES + further,
         ];
         let mut here = splat(simd, 0.0);
         for (c, after) in after.into_iter().enumerate() {
@@ -174,6 +172,13 @@ fn disorder_of_both<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) ->
     largest(most)
 }
 
+/// Mean (τ c, τ) between two scalars that nobody has looked up.
+#[inline(always)]
+pub(crate) fn mean_alone(casting: &Casting<f32>, scalars: (f32, f32), spread: f32) -> [f32; 4] {
+    let (a, b) = (locate(casting.tables, scalars.0), locate(casting.tables, scalars.1));
+    mean(casting, [&a, &b], scalars, spread)
+}
+
 /// Mean (τ c, τ) between two scalars.
 #[inline(always)]
 pub(crate) fn mean(
@@ -194,7 +199,7 @@ fn range_of<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> Option<
     let (mut spread, mut least_spread) = (zero, splat(simd, f32::MAX));
     for depth in [cell, cell + 1] {
         for phase in 0..slab.phases {
-            let (next_phase, further) = if phase + 1 < slab.phases { (phase + 1, 0) } else { (0, 1) };
+            let (next_phase, further) = slab.step(phase, 1);
             let start = slab.row_start(depth, phase) + block * LANES;
             let here = load(simd, &slab.scalars, start);
             let next = load(simd, &slab.scalars, slab.row_start(depth, next_phase) + block * LANES + further);
@@ -214,7 +219,7 @@ fn range_of<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> Option<
             }
         }
     }
-    let (low, high) = (least(low), -least(zero - high));
+    let (low, high) = (least(low), greatest(simd, high));
     (low <= high).then_some(Range {
         low,
         high,

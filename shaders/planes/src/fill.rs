@@ -129,10 +129,7 @@ impl Grid<'_> {
                 if !wanted.contains(block) {
                     continue;
                 }
-                if known.is_none() {
-                    known = Some(rays.line_of::<K>(slab, span, keeps));
-                }
-                let Some(line) = &known else { continue };
+                let line = rays.line_of::<K>(&mut known, slab, span, keeps);
                 let next = block + 1;
                 let has_halo = next < slab.blocks_across() && !wanted.contains(next);
                 samples += line.fill_block::<S, K>(simd, slab, block, if has_halo { HALO } else { 0 });
@@ -141,8 +138,8 @@ impl Grid<'_> {
         samples
     }
 
-    /// Gradients where something shows in front of a sample or behind it, of those blocks that are `wanted`. Where samples lie
-    /// closer than at the first two spacings, gradients are taken as far apart as at the second, and lie between them elsewhere.
+    /// Gradients where something shows in front of a sample or behind it, of those blocks that are `wanted`: taken as far apart
+    /// as [`gradients_every`] says, and between these elsewhere.
     #[inline(always)]
     pub(crate) fn fill_gradients<S: Simd, K: Kernel>(
         &self,
@@ -167,10 +164,7 @@ impl Grid<'_> {
                 if !wanted.contains(block) || !slab.shows(block, near) {
                     continue;
                 }
-                if known.is_none() {
-                    known = Some(rays.line_of::<K>(slab, span, keeps));
-                }
-                let Some(line) = &known else { continue };
+                let line = rays.line_of::<K>(&mut known, slab, span, keeps);
                 line.fill_gradients::<K>(slab, block, every);
             }
         }
@@ -189,8 +183,23 @@ struct Rays<'a> {
 }
 
 impl<'a> Rays<'a> {
+    /// The line of a span, unless it is known already.
     #[inline(always)]
-    fn line_of<K: Kernel>(&mut self, slab: &Slab, span: &Span, keeps: Keeps) -> Line<'a> {
+    fn line_of<'l, K: Kernel>(
+        &mut self,
+        known: &'l mut Option<Line<'a>>,
+        slab: &Slab,
+        span: &Span,
+        keeps: Keeps,
+    ) -> &'l Line<'a> {
+        if known.is_none() {
+            *known = Some(self.new_line::<K>(slab, span, keeps));
+        }
+        known.as_ref().expect("it has just been found")
+    }
+
+    #[inline(always)]
+    fn new_line<K: Kernel>(&mut self, slab: &Slab, span: &Span, keeps: Keeps) -> Line<'a> {
         let Grid { casting, fan, .. } = *self.grid;
         let depth = &slab.depths[span.depth as usize];
         let ray = match self.last {
@@ -281,17 +290,16 @@ impl Line<'_> {
         [from, to]: [i64; 2],
     ) -> u64 {
         let [first, _] = slab.columns(block);
-        let own = [from.max(self.columns[0]), to.min(self.columns[1])];
-        let mut samples = 0;
-        for column in from..to {
-            let is_alone = column < own[0] || column >= own[1];
-            if is_alone || self.brick.has_levels::<K>() {
-                let at = slab.place(self.depth, block, (column - first) as usize);
-                samples += self.put::<K>(slab, column, at);
-            }
+        // The leaf's own, eight at a time; where levels are mixed, none.
+        let mut own = [to; 2];
+        if !self.brick.has_levels::<K>() {
+            own[0] = self.columns[0].clamp(from, to);
+            own[1] = self.columns[1].clamp(own[0], to);
         }
-        if self.brick.has_levels::<K>() {
-            return samples;
+        let mut samples = 0;
+        for column in (from..own[0]).chain(own[1]..to) {
+            let at = slab.place(self.depth, block, (column - first) as usize);
+            samples += self.put::<K>(slab, column, at);
         }
         let spreads = self.keeps.spreads && self.brick.own.has_deviations();
         let mut column = own[0];

@@ -19,7 +19,8 @@ const LEAST_SPREAD: f32 = 2.0 / CELLS as f32;
 #[derive(Clone, Debug)]
 pub(crate) struct FineTable {
     entries: Vec<[f32; LANES]>,
-    /// F alone.
+    /// f alone, and F.
+    values: Vec<[f32; 4]>,
     integrals: Vec<[f32; 4]>,
     /// The largest error of a mean that rounding makes, in units of the table.
     pub(crate) rounding: f32,
@@ -48,9 +49,11 @@ impl FineTable {
             }
         }
         let most = sums.into_iter().fold(0.0, f64::max);
-        let integrals = entries.iter().map(|e: &[f32; LANES]| [e[4], e[5], e[6], e[7]]).collect();
+        let values = entries.iter().map(|e: &[f32; LANES]| [e[0], e[1], e[2], e[3]]).collect();
+        let integrals = entries.iter().map(|e| [e[4], e[5], e[6], e[7]]).collect();
         Self {
             entries,
+            values,
             integrals,
             rounding: (2.0 * most * f64::from(f32::EPSILON) / f64::from(CLOSE)) as f32,
         }
@@ -81,17 +84,7 @@ impl FineTable {
     /// f alone, at scalars in [0, 1].
     #[inline(always)]
     pub(crate) fn value_at<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> [f32x8<S>; 4] {
-        let (whole, part) = place_of(simd, scalars);
-        let part = part.to_array();
-        let mut values = [0.0f32; 4 * LANES];
-        for lane in 0..LANES {
-            let entry = whole[lane];
-            let low = f32x4::from_slice(simd, &self.entries[entry][..4]);
-            let high = f32x4::from_slice(simd, &self.entries[entry + 1][..4]);
-            let at = low + (high - low) * f32x4::splat(simd, part[lane]);
-            at.store_slice(&mut values[4 * lane..4 * lane + 4]);
-        }
-        columns(simd, &values)
+        straight_between(simd, &self.values, scalars)
     }
 
     /// Mean of (τ c, τ) over segments between two scalars, each of which stands for those within `spread` of it; see
@@ -129,18 +122,23 @@ impl FineTable {
     /// F alone, at scalars that are apart: straight between entries.
     #[inline(always)]
     fn integral_at<S: Simd>(&self, simd: S, scalars: f32x8<S>) -> [f32x8<S>; 4] {
-        let (whole, part) = place_of(simd, scalars);
-        let part = part.to_array();
-        let mut integrals = [0.0f32; 4 * LANES];
-        for lane in 0..LANES {
-            let entry = whole[lane];
-            let [low, high] = [&self.integrals[entry], &self.integrals[entry + 1]];
-            let (i0, i1) = (f32x4::from_slice(simd, low), f32x4::from_slice(simd, high));
-            let at = i0 + (i1 - i0) * f32x4::splat(simd, part[lane]);
-            at.store_slice(&mut integrals[4 * lane..4 * lane + 4]);
-        }
-        columns(simd, &integrals)
+        straight_between(simd, &self.integrals, scalars)
     }
+}
+
+/// A list's numbers at eight scalars, straight between entries.
+#[inline(always)]
+fn straight_between<S: Simd>(simd: S, list: &[[f32; 4]], scalars: f32x8<S>) -> [f32x8<S>; 4] {
+    let (whole, part) = place_of(simd, scalars);
+    let part = part.to_array();
+    let mut found = [0.0f32; 4 * LANES];
+    for lane in 0..LANES {
+        let entry = whole[lane];
+        let (low, high) = (f32x4::from_slice(simd, &list[entry]), f32x4::from_slice(simd, &list[entry + 1]));
+        let at = low + (high - low) * f32x4::splat(simd, part[lane]);
+        at.store_slice(&mut found[4 * lane..4 * lane + 4]);
+    }
+    columns(simd, &found)
 }
 
 /// The entries at or below eight scalars, none of them the last, and how far they are from there to the next.

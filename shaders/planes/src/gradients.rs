@@ -3,8 +3,8 @@
 use crate::lanes::*;
 use crate::slab::{LANES, Slab};
 
-/// At how many columns and depths a gradient is taken once, where samples lie at a spacing: no closer than half a voxel, as
-/// differences over two voxels change little within one.
+/// At how many columns and depths a gradient is taken once, where samples lie at a spacing: no closer than a quarter of a voxel,
+/// as differences over two voxels change little within that.
 pub(crate) const fn gradients_every(spacing: usize) -> usize {
     1 << spacing.saturating_sub(2)
 }
@@ -23,7 +23,7 @@ pub(crate) fn spread_gradients<S: Simd>(simd: S, slab: &mut Slab, block: usize, 
         if shows_in_front || shows_behind {
             for phase in (0..slab.phases).filter(|phase| !phase.is_multiple_of(every)) {
                 let first = phase - phase % every;
-                let next = if first + every == slab.phases { (0, 1) } else { (first + every, 0) };
+                let next = slab.step(first, every);
                 let ends = [(depth, first, 0), (depth, next.0, next.1)];
                 put_between(simd, slab, block, ends, (depth, phase), (phase % every) as f32 / every as f32);
             }

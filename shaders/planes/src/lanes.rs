@@ -62,6 +62,12 @@ pub(crate) fn least<S: Simd>(numbers: f32x8<S>) -> f32 {
     least
 }
 
+/// The greatest of eight numbers.
+#[inline(always)]
+pub(crate) fn greatest<S: Simd>(simd: S, numbers: f32x8<S>) -> f32 {
+    -least(splat(simd, 0.0) - numbers)
+}
+
 /// e^−x for x ≥ 0, to a few units of f32.
 #[inline(always)]
 pub(crate) fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {

@@ -37,6 +37,8 @@ pub(crate) struct Room {
     bends: Vec<f32>,
     wanted: Blocks,
     need: [Blocks; SPACINGS],
+    /// Which blocks of the widest slab each view's pixels meet.
+    reaches: Vec<[i64; 2]>,
     pixels: Blocks,
 }
 
@@ -119,8 +121,11 @@ impl March<'_> {
         let columns = self.grid.extent(&room.near, slab.ends());
         slab.lay_columns(columns);
         room.wanted.clear(slab.blocks_across());
+        room.reaches.clear();
         for (view, state) in views.iter().enumerate() {
-            room.wanted.add_moved(&state.open, slab.reach(self.grid.fan, view));
+            let reach = slab.reach(self.grid.fan, view);
+            room.wanted.add_moved(&state.open, reach);
+            room.reaches.push(reach);
         }
         // The last one is there for what is loaded beyond another.
         room.wanted.remove(slab.blocks_across() - 1);
@@ -156,7 +161,7 @@ impl March<'_> {
             if room.need[spacing].is_empty() {
                 break;
             }
-            self.add_spacing::<S, K>(simd, (part, spacing, is_outer), views, room, cast);
+            self.add_spacing::<S, K>(simd, (part, spacing), views, room, cast);
         }
     }
 
@@ -165,36 +170,36 @@ impl March<'_> {
     fn add_spacing<S: Simd, K: Kernel>(
         &self,
         simd: S,
-        (part, spacing, is_outer): (Part, usize, bool),
+        (part, spacing): (Part, usize),
         views: &mut [ViewRow],
         room: &mut Room,
         cast: &mut RowCast,
     ) {
-        let Room { wide, close, spans, near, places, wanted, need, pixels, .. } = room;
+        let Room { wide, close, spans, near, places, wanted, need, reaches, pixels, .. } = room;
         let fan = self.grid.fan;
         let closer = need.get(spacing + 1);
         let cells = part.cells << spacing;
         let count = if spacing == 0 { 1 } else { cells.div_ceil(FINE_CELLS) };
+        (close.base, close.stride) = (wide.base, wide.stride);
+        let is_outer = wide.is_outer;
+        let slab = if spacing == 0 { wide } else { close };
         for slice in 0..count {
             let bounds = [slice * cells / count, (slice + 1) * cells / count];
             let z = bounds.map(|cell| part.z[0] + (part.z[1] - part.z[0]) * (cell as f64 / cells as f64));
             let slice = Part { z, cells: bounds[1] - bounds[0], ..part };
             if spacing > 0 {
-                self.lay_out(close, slice, spacing, is_outer);
-                (close.base, close.stride) = (wide.base, wide.stride);
+                self.lay_out(slab, slice, spacing, is_outer);
             }
-            wanted.clear(wide.blocks_across());
+            wanted.clear(slab.blocks_across());
             for (view, state) in views.iter().enumerate() {
-                if pixels_of(state, wide.reach(fan, view), &need[spacing], closer, pixels) {
-                    let of = if spacing == 0 { &*wide } else { &*close };
-                    wanted.add_moved(pixels, of.reach(fan, view));
+                if pixels_of(state, reaches[view], &need[spacing], closer, pixels) {
+                    wanted.add_moved(pixels, slab.reach(fan, view));
                 }
             }
-            wanted.remove(wide.blocks_across() - 1);
+            wanted.remove(slab.blocks_across() - 1);
             if wanted.is_empty() {
                 continue;
             }
-            let slab = if spacing == 0 { &mut *wide } else { &mut *close };
             if spacing > 0 {
                 self.grid.spans(slab, near, spans);
                 slab.clear(wanted, self.keeps);
@@ -214,8 +219,7 @@ impl March<'_> {
             }
             classing.settle(simd, slab, wanted);
             for (view, state) in views.iter_mut().enumerate() {
-                if pixels_of(state, wide.reach(fan, view), &need[spacing], closer, pixels) {
-                    let slab = if spacing == 0 { &*wide } else { &*close };
+                if pixels_of(state, reaches[view], &need[spacing], closer, pixels) {
                     let sweep = Sweep {
                         fan,
                         slab,

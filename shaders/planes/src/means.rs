@@ -1,12 +1,12 @@
 //! Means of what lies between two depths, column by column: all views share them.
 
 use crate::blocks::Blocks;
-use crate::classify::{Classing, mean};
+use crate::classify::{Classing, mean_alone};
 use crate::fine::{Looked, mean_between};
 use crate::lanes::*;
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
 use crate::steep::{self, range};
-use twin::tables::{is_vacant_around, locate};
+use twin::tables::is_vacant_around;
 
 /// What eight columns hold between two depths.
 struct Met<S: Simd> {
@@ -54,9 +54,7 @@ impl Classing<'_> {
         if !slab.spreads.is_empty() {
             spread = 0.5 * (slab.spreads[front] + slab.spreads[behind]);
         }
-        let casting = self.steep.casting;
-        let (a, b) = (locate(casting.tables, scalars.0), locate(casting.tables, scalars.1));
-        let k = mean(casting, [&a, &b], scalars, spread);
+        let k = mean_alone(self.steep.casting, scalars, spread);
         let mut body = 1.0;
         if let Some(gradient) = gather(simd, slab, (cell, block, slab.phases - 1)).gradient {
             body = self.steep.body(simd, gradient).to_array()[LANES - 1];
@@ -130,9 +128,7 @@ impl Classing<'_> {
             if thickness[lane] == 0.0 {
                 continue;
             }
-            let (casting, ends) = (self.steep.casting, (front[lane], behind[lane]));
-            let (a, b) = (locate(casting.tables, ends.0), locate(casting.tables, ends.1));
-            let k = mean(casting, [&a, &b], ends, spread[lane]);
+            let k = mean_alone(self.steep.casting, (front[lane], behind[lane]), spread[lane]);
             for c in 0..4 {
                 means[c][lane] = k[c] * thickness[lane];
             }

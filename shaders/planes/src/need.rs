@@ -79,12 +79,8 @@ impl Judge<'_> {
                     low = corner.simd_lt(low).select(corner, low);
                     high = corner.simd_gt(high).select(corner, high);
                 }
+                let (lowest, highest) = (least(low), greatest(simd, high));
                 let (low, high) = (low.to_array(), high.to_array());
-                let (mut lowest, mut highest) = (f32::MAX, f32::MIN);
-                for lane in 0..LANES {
-                    lowest = if low[lane] < lowest { low[lane] } else { lowest };
-                    highest = if high[lane] > highest { high[lane] } else { highest };
-                }
                 let reach = most_bend + most_spread;
                 if lowest > highest || is_vacant_around(&self.tables.cells, (lowest, highest), reach) {
                     continue;
@@ -124,8 +120,7 @@ fn column<S: Simd>(
     (depth, phase, block): (usize, usize, usize),
     further: usize,
 ) -> f32x8<S> {
-    let at = phase + further;
-    let (phase, entry) = (at % slab.phases, at / slab.phases);
+    let (phase, entry) = slab.step(phase, further);
     load(simd, &slab.scalars, slab.row_start(depth, phase) + block * LANES + entry)
 }
 

@@ -17,10 +17,11 @@ use twin::composite::Over;
 use twin::kernel::{Blended, Full, Kernel, Lean};
 use twin::shade::Plain;
 
-/// Bounds of the error of a cell's means, and of the order of what a cell shows, in tolerances: as bounds they lie far above
-/// the errors themselves.
+/// Largest errors of a cell's light, in tolerances: of what distances between samples make, and of means. They are found for the
+/// worst of a block, and lie far above those of pictures; chosen from studies of both.
 const SPACING_ERROR: f32 = 250.0;
 const MEAN_ERROR: f32 = 300.0;
+/// The same of the order of what a cell shows.
 const ORDER_ERROR: f32 = 10.0;
 
 /// A scene, ready to be cast row by row.

@@ -40,9 +40,10 @@ pub struct Slab {
     pub(crate) spreads: Vec<f32>,
     /// Gradients, three rows per depth and phase; empty where no light falls.
     pub(crate) gradients: Vec<f32>,
-    /// Between depths, where anything shows: optical depth times colour, lit but for the highlight, and optical depth, of a ray along z; where light
-    /// falls the gradient as well. As many rows per cell and phase.
+    /// Between depths, where anything shows: optical depth times colour, lit but for the highlight, and optical depth, of a ray
+    /// along z; where light falls the gradient as well.
     pub(crate) means: Vec<f32>,
+    /// Rows of means per cell and phase.
     pub(crate) mean_rows: usize,
     /// Cell by cell, the largest error of light that each block's means make; [`EMPTY`] where nothing shows.
     pub(crate) errors: Vec<f32>,
@@ -166,6 +167,12 @@ impl Slab {
     #[inline(always)]
     pub(crate) fn place(&self, depth: usize, block: usize, index: usize) -> usize {
         self.row_start(depth, 0) + block * LANES + self.offsets[index]
+    }
+
+    /// The phase of the columns `further` on from those of a phase, and by how many entries they are further.
+    #[inline(always)]
+    pub(crate) fn step(&self, phase: usize, further: usize) -> (usize, usize) {
+        ((phase + further) % self.phases, (phase + further) / self.phases)
     }
 
     /// Where the rows of means of a phase and cell begin.

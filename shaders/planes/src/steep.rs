@@ -143,9 +143,6 @@ impl Steep<'_> {
         let middle = splat(simd, 0.5) * (s0 + s1);
         let a = self.fine.mean_around(simd, [s0, middle], spread);
         let b = self.fine.mean_around(simd, [middle, s1], spread);
-        if !(a[3] + b[3]).simd_gt(splat(simd, 0.0)).any_true() {
-            return;
-        }
         let lights = self.lights(simd, cell.gradient, halfway);
         let thickness = splat(simd, 0.5) * cell.thickness;
         let parts = self.parts(simd, (a, b), thickness, pixels[3]);
@@ -188,8 +185,7 @@ impl Steep<'_> {
         halfway: [f32x8<S>; 3],
     ) -> Option<Light<S>> {
         let ends = gradient?;
-        let middle = each!(axis of 3 => (ends[axis][0] + ends[axis][1]) * splat(simd, 0.5));
-        Some(self.light(simd, middle, halfway))
+        Some(self.light(simd, middle_of(simd, ends), halfway))
     }
 
     /// Parts of half a cell that the order of what it shows asks for, the most of all eight.
@@ -299,6 +295,12 @@ pub(crate) fn disorder<S: Simd>(
     let order = a[0].max(a[1]).max(a[2]) + b[0].max(b[1]).max(b[2]);
     let depth = mean[3] * thickness;
     splat(simd, 0.125) * order * thickness * thickness / (splat(simd, 1.0) + depth * depth)
+}
+
+/// The gradient half-way between two ends.
+#[inline(always)]
+pub(crate) fn middle_of<S: Simd>(simd: S, ends: [[f32x8<S>; 2]; 3]) -> [f32x8<S>; 3] {
+    each!(axis of 3 => (ends[axis][0] + ends[axis][1]) * splat(simd, 0.5))
 }
 
 #[inline(always)]

@@ -5,7 +5,7 @@ use crate::blocks::Blocks;
 use crate::fine::Looked;
 use crate::lanes::*;
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
-use crate::steep::{Cell, Pixels, Steep, range};
+use crate::steep::{Cell, Pixels, Steep, middle_of, range};
 use crate::thick;
 use crate::view_row::ViewRow;
 use twin::tables::is_vacant_around;
@@ -328,8 +328,8 @@ impl Sweep<'_> {
         let (spread, thickness) = (spread.to_array(), thickness.to_array());
         let mut middle = None;
         if let Some(g) = gradient {
-            let half = f32x8::splat(simd, 0.5);
-            middle = Some(each!(axis of 3 => ((g[axis][0] + g[axis][1]) * half).to_array()));
+            let g = middle_of(simd, g);
+            middle = Some(each!(axis of 3 => g[axis].to_array()));
         }
         let gradient = middle;
         let mut rgba =

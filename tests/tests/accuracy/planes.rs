@@ -8,7 +8,7 @@ use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{Curve, Quality};
 use planes::{Fan, Planes, Scratch};
 use protocol::{Caster, CasterChoice, DeviceChoice};
-use twin::FeedbackCell;
+use twin::{FeedbackCell, ProjectorRays, SceneNumbers};
 
 const PROJECTORS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 const COMPARED: [u32; 2] = [0, 5];
@@ -72,6 +72,13 @@ fn a_medium_that_is_too_thick_by_a_twentieth_is_found() {
     assert!(!limits.hold(&spoiled), "{spoiled}");
 }
 
+/// A scene's numbers, and the rays of all views.
+fn views_of(display: &Display, scene: &TestScene) -> (SceneNumbers<f32>, Vec<ProjectorRays<f32>>) {
+    let view = |&projector: &u32| view(display, projector, &scene.frame, &*scene.source).rounded();
+    let views: Vec<_> = PROJECTORS.iter().map(view).collect();
+    (views[0].scene, views.iter().map(|view| view.rays).collect())
+}
+
 /// The rows of all views, as bytes.
 fn rows(planes: &Planes, fan: &Fan, views: usize) -> Vec<u32> {
     let mut scratch = Scratch::default();
@@ -91,16 +98,12 @@ fn every_level_of_instructions_gives_the_same_bytes() {
     let display = display();
     for scene in [scenes::shells(&display), scenes::stored_vessels(&display), scenes::noise(&display)] {
         let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
-        let views: Vec<_> = PROJECTORS
-            .iter()
-            .map(|&projector| view(&display, projector, &scene.frame, &*scene.source).rounded())
-            .collect();
-        let rays: Vec<_> = views.iter().map(|view| view.rays).collect();
+        let (numbers, rays) = views_of(&display, &scene);
         let fan = Fan::of(&rays).unwrap();
         let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
-        let casting = twin.casting(&views[0].scene, &feedback);
-        let best = rows(&Planes::new(&casting, &fan), &fan, views.len());
-        let plain = rows(&Planes::new(&casting, &fan).plainly(), &fan, views.len());
+        let casting = twin.casting(&numbers, &feedback);
+        let best = rows(&Planes::new(&casting, &fan), &fan, rays.len());
+        let plain = rows(&Planes::new(&casting, &fan).plainly(), &fan, rays.len());
         assert!(best == plain, "{}", scene.name);
         assert!(best.iter().any(|&bits| f32::from_bits(bits) > 0.1), "a black picture proves nothing");
         assert!(feedback.iter().any(|cell| cell.entry().rays > 0), "{}: no node was noted", scene.name);
@@ -115,13 +118,9 @@ fn a_view_is_the_same_whoever_shares_its_rows() {
     all.extend(scenes::cranium(&display));
     for scene in all {
         let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
-        let views: Vec<_> = PROJECTORS
-            .iter()
-            .map(|&projector| view(&display, projector, &scene.frame, &*scene.source).rounded())
-            .collect();
-        let rays: Vec<_> = views.iter().map(|view| view.rays).collect();
+        let (numbers, rays) = views_of(&display, &scene);
         let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
-        let casting = twin.casting(&views[0].scene, &feedback);
+        let casting = twin.casting(&numbers, &feedback);
         let cast = |rays: &[_]| {
             let fan = Fan::of(rays).unwrap();
             rows(&Planes::new(&casting, &fan), &fan, rays.len())

@@ -129,7 +129,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     settle(&mut cut);
     device.write_index(&build_index(&cut, &[], &rules), &cells);
     let scene = scene_numbers(&display, frame, &shape);
-    let rays = rays_of(&display, &[0, 1], frame).unwrap();
+    let rays = rays_of(&display, frame).unwrap();
     let picture = |rays: &ProjectorRays<f32>| {
         let (views, part) = (std::slice::from_ref(rays), Part::Every { stride: 1 });
         let (gather, counts) = (Gather::Own, true);

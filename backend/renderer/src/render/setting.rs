@@ -40,9 +40,9 @@ impl Setting {
         let lod = LodRule::new(display, frame.display_from_volume, frame.quality.lod_scale);
         let needs =
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
-        let rays = rays_of(display, &projectors, frame)?;
+        let all = rays_of(display, frame)?;
+        let rays: Vec<_> = projectors.iter().map(|&projector| all[projector as usize]).collect();
         let dims = shape.dims().as_dvec3();
-        let all = rays_of(display, &(0..display.projectors.len() as u32).collect::<Vec<_>>(), frame)?;
         let asked = engine.options.caster;
         let caster = CasterOfFrame::choose(asked, &engine.device, &needs, [&rays, &all], frame, dims)?;
         Ok(Self {

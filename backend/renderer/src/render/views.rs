@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use bricks::OctreeShape;
-use display_config::Display;
+use display_config::{Display, Projector};
 use protocol::FrameState;
 use twin::{Placement, ProjectorRays, SceneNumbers};
 
@@ -18,22 +18,17 @@ pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &Octre
     SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality).rounded()
 }
 
-/// The rays of some projectors, as kernels read them.
+/// The rays of all projectors, as kernels read them.
 ///
 /// # Errors
 /// The observer or η of the frame does not go with a projector.
-pub(super) fn rays_of(
-    display: &Display,
-    projectors: &[u32],
-    frame: &FrameState,
-) -> Result<Vec<ProjectorRays<f32>>, RenderError> {
+pub(super) fn rays_of(display: &Display, frame: &FrameState) -> Result<Vec<ProjectorRays<f32>>, RenderError> {
     let canonical = display.canonical_raster();
-    let rays = |&projector: &u32| {
-        let found = &display.projectors[projector as usize];
+    let rays = |(projector, found): (usize, &Projector)| {
         let law = display
-            .beam_law(projector as usize, frame.observer_in_display, frame.eta)
+            .beam_law(projector, frame.observer_in_display, frame.eta)
             .map_err(|error| RenderError::Ray { projector: found.name.clone(), why: error.to_string() })?;
         Ok(ProjectorRays::new(&canonical, found, &law).rounded())
     };
-    projectors.iter().map(rays).collect()
+    display.projectors.iter().enumerate().map(rays).collect()
 }
