@@ -106,7 +106,7 @@ fn host_structs_and_wgsl_structs_agree() {
         tables,
         resolution
     );
-    assert_layout!(&module, ViewBlock, screen_from_pixel, beam, raster, extent);
+    assert_layout!(&module, ViewBlock, screen_from_pixel, beam, raster, lattice);
     assert_layout!(
         &module,
         NodeRecord,

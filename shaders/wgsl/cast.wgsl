@@ -4,13 +4,13 @@
 fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_id) local: vec3<u32>) {
     let listed = group.x + group.y * groups.x;
-    if listed >= projector.extent.x {
+    if listed >= projector.raster.w {
         return;
     }
     let tile = tiles[listed];
-    let across = projector.raster.w;
+    let across = projector.raster.z;
     let in_tiles = vec2<u32>(tile % across, tile / across) * TILE_EDGE + local.xy;
-    let pixel = in_tiles * projector.raster.z + vec2<u32>(projector.raster.z / 2u);
+    let pixel = in_tiles * projector.lattice.xy + projector.lattice.zw;
     if pixel.x >= projector.raster.x || pixel.y >= projector.raster.y {
         return;
     }

@@ -20,7 +20,7 @@ struct ViewBlock {
     screen_from_pixel: array<vec4<f32>, 3>,
     beam: vec4<f32>,
     raster: vec4<u32>,
-    extent: vec4<u32>,
+    lattice: vec4<u32>,
 }
 
 struct NodeRecord {

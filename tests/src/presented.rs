@@ -14,6 +14,7 @@ use renderer::device::{CastJob, Device, Gather, NEVER, Part};
 use renderer::working_set::{Cut, IndexRules, build_index, refresh, settle};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
+use twin::Lattice;
 
 /// A corner of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -220,7 +221,7 @@ impl TwinScene {
 /// Every pixel of a view of what was loaded, and the number of samples taken.
 pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>, u64) {
     let View { scene, rays } = view;
-    let (views, part) = (std::slice::from_ref(rays), Part::Every { stride: 1 });
+    let (views, part) = (std::slice::from_ref(rays), Part::Every(Lattice::ALL));
     let outcome = device
         .cast(&CastJob {
             scene,

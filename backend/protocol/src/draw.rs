@@ -1,6 +1,6 @@
 //! What draws frames, whole or in pieces, and what happens while it does.
 
-use crate::{FrameReport, FrameState, ProjectorImage};
+use crate::{FrameReport, FrameState, ProjectorImage, ScreenImage};
 
 /// What happens while a frame is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +78,12 @@ pub trait Render {
     /// # Errors
     /// A picture cannot be read back.
     fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError>;
+
+    /// The same, as screens show them.
+    ///
+    /// # Errors
+    /// A picture cannot be read back.
+    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError>;
 
     /// No frame follows: completes what is written beside the pictures.
     ///

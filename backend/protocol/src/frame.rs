@@ -42,6 +42,40 @@ pub enum Pace {
     },
 }
 
+/// A quarter of a picture's pixels: those of one class of (x mod 2, y mod 2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SubFrame {
+    /// Those at (0, 0).
+    First,
+    /// Their diagonal neighbours, at (1, 1).
+    Diagonal,
+    /// Those at (1, 0).
+    Right,
+    /// Those at (0, 1).
+    Below,
+}
+
+impl SubFrame {
+    /// In the order in which frames cast them.
+    pub const ORDER: [Self; 4] = [Self::First, Self::Diagonal, Self::Right, Self::Below];
+
+    /// That of a frame by its number: the same on all back-ends.
+    pub fn of_frame(index: u32) -> Self {
+        Self::ORDER[index as usize % Self::ORDER.len()]
+    }
+
+    /// Column and row of its first pixel.
+    pub fn first_pixel(self) -> [u32; 2] {
+        match self {
+            Self::First => [0, 0],
+            Self::Diagonal => [1, 1],
+            Self::Right => [1, 0],
+            Self::Below => [0, 1],
+        }
+    }
+}
+
 /// One frame, the same for every back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameState {
@@ -65,6 +99,9 @@ pub struct FrameState {
     pub tool: Option<Tool>,
     /// How it gets its detail.
     pub pace: Pace,
+    /// The pixels that it casts, if it is live: the others are reconstructed from these and from the frames before. None
+    /// casts them all, as a complete frame does.
+    pub sub_frame: Option<SubFrame>,
     /// What is shown of the working set instead of the pictures.
     pub debug: Option<DebugView>,
 }
@@ -85,6 +122,7 @@ impl FrameState {
             quality: Quality::default(),
             tool: None,
             pace: Pace::Complete,
+            sub_frame: None,
             debug: None,
         }
     }

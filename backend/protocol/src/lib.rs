@@ -9,11 +9,11 @@ mod setup;
 pub mod wire;
 
 pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
-pub use frame::{FrameState, Pace, Tool, ToolKind};
-pub use image::ProjectorImage;
+pub use frame::{FrameState, Pace, SubFrame, Tool, ToolKind};
+pub use image::{ProjectorImage, ScreenImage};
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{Caster, FrameReport, Stages, Upkeep};
 pub use setup::{
-    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Setup,
-    VolumeRef,
+    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Screens,
+    Setup, VolumeRef,
 };

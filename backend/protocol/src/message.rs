@@ -1,10 +1,10 @@
 //! The messages themselves.
 
-use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, Setup};
+use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, ScreenImage, Setup};
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 8;
+pub const PROTOCOL_VERSION: u32 = 9;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,6 +13,20 @@ pub enum FromFrontend {
     Setup(Box<Setup>),
     /// Draw this frame; one that is being drawn is dropped for it.
     Frame(Box<FrameState>),
+    /// Draw this frame for the screens. While another is drawn it waits, and takes the place of one that waits.
+    Beat(Box<FrameState>),
+    /// Show a frame of the beat, drawn or not: one that is drawn late is shown at once.
+    Show {
+        /// Its number.
+        frame: u32,
+        /// When, on the back-end's clock, microseconds; None is as soon as it can be.
+        at_us: Option<u64>,
+    },
+    /// What does the back-end's clock say?
+    Clock {
+        /// What the front-end's says now, microseconds: it comes back with the answer.
+        asked_us: u64,
+    },
     /// The front-end is alive; nothing to do.
     Alive,
     /// No frame follows: complete what is written beside the pictures, and say so.
@@ -39,6 +53,24 @@ pub enum FromBackend {
     Image(ProjectorImage),
     /// The current frame is done; all its pictures have been sent.
     Done(Box<FrameReport>),
+    /// What screens will show of a frame of the beat, if the setup asks for it; before the frame is drawn.
+    Screen(ScreenImage),
+    /// A frame of the beat is drawn, and waits to be shown.
+    Drawn(Box<FrameReport>),
+    /// A frame of the beat is shown.
+    Shown {
+        /// Its number.
+        frame: u32,
+        /// Since when, on the back-end's clock, microseconds.
+        at_us: u64,
+    },
+    /// The answer to a question for the clock.
+    Clock {
+        /// What the front-end's clock said when it asked, microseconds.
+        asked_us: u64,
+        /// What the back-end's clock says, microseconds.
+        here_us: u64,
+    },
     /// What it wrote beside the pictures is complete.
     Finished,
     /// It cannot go on: one sentence.

@@ -107,6 +107,17 @@ impl RendererOptions {
     }
 }
 
+/// Where the pictures of a driven display go.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Screens {
+    /// Nowhere: they are drawn and timed.
+    #[default]
+    Nowhere,
+    /// To the front-end, as codes.
+    Frontend,
+}
+
 /// The first message to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setup {
@@ -116,6 +127,8 @@ pub struct Setup {
     pub volume: VolumeRef,
     /// Where to write the trace of the working set in live frames; None where none is wanted.
     pub trace: Option<PathBuf>,
+    /// Where the pictures of its beat go.
+    pub screens: Screens,
 }
 
 /// What a back-end says of itself when it starts.

@@ -6,17 +6,19 @@
 //! | 4 | 4 | [`PROTOCOL_VERSION`] |
 //! | 8 | 4 | n, the length of the body |
 //! | 12 | n | the message, bincode with fixed-width integers; an image without its numbers |
-//! | 12 + n | 16 · width · height | an image's numbers as f32; nothing for other messages |
+//! | 12 + n | 16 · width · height | an image's numbers as f32, or |
+//! | 12 + n | 3 · width · height | the codes of an image for a screen; nothing for other messages |
 //!
 //! The numbers of an image stay outside the body for two reasons: a limit of its own on the body bounds what a
 //! hostile length may allocate, and they are copied as one block. Bincode visits them one at a time: for 800 × 600
 //! pixels 5 ms and 6 ms against 4 ms and 4 ms in a release build, but 130 ms and 180 ms against 8 ms and 4 ms in a
 //! debug build, in which the tests run.
 
-use super::{FromBackend, FromFrontend, PROTOCOL_VERSION, ProjectorImage};
+use super::{FromBackend, FromFrontend, PROTOCOL_VERSION, ProjectorImage, ScreenImage};
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
 use display_config::MOST_PIXELS;
 use serde::{Serialize, de::DeserializeOwned};
+use std::borrow::Cow;
 
 const MAGIC: u32 = u32::from_le_bytes(*b"LLMW");
 const VERSION_AT: usize = size_of::<u32>();
@@ -60,7 +62,7 @@ pub enum WireError {
     },
     /// The picture's numbers do not fill its raster.
     #[error(
-        "the picture of projector {projector} has {numbers} numbers for {width} × {height} pixels of four"
+        "the picture of projector {projector} has {numbers} numbers for {width} × {height} pixels of {per_pixel}"
     )]
     Raster {
         /// The picture's projector.
@@ -71,48 +73,72 @@ pub enum WireError {
         width: u32,
         /// Pixels along y.
         height: u32,
+        /// Numbers of a pixel.
+        per_pixel: usize,
     },
 }
 
 /// A message that can travel as bytes.
 pub trait WireMessage: Serialize + DeserializeOwned {
-    /// The picture in the message, where it carries one.
-    fn image(&self) -> Option<&ProjectorImage>;
-    /// The same, to fill it in.
-    fn image_mut(&mut self) -> Option<&mut ProjectorImage>;
-    /// A message that holds `image`, to stand for this one; only called where [`WireMessage::image`] is not None.
-    fn with_image(image: ProjectorImage) -> Option<Self>;
+    /// The message without the numbers of its picture, and these as bytes; None where it carries no picture.
+    ///
+    /// # Errors
+    /// The numbers do not fill the picture's raster.
+    fn part(&self) -> Result<Option<(Self, Cow<'_, [u8]>)>, WireError>;
+
+    /// Puts these bytes back into a message that came without them.
+    ///
+    /// # Errors
+    /// They do not fill its picture's raster, or it carries none and there are some.
+    fn join(&mut self, bytes: &[u8]) -> Result<(), WireError>;
 }
 
 impl WireMessage for FromFrontend {
-    fn image(&self) -> Option<&ProjectorImage> {
-        None
+    fn part(&self) -> Result<Option<(Self, Cow<'_, [u8]>)>, WireError> {
+        Ok(None)
     }
-    fn image_mut(&mut self) -> Option<&mut ProjectorImage> {
-        None
-    }
-    fn with_image(_: ProjectorImage) -> Option<Self> {
-        None
+
+    fn join(&mut self, bytes: &[u8]) -> Result<(), WireError> {
+        nothing_follows(bytes)
     }
 }
 
 impl WireMessage for FromBackend {
-    fn image(&self) -> Option<&ProjectorImage> {
-        if let Self::Image(image) = self { Some(image) } else { None }
+    fn part(&self) -> Result<Option<(Self, Cow<'_, [u8]>)>, WireError> {
+        Ok(match self {
+            Self::Image(image) => {
+                check_raster(image.projector, [image.width, image.height], 4, image.rgba.len())?;
+                Some((Self::Image(ProjectorImage { rgba: Vec::new(), ..*image }), bytes_of(&image.rgba)))
+            }
+            Self::Screen(image) => {
+                check_raster(image.projector, [image.width, image.height], 3, image.rgb.len())?;
+                Some((Self::Screen(ScreenImage { rgb: Vec::new(), ..*image }), Cow::from(&image.rgb)))
+            }
+            _ => None,
+        })
     }
-    fn image_mut(&mut self) -> Option<&mut ProjectorImage> {
-        if let Self::Image(image) = self { Some(image) } else { None }
-    }
-    fn with_image(image: ProjectorImage) -> Option<Self> {
-        Some(Self::Image(image))
+
+    fn join(&mut self, bytes: &[u8]) -> Result<(), WireError> {
+        match self {
+            Self::Image(image) => {
+                check_bytes([image.width, image.height], 4 * size_of::<f32>(), image.rgba.is_empty(), bytes)?;
+                image.rgba = numbers_of(bytes);
+            }
+            Self::Screen(image) => {
+                check_bytes([image.width, image.height], 3, image.rgb.is_empty(), bytes)?;
+                image.rgb = bytes.to_vec();
+            }
+            _ => nothing_follows(bytes)?,
+        }
+        Ok(())
     }
 }
 
 /// The bytes of `message`, in the layout at the top of this file.
 pub fn encode<M: WireMessage>(message: &M) -> Result<Vec<u8>, WireError> {
-    let image = message.image();
-    let pixel_bytes = image.map_or(Ok(0), checked_pixel_bytes)?;
-    let bare = image.and_then(|image| M::with_image(ProjectorImage { rgba: Vec::new(), ..*image }));
+    let (bare, pixels) =
+        message.part()?.map_or((None, Cow::default()), |(bare, pixels)| (Some(bare), pixels));
+    let pixel_bytes = pixels.len();
     let mut bytes = Vec::with_capacity(BODY_AT + 256 + pixel_bytes);
     bytes.extend_from_slice(&MAGIC.to_le_bytes());
     bytes.extend_from_slice(&PROTOCOL_VERSION.to_le_bytes());
@@ -123,7 +149,7 @@ pub fn encode<M: WireMessage>(message: &M) -> Result<Vec<u8>, WireError> {
     within(body_bytes, BODY_LIMIT_BYTES)?;
     within(bytes.len() + pixel_bytes, MESSAGE_LIMIT_BYTES)?;
     bytes[BODY_LENGTH_AT..BODY_AT].copy_from_slice(&(body_bytes as u32).to_le_bytes());
-    append_pixels(&mut bytes, image.map_or(&[], |image| &image.rgba));
+    bytes.extend_from_slice(&pixels);
     Ok(bytes)
 }
 
@@ -145,11 +171,7 @@ pub fn decode<M: WireMessage>(bytes: &[u8]) -> Result<M, WireError> {
         .split_at_checked(body_bytes)
         .ok_or_else(|| WireError::Damaged(format!("its body should have {body_bytes} bytes")))?;
     let mut message: M = decode_body(body)?;
-    match message.image_mut() {
-        Some(image) => take_pixels(image, pixels)?,
-        None if pixels.is_empty() => {}
-        None => return Err(WireError::Damaged(format!("{} bytes follow it", pixels.len()))),
-    }
+    message.join(pixels)?;
     Ok(message)
 }
 
@@ -171,26 +193,48 @@ fn within(bytes: usize, limit: usize) -> Result<usize, WireError> {
     if bytes <= limit { Ok(bytes) } else { Err(WireError::TooLong { bytes, limit }) }
 }
 
-fn checked_pixel_bytes(image: &ProjectorImage) -> Result<usize, WireError> {
-    let bytes = pixel_bytes_of_raster(image).filter(|&bytes| bytes == size_of_val(image.rgba.as_slice()));
-    bytes.ok_or(WireError::Raster {
-        projector: image.projector,
-        numbers: image.rgba.len(),
-        width: image.width,
-        height: image.height,
-    })
+fn nothing_follows(bytes: &[u8]) -> Result<(), WireError> {
+    if bytes.is_empty() {
+        Ok(())
+    } else {
+        Err(WireError::Damaged(format!("{} bytes follow it", bytes.len())))
+    }
 }
 
-fn pixel_bytes_of_raster(image: &ProjectorImage) -> Option<usize> {
-    (image.width as usize).checked_mul(image.height as usize)?.checked_mul(BYTES_PER_PIXEL)
+/// Whether a picture has so many numbers for each pixel.
+fn check_raster(
+    projector: u32,
+    [width, height]: [u32; 2],
+    per_pixel: usize,
+    numbers: usize,
+) -> Result<(), WireError> {
+    if product([width, height], per_pixel) == Some(numbers) {
+        return Ok(());
+    }
+    Err(WireError::Raster { projector, numbers, width, height, per_pixel })
+}
+
+/// Whether so many bytes for each pixel have come, and no numbers before them.
+fn check_bytes(raster: [u32; 2], per_pixel: usize, is_bare: bool, bytes: &[u8]) -> Result<(), WireError> {
+    if !is_bare {
+        return Err(WireError::Damaged("the numbers of a picture must not be in its body".to_owned()));
+    }
+    if product(raster, per_pixel) != Some(bytes.len()) {
+        let [width, height] = raster;
+        return Err(WireError::Damaged(format!("{} bytes for {width} × {height} pixels", bytes.len())));
+    }
+    Ok(())
+}
+
+fn product([width, height]: [u32; 2], per_pixel: usize) -> Option<usize> {
+    (width as usize).checked_mul(height as usize)?.checked_mul(per_pixel)
 }
 
 /// Whole blocks, because a picture has millions of numbers.
-fn append_pixels(bytes: &mut Vec<u8>, rgba: &[f32]) {
-    if cfg!(target_endian = "little") {
-        bytes.extend_from_slice(bytemuck::cast_slice(rgba));
-    } else {
-        bytes.extend(rgba.iter().flat_map(|number| number.to_le_bytes()));
+fn bytes_of(rgba: &[f32]) -> Cow<'_, [u8]> {
+    match cfg!(target_endian = "little") {
+        true => Cow::from(bytemuck::cast_slice(rgba)),
+        false => rgba.iter().flat_map(|number| number.to_le_bytes()).collect(),
     }
 }
 
@@ -200,18 +244,6 @@ fn numbers_of(pixels: &[u8]) -> Vec<f32> {
         numbers.iter_mut().for_each(|number| *number = f32::from_bits(number.to_bits().swap_bytes()));
     }
     numbers
-}
-
-fn take_pixels(image: &mut ProjectorImage, pixels: &[u8]) -> Result<(), WireError> {
-    if !image.rgba.is_empty() {
-        return Err(WireError::Damaged("the numbers of a picture must be in its body".to_owned()));
-    }
-    if pixel_bytes_of_raster(image) != Some(pixels.len()) {
-        let (width, height) = (image.width, image.height);
-        return Err(WireError::Damaged(format!("{} bytes for {width} × {height} pixels", pixels.len())));
-    }
-    image.rgba = numbers_of(pixels);
-    Ok(())
 }
 
 #[cfg(test)]

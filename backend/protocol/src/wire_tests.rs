@@ -55,6 +55,7 @@ prop_compose! {
             light: lit.then(Light::default),
             quality: Quality::default(),
             tool: tool.map(|p| Tool { kind: ToolKind::Light, tip_in_display: p, axis_in_display: at }),
+            sub_frame: SubFrame::ORDER.get(index as usize % 5).copied(),
             pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },
             debug: DebugView::ALL.get(index as usize % 5).copied(),
         }))
@@ -87,7 +88,7 @@ prop_compose! {
             caster: CasterChoice::Planes, cache_bytes: n,
         };
         FromFrontend::Setup(Box::new(Setup {
-            options, volume, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
+            options, volume, screens: if n % 2 == 0 { Screens::Frontend } else { Screens::Nowhere }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
         }))
     }
 }
@@ -96,6 +97,12 @@ fn from_frontend() -> impl Strategy<Value = FromFrontend> {
     prop_oneof![
         frame(),
         setup(),
+        frame().prop_map(|message| match message {
+            FromFrontend::Frame(frame) => FromFrontend::Beat(frame),
+            other => other,
+        }),
+        (any::<u32>(), any::<Option<u64>>()).prop_map(|(frame, at_us)| FromFrontend::Show { frame, at_us }),
+        any::<u64>().prop_map(|asked_us| FromFrontend::Clock { asked_us }),
         Just(FromFrontend::Alive),
         Just(FromFrontend::Finish),
         Just(FromFrontend::Quit)
@@ -107,6 +114,14 @@ prop_compose! {
         (rgba in vec(any::<f32>(), (4 * width * height) as usize), projector in Just(projector),
          width in Just(width), height in Just(height)) -> FromBackend {
         FromBackend::Image(ProjectorImage { projector, width, height, rgba })
+    }
+}
+
+prop_compose! {
+    fn screen()(projector in any::<u32>(), width in 0_u32..9, height in 0_u32..9)
+        (rgb in vec(any::<u8>(), (3 * width * height) as usize), projector in Just(projector),
+         width in Just(width), height in Just(height)) -> FromBackend {
+        FromBackend::Screen(ScreenImage { projector, width, height, rgb })
     }
 }
 
@@ -136,7 +151,10 @@ fn from_backend() -> impl Strategy<Value = FromBackend> {
         Just(FromBackend::Alive),
         (any::<u64>(), any::<u64>()).prop_map(|(done, total)| FromBackend::Progress { done, total }),
         image(),
+        screen(),
         done(),
+        (any::<u32>(), any::<u64>()).prop_map(|(frame, at_us)| FromBackend::Shown { frame, at_us }),
+        (any::<u64>(), any::<u64>()).prop_map(|(asked_us, here_us)| FromBackend::Clock { asked_us, here_us }),
         ".*".prop_map(FromBackend::Failed),
     ]
 }
@@ -233,6 +251,8 @@ fn a_picture_must_fill_its_raster_and_stay_under_the_limit() {
     };
     assert!(matches!(encode(&image(2, 2, 15)), Err(WireError::Raster { projector: 4, numbers: 15, .. })));
     assert!(matches!(encode(&image(u32::MAX, u32::MAX, 0)), Err(WireError::Raster { .. })));
+    let codes = FromBackend::Screen(ScreenImage { projector: 1, width: 2, height: 2, rgb: vec![0; 11] });
+    assert!(matches!(encode(&codes), Err(WireError::Raster { numbers: 11, per_pixel: 3, .. })));
     // Zeros that nobody writes to take no memory.
     assert!(matches!(encode(&image(8192, 8225, 4 * 8192 * 8225)), Err(WireError::TooLong { .. })));
 }

@@ -3,6 +3,7 @@
 mod cache_size;
 pub mod device;
 pub mod output;
+pub mod present;
 mod render;
 pub mod working_set;
 

@@ -160,7 +160,12 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         ..RendererOptions::in_process(display.clone(), vec![2 * backend, 2 * backend + 1])
     };
     let volume = || VolumeRef::Store("fake.lloom".into());
-    let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };
+    let setup = |backend| Setup {
+        options: options(backend),
+        volume: volume(),
+        trace: None,
+        screens: Screens::Nowhere,
+    };
     (0..count as u32).map(setup).collect()
 }
 

@@ -20,7 +20,12 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
     let options =
         |backend| RendererOptions { backend, ..RendererOptions::in_process(display.clone(), vec![backend]) };
     let volume = || VolumeRef::Store("fake.lloom".into());
-    let setup = |backend| Setup { options: options(backend), volume: volume(), trace: None };
+    let setup = |backend| Setup {
+        options: options(backend),
+        volume: volume(),
+        trace: None,
+        screens: Screens::Nowhere,
+    };
     (0..count).map(setup).collect()
 }
 

@@ -90,6 +90,7 @@ impl Scene {
             quality: self.quality,
             tool: self.tool_at(time_s),
             pace: Pace::Complete,
+            sub_frame: None,
             debug: None,
         })
     }

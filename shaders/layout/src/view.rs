@@ -15,8 +15,8 @@ pub struct ViewBlock {
     pub screen_from_pixel: [[f32; 4]; 3],
     /// A, B of the ray law Ox = A + B Sx, then Oy and Oz; metres.
     pub beam: [f32; 4],
-    /// Width and height of the raster in pixels, then pixels between cast rays, then tiles along x.
+    /// Width and height of the raster in pixels, then tiles along x, then tiles to cast.
     pub raster: [u32; 4],
-    /// Tiles to cast, unused, unused, unused.
-    pub extent: [u32; 4],
+    /// Pixels between cast rays along x and y, then column and row of the first of them.
+    pub lattice: [u32; 4],
 }

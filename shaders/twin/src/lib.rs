@@ -44,7 +44,7 @@ pub use observer::{FeedbackCell, Observer};
 pub use outcome::Cast;
 pub use pixels::cast_pixels;
 pub use placement::Placement;
-pub use projector::{ProjectorRays, Tiling};
+pub use projector::{Lattice, ProjectorRays, Tiling};
 pub use real::Real;
 pub use scene::SceneNumbers;
 pub use volume::Volume;

@@ -39,11 +39,25 @@ impl ProjectorRays<f64> {
     }
 }
 
+/// Which pixels of a raster are cast: those at `first`, and at every `step` from there, along x and y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lattice {
+    /// Pixels between cast rays.
+    pub step: [u32; 2],
+    /// Column and row of the first cast pixel, each less than the step.
+    pub first: [u32; 2],
+}
+
+impl Lattice {
+    /// All pixels.
+    pub const ALL: Self = Self { step: [1; 2], first: [0; 2] };
+}
+
 /// How the cast pixels of a view are cut into tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tiling {
-    /// Pixels between cast rays: 1 casts them all.
-    pub stride: u32,
+    /// Which pixels these are.
+    pub lattice: Lattice,
     /// Tiles along x.
     pub across: u32,
     /// Tiles to cast.
@@ -54,11 +68,12 @@ impl ProjectorRays<f32> {
     /// The uniform block of this view.
     pub fn block(&self, tiling: &Tiling) -> ViewBlock {
         let column = |v: Vec3<f32>| [v.0[0], v.0[1], v.0[2], 0.0];
+        let Lattice { step: [step_x, step_y], first: [first_x, first_y] } = tiling.lattice;
         ViewBlock {
             screen_from_pixel: self.screen_from_pixel.map(column),
             beam: self.beam,
-            raster: [self.raster[0], self.raster[1], tiling.stride, tiling.across],
-            extent: [tiling.tiles, 0, 0, 0],
+            raster: [self.raster[0], self.raster[1], tiling.across, tiling.tiles],
+            lattice: [step_x, step_y, first_x, first_y],
         }
     }
 }

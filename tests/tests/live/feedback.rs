@@ -11,6 +11,7 @@ use renderer::device::{
     CacheWish, CastJob, CastOutcome, Device, FeedbackTag, Gather, NEVER, Part, open_device,
 };
 use std::time::{Duration, Instant};
+use twin::Lattice;
 
 /// A table that has not come by then never will.
 const LONGEST_WAIT: Duration = Duration::from_secs(60);
@@ -58,7 +59,7 @@ impl Stage {
 
     fn cast(&mut self, view: usize, gather: Gather, counts: bool) -> CastOutcome {
         let View { scene, rays } = &self.views[view];
-        let (views, part, needs) = (std::slice::from_ref(rays), Part::Every { stride: 1 }, self.scene.needs);
+        let (views, part, needs) = (std::slice::from_ref(rays), Part::Every(Lattice::ALL), self.scene.needs);
         let job =
             CastJob { scene, views, first_picture: 0, needs, fan: None, part, gather, counts, stop: NEVER };
         self.device.cast(&job).unwrap()
@@ -154,7 +155,7 @@ fn views_cast_together_are_views_cast_one_by_one() {
             first_picture: 1,
             needs: stage.scene.needs,
             fan: None,
-            part: Part::Every { stride: 1 },
+            part: Part::Every(Lattice::ALL),
             gather: Gather::Own,
             counts: true,
             stop: NEVER,
@@ -168,8 +169,11 @@ fn views_cast_together_are_views_cast_one_by_one() {
         }
         // A view without tiles keeps its picture.
         let tiles = [vec![], vec![0]];
-        let job =
-            CastJob { views: &[views[1], views[0]], part: Part::Tiles { stride: 1, tiles: &tiles }, ..job };
+        let job = CastJob {
+            views: &[views[1], views[0]],
+            part: Part::Tiles { lattice: Lattice::ALL, tiles: &tiles },
+            ..job
+        };
         assert_eq!(stage.device.cast(&job).unwrap().rays, 64, "{choice:?}");
         assert!(stage.device.picture(1).unwrap() == alone[0].1, "{choice:?}");
         let mixed = stage.device.picture(2).unwrap();

@@ -90,7 +90,7 @@ impl CpuDevice {
             },
         };
         self.pictures.resize_with(self.pictures.len().max(job.first_picture + job.views.len()), Vec::new);
-        if let Some(fan) = job.fan.filter(|_| job.stride() == 1) {
+        if let Some(fan) = job.fan.filter(|_| job.lattice().step[0] == 1) {
             let pictures = &mut self.pictures[job.first_picture..][..job.views.len()];
             let outcome = cast_rows(&casting, job, fan, pictures);
             return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
@@ -105,7 +105,7 @@ impl CpuDevice {
             let casts: Vec<TileCasts> = casts.into_iter().flatten().collect();
             put_down(&casts, &view, &mut self.pictures[view.picture]);
             outcome.rays += casts.iter().map(|casts| casts.len() as u64).sum::<u64>();
-            if job.has_counts() {
+            if job.counts {
                 let is_missing = |casts: &TileCasts| casts.iter().any(|(_, cast)| cast.is_missing);
                 let tiles = view.tiles.iter().zip(&casts).filter(|(_, casts)| is_missing(casts));
                 outcome.missing_tiles[index] = tiles.map(|(&tile, _)| tile).collect();

@@ -5,13 +5,13 @@ use needs::Needs;
 use planes::Fan;
 use protocol::StopAsked;
 use std::borrow::Cow;
-use twin::{ProjectorRays, SceneNumbers};
+use twin::{Lattice, ProjectorRays, SceneNumbers};
 
-/// The tiles of a raster: squares of 8 × 8 cast pixels, `stride` pixels apart.
+/// The tiles of a raster: squares of 8 × 8 cast pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TileGrid {
-    /// Pixels between cast rays.
-    pub stride: u32,
+    /// The cast pixels.
+    pub lattice: Lattice,
     /// Tiles along x.
     pub across: u32,
     /// Tiles along y.
@@ -20,9 +20,9 @@ pub struct TileGrid {
 
 impl TileGrid {
     /// The grid of a raster of `width` × `height` pixels.
-    pub fn new(width: u32, height: u32, stride: u32) -> Self {
-        let edge = TILE_EDGE * stride;
-        Self { stride, across: width.div_ceil(edge), down: height.div_ceil(edge) }
+    pub fn new(width: u32, height: u32, lattice: Lattice) -> Self {
+        let tiles = |pixels, axis| cast_along(&lattice, axis, pixels).div_ceil(TILE_EDGE);
+        Self { lattice, across: tiles(width, 0), down: tiles(height, 1) }
     }
 
     /// Tiles there are.
@@ -32,23 +32,34 @@ impl TileGrid {
 
     /// How many pixels a tile casts, within a raster of `width` × `height`.
     pub fn rays(&self, tile: u32, width: u32, height: u32) -> u64 {
-        let along = |place: u32, pixels: u32| {
-            let rays = pixels.saturating_sub(self.stride / 2).div_ceil(self.stride);
+        let along = |place: u32, pixels: u32, axis: usize| {
+            let rays = cast_along(&self.lattice, axis, pixels);
             u64::from(rays.saturating_sub(place * TILE_EDGE).min(TILE_EDGE))
         };
-        along(tile % self.across, width) * along(tile / self.across, height)
+        along(tile % self.across, width, 0) * along(tile / self.across, height, 1)
     }
 
     /// The pixels that a tile casts, within a raster of `width` × `height`.
     pub fn pixels(&self, tile: u32, width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
-        let (grid, first) = (*self, (tile % self.across * TILE_EDGE, tile / self.across * TILE_EDGE));
+        let Lattice { step, first } = self.lattice;
+        let corner = [tile % self.across * TILE_EDGE, tile / self.across * TILE_EDGE];
         (0..TILE_EDGE * TILE_EDGE)
             .map(move |i| {
-                let at = |first: u32, i: u32| (first + i) * grid.stride + grid.stride / 2;
-                (at(first.0, i % TILE_EDGE), at(first.1, i / TILE_EDGE))
+                let at = |axis: usize, i: u32| (corner[axis] + i) * step[axis] + first[axis];
+                (at(0, i % TILE_EDGE), at(1, i / TILE_EDGE))
             })
             .filter(move |&(x, y)| x < width && y < height)
     }
+}
+
+/// How many of `pixels` in a row along an axis are cast.
+fn cast_along(lattice: &Lattice, axis: usize, pixels: u32) -> u32 {
+    pixels.saturating_sub(lattice.first[axis]).div_ceil(lattice.step[axis])
+}
+
+/// The middle one of every `stride` × `stride` pixels.
+pub fn coarse(stride: u32) -> Lattice {
+    Lattice { step: [stride; 2], first: [stride / 2; 2] }
 }
 
 /// Where the feedback of a cast goes.
@@ -63,15 +74,12 @@ pub enum Gather {
 /// Which pixels of its views a cast casts.
 #[derive(Clone, Copy, Debug)]
 pub enum Part<'a> {
-    /// The middle one of every `stride` × `stride` pixels.
-    Every {
-        /// Pixels between cast rays: 1 casts them all.
-        stride: u32,
-    },
-    /// The same of some tiles.
+    /// All of a lattice.
+    Every(Lattice),
+    /// Some tiles of it.
     Tiles {
-        /// Pixels between cast rays.
-        stride: u32,
+        /// The lattice.
+        lattice: Lattice,
         /// View by view.
         tiles: &'a [Vec<u32>],
     },
@@ -91,13 +99,13 @@ pub struct CastJob<'a> {
     pub first_picture: usize,
     /// What the scene needs of a kernel.
     pub needs: Needs,
-    /// What the rows of its views share, where they are cast in their planes; None for each ray alone.
+    /// What the rows of its views share, where they are cast in their planes, whole rows at a time; None for each ray alone.
     pub fan: Option<&'a Fan>,
     /// Which pixels.
     pub part: Part<'a>,
     /// Where its feedback goes.
     pub gather: Gather,
-    /// Whether to count samples and list missing tiles (full-resolution casts only; makes a GPU cast blocking).
+    /// Whether to count samples and list missing tiles.
     pub counts: bool,
     /// Asked before each tile whether to leave the others; a GPU asks before each batch of tiles.
     pub stop: StopAsked<'a>,
@@ -127,27 +135,22 @@ impl CastJob<'_> {
         let [width, height] = rays.raster;
         let picture = self.first_picture + index;
         match self.part {
-            Part::Every { stride } => {
-                let grid = TileGrid::new(width, height, stride);
+            Part::Every(lattice) => {
+                let grid = TileGrid::new(width, height, lattice);
                 ViewJob { picture, rays, grid, tiles: (0..grid.count()).collect() }
             }
-            Part::Tiles { stride, tiles } => {
+            Part::Tiles { lattice, tiles } => {
                 let tiles = tiles.get(index).map_or(&[][..], Vec::as_slice);
-                ViewJob { picture, rays, grid: TileGrid::new(width, height, stride), tiles: tiles.into() }
+                ViewJob { picture, rays, grid: TileGrid::new(width, height, lattice), tiles: tiles.into() }
             }
         }
     }
 
-    /// Pixels between cast rays.
-    pub(super) fn stride(&self) -> u32 {
+    /// The pixels that are cast.
+    pub(super) fn lattice(&self) -> Lattice {
         match self.part {
-            Part::Every { stride } | Part::Tiles { stride, .. } => stride,
+            Part::Every(lattice) | Part::Tiles { lattice, .. } => lattice,
         }
-    }
-
-    /// Whether samples are counted and missing tiles listed.
-    pub(super) fn has_counts(&self) -> bool {
-        self.counts && self.stride() == 1
     }
 }
 
@@ -184,7 +187,7 @@ pub struct CastOutcome {
 impl CastOutcome {
     /// Before anything is found.
     pub(super) fn nothing(job: &CastJob) -> Self {
-        let lists = if job.has_counts() { job.views.len() } else { 0 };
+        let lists = if job.counts { job.views.len() } else { 0 };
         let left = vec![Vec::new(); job.views.len()];
         Self { missing_tiles: vec![Vec::new(); lists], left, ..Self::default() }
     }
@@ -197,11 +200,13 @@ mod tests {
     #[test]
     fn the_rays_of_a_tile_are_the_pixels_it_casts() {
         for (width, height) in [(1, 1), (7, 9), (48, 36), (33, 64), (130, 17)] {
-            for stride in [1, 2, 3, 16] {
-                let grid = TileGrid::new(width, height, stride);
+            let odd = Lattice { step: [2, 2], first: [1, 0] };
+            let rows = Lattice { step: [1, 2], first: [0, 1] };
+            for lattice in [Lattice::ALL, coarse(3), coarse(16), odd, rows] {
+                let grid = TileGrid::new(width, height, lattice);
                 for tile in 0..grid.count() {
                     let cast = grid.pixels(tile, width, height).count() as u64;
-                    assert_eq!(grid.rays(tile, width, height), cast, "{width} {height} {stride} {tile}");
+                    assert_eq!(grid.rays(tile, width, height), cast, "{width} {height} {lattice:?} {tile}");
                 }
             }
         }

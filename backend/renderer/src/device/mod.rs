@@ -17,5 +17,5 @@ pub use choose::{CacheWish, ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use either::Device;
 pub use error::DeviceError;
-pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, TileGrid};
+pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, TileGrid, coarse};
 pub use tag::{FeedbackTag, TaggedFeedback};

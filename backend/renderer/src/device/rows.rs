@@ -26,15 +26,21 @@ pub(super) fn cast_rows(
     let tiles = jobs.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
     let asked: BTreeSet<u32> = tiles.collect();
     let planes = Planes::new(casting, fan);
-    let mut bands = bands(pictures, fan.raster);
+    let (step, first) = (job.lattice().step[1], job.lattice().first[1]);
+    let mut bands = bands(pictures, fan.raster, step);
+    // The rows of a band that are cast, from its first.
+    let cast_rows = |at: u32| {
+        let rows = (height - at * TILE_EDGE * step).min(TILE_EDGE * step);
+        (first..rows).step_by(step as usize)
+    };
     let cast = |scratch: &mut Scratch, band: &mut Band| {
-        let rows = band.at * TILE_EDGE..((band.at + 1) * TILE_EDGE).min(height);
+        let above = band.at * TILE_EDGE * step;
         (!(job.stop)()).then(|| {
-            rows.enumerate().fold(RowCast::default(), |sum, (i, row)| {
-                let pixels = 4 * width as usize;
+            cast_rows(band.at).fold(RowCast::default(), |sum, row| {
+                let (i, pixels) = (row as usize, 4 * width as usize);
                 let mut out: Vec<&mut [f32]> =
                     band.pictures.iter_mut().map(|rows| &mut rows[i * pixels..(i + 1) * pixels]).collect();
-                let found = planes.cast_row(row, scratch, &mut out);
+                let found = planes.cast_row(above + row, scratch, &mut out);
                 RowCast {
                     samples: sum.samples + found.samples,
                     is_missing: sum.is_missing || found.is_missing,
@@ -56,29 +62,29 @@ pub(super) fn cast_rows(
             view.tiles.iter().copied().filter(|tile| rows.contains(&(tile / view.grid.across))).collect()
         };
         outcome.left[*index] = tiles_in(rows_of(&Option::is_none));
-        if job.has_counts() {
+        if job.counts {
             outcome.missing_tiles[*index] =
                 tiles_in(rows_of(&|cast| cast.is_some_and(|cast| cast.is_missing)));
         }
     }
     for (at, cast) in &found {
         if let Some(cast) = cast {
-            let rows = ((at + 1) * TILE_EDGE).min(height) - at * TILE_EDGE;
-            outcome.rays += u64::from(rows) * u64::from(width) * job.views.len() as u64;
-            outcome.samples += if job.has_counts() { cast.samples } else { 0 };
+            outcome.rays += cast_rows(*at).count() as u64 * u64::from(width) * job.views.len() as u64;
+            outcome.samples += if job.counts { cast.samples } else { 0 };
         }
     }
     outcome
 }
 
-/// The pictures, cut into rows of tiles.
-fn bands(pictures: &mut [Vec<f32>], [width, height]: [u32; 2]) -> Vec<Band<'_>> {
+/// The pictures, cut into rows of tiles that cast every `step`th row of pixels.
+fn bands(pictures: &mut [Vec<f32>], [width, height]: [u32; 2], step: u32) -> Vec<Band<'_>> {
     let size = 4 * width as usize * height as usize;
+    let rows = TILE_EDGE * step;
     let mut bands: Vec<Band> =
-        (0..height.div_ceil(TILE_EDGE)).map(|at| Band { at, pictures: Vec::new() }).collect();
+        (0..height.div_ceil(rows)).map(|at| Band { at, pictures: Vec::new() }).collect();
     for picture in pictures {
         picture.resize(size, 0.0);
-        let rows = picture.chunks_mut(4 * width as usize * TILE_EDGE as usize);
+        let rows = picture.chunks_mut(4 * width as usize * rows as usize);
         bands.iter_mut().zip(rows).for_each(|(band, rows)| band.pictures.push(rows));
     }
     bands

@@ -9,11 +9,13 @@ use super::engine::Engine;
 use super::feedback::{feedback_of, keys_of};
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
+use crate::device::coarse;
 use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
 use std::collections::HashSet;
 use std::time::Instant;
+use twin::Lattice;
 
 /// The coarse look casts every 16th pixel along x and y.
 const COARSE_STRIDE: u32 = 16;
@@ -161,9 +163,10 @@ impl Complete {
     fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<Vec<u32>>>) {
         self.stage = stage;
         let views = self.view..self.view + work.views_at_once();
-        let stride = if stage == Stage::Looking { COARSE_STRIDE } else { 1 };
-        let mut pending = Pending::all(&work.setting, views, stride);
+        let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { Lattice::ALL };
+        let mut pending = Pending::all(&work.setting, views, lattice);
         if stage == Stage::Looking {
+            pending.counts = false;
             // Views that share their rows see much the same.
             pending
                 .tiles

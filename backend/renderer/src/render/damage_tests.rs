@@ -20,7 +20,7 @@ use reference::{Integrator, Reference};
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::time::Duration;
-use twin::ProjectorRays;
+use twin::{Lattice, ProjectorRays};
 
 /// The shells of 100³ voxels, some bricks of which cannot be read.
 struct Spoiled {
@@ -131,7 +131,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
     let scene = scene_numbers(&display, frame, &shape);
     let rays = rays_of(&display, frame).unwrap();
     let picture = |rays: &ProjectorRays<f32>| {
-        let (views, part) = (std::slice::from_ref(rays), Part::Every { stride: 1 });
+        let (views, part) = (std::slice::from_ref(rays), Part::Every(Lattice::ALL));
         let (gather, counts) = (Gather::Own, true);
         device
             .cast(&CastJob {

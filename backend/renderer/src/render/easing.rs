@@ -31,6 +31,11 @@ impl Easing {
         self.shown.values().any(|shown| shown.is_behind)
     }
 
+    /// The picture of a projector that was shown last.
+    pub(super) fn before(&self, projector: u32) -> Option<&[f32]> {
+        self.shown.get(&projector).map(|shown| &shown.rgba[..])
+    }
+
     /// Makes of a picture that has been cast the one to show; `eases` if the view is still.
     pub(super) fn show(&mut self, image: &mut ProjectorImage, now_s: f64, eases: bool) {
         let before = self.shown.remove(&image.projector);

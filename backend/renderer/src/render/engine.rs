@@ -8,6 +8,7 @@ use super::shelf::Shelf;
 use super::stock::Stock;
 use super::table_cache::TableCache;
 use crate::device::{CacheWish, ChosenDevice, Device, open_device};
+use crate::present::Thresholds;
 use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
 use bricks::{BrickSource, NodeKey};
 use protocol::{DeviceInfo, RendererOptions};
@@ -23,6 +24,7 @@ pub(super) struct Engine {
     pub(super) tables: TableCache,
     pub(super) live: Live,
     pub(super) easing: Easing,
+    pub(super) thresholds: Thresholds,
     pub(super) recording: Recording,
 }
 
@@ -52,6 +54,7 @@ impl Engine {
             tables: TableCache::default(),
             live: Live::default(),
             easing: Easing::default(),
+            thresholds: Thresholds::default(),
             recording: Recording::default(),
         };
         Ok((engine, info))

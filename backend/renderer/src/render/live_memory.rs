@@ -1,5 +1,6 @@
 //! What live frames remember of each other.
 
+use crate::present::Classes;
 use crate::working_set::Feedback;
 use bricks::LodRule;
 use display_config::Display;
@@ -16,6 +17,8 @@ pub(super) struct Live {
     pub(super) met: Vec<Feedback>,
     /// Whether that was the frame before.
     pub(super) is_fresh: bool,
+    /// The pixels that have been cast since rays last saw something else.
+    pub(super) known: Classes,
 }
 
 impl Live {
@@ -38,7 +41,8 @@ impl Live {
     }
 }
 
-/// A frame as far as rays see it: the tool has had its say, and its own place shows nowhere; numbers do not matter.
+/// A frame as far as rays see it: the tool has had its say, and its own place shows nowhere; numbers do not matter, nor
+/// which pixels were cast.
 pub(super) fn as_seen(frame: &FrameState) -> FrameState {
-    FrameState { index: 0, light: frame.light_in_effect(), tool: None, ..frame.clone() }
+    FrameState { index: 0, light: frame.light_in_effect(), tool: None, sub_frame: None, ..frame.clone() }
 }

@@ -35,6 +35,8 @@ mod shelf;
 #[cfg(test)]
 mod short_tests;
 mod stock;
+#[cfg(test)]
+mod sub_frame_tests;
 mod table_cache;
 #[cfg(test)]
 mod test_scene;

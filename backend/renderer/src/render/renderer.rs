@@ -8,11 +8,12 @@ use super::error::check;
 use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
+use crate::present::{Raster, reconstruct, screen_image};
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
     Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
-    RendererOptions, StopAsked, VolumeRef,
+    RendererOptions, ScreenImage, StopAsked, VolumeRef,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -128,7 +129,11 @@ impl Renderer {
             let mut image = self.picture(projector)?;
             if let Some(Course { work, .. }) = &mut self.course {
                 if let (Some(image), Pace::Live { .. }) = (&mut image, work.frame.pace) {
-                    let Engine { easing, live, .. } = &mut self.engine;
+                    let Engine { easing, live, thresholds, .. } = &mut self.engine;
+                    let raster = Raster { width: image.width as usize, height: image.height as usize };
+                    let cast = std::mem::take(&mut image.rgba);
+                    let before = easing.before(projector).filter(|before| before.len() == cast.len());
+                    image.rgba = reconstruct(cast, before, raster, work.known, *thresholds);
                     easing.show(image, live.now_s(&work.frame), work.eases);
                 }
                 work.account.stages.readback_ms += super::account::milliseconds(started);
@@ -170,6 +175,10 @@ impl Render for Renderer {
 
     fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
         Ok(Self::present(self, sink)?)
+    }
+
+    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+        Ok(Self::present(self, &mut |image| sink(screen_image(&image)))?)
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

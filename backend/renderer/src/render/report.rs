@@ -3,6 +3,7 @@
 use super::account::milliseconds;
 use super::engine::Engine;
 use super::work::Work;
+use crate::present::Classes;
 use protocol::{FrameReport, Upkeep};
 
 /// Damaged bricks that a report names one by one.
@@ -59,6 +60,8 @@ impl Engine {
             Some(format!("the detail of {fading} nodes is coming or going"))
         } else if self.easing.is_behind() {
             Some("the picture is on its way to the detail that has come".to_owned())
+        } else if self.live.known != Classes::ALL {
+            Some("some pixels are reconstructed from those beside them".to_owned())
         } else {
             (!is_known).then(|| "it is not known yet what rays of this frame lack".to_owned())
         }

@@ -5,29 +5,38 @@ use super::account::{Account, milliseconds};
 use super::engine::Engine;
 use super::setting::Setting;
 use crate::device::{CastJob, Gather, Part, TileGrid};
+use crate::present::Classes;
 use layout::FeedbackEntry;
 use needs::Needs;
 use protocol::{FrameState, Pace, StopAsked};
 use std::ops::Range;
 use std::time::Instant;
+use twin::Lattice;
 
 /// Rays that are still to be cast.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Pending {
     /// Of these views.
     pub(super) views: Range<usize>,
-    /// Pixels between cast rays.
-    pub(super) stride: u32,
+    /// These pixels.
+    pub(super) lattice: Lattice,
+    /// Whether to count their samples and to list tiles that missed something.
+    pub(super) counts: bool,
     /// These tiles of each.
     pub(super) tiles: Vec<Vec<u32>>,
 }
 
 impl Pending {
+    /// None.
+    fn none() -> Self {
+        Self { views: 0..0, lattice: Lattice::ALL, counts: false, tiles: Vec::new() }
+    }
+
     /// All tiles of some views.
-    pub(super) fn all(setting: &Setting, views: Range<usize>, stride: u32) -> Self {
-        let tiles = |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, stride).count()).collect();
+    pub(super) fn all(setting: &Setting, views: Range<usize>, lattice: Lattice) -> Self {
+        let tiles = |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, lattice).count()).collect();
         let tiles = setting.rays[views.clone()].iter().map(|rays| tiles(rays.raster)).collect();
-        Self { views, stride, tiles }
+        Self { views, lattice, counts: true, tiles }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -48,6 +57,8 @@ pub(super) struct Work {
     pub(super) missing: Vec<Vec<u32>>,
     /// Projectors whose pictures are final and have not been presented.
     pub(super) finals: Vec<u32>,
+    /// Their pixels that are as rays see them now; the others are to be reconstructed.
+    pub(super) known: Classes,
     /// Whether these are shown by and by.
     pub(super) eases: bool,
 }
@@ -58,10 +69,11 @@ impl Work {
             frame,
             setting,
             account,
-            pending: Pending::default(),
+            pending: Pending::none(),
             found: Vec::new(),
             missing: Vec::new(),
             finals: Vec::new(),
+            known: Classes::ALL,
             eases: false,
         }
     }
@@ -92,16 +104,16 @@ impl Work {
     /// Casts what is pending, as far as `stop` allows.
     pub(super) fn cast(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
         let started = Instant::now();
-        let Pending { views, stride, tiles } = &self.pending;
+        let Pending { views, lattice, counts, tiles } = &self.pending;
         let outcome = engine.device.cast(&CastJob {
             scene: &self.setting.scene,
             views: &self.setting.rays[views.clone()],
             first_picture: self.picture_of(views.start),
             fan: self.setting.caster.fan.as_ref(),
             needs: Needs { blends: engine.shelf.blends, spreads: engine.shelf.spreads, ..self.setting.needs },
-            part: Part::Tiles { stride: *stride, tiles },
+            part: Part::Tiles { lattice: *lattice, tiles },
             gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },
-            counts: true,
+            counts: *counts,
             stop,
         })?;
         add(&mut self.found, &outcome.feedback);

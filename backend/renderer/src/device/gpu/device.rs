@@ -251,7 +251,7 @@ impl GpuDevice {
             let bytes = self.feedback.used_bytes;
             self.feedback_back.copy(context, &mut encoder, &self.feedback.buffer, bytes);
         }
-        if job.has_counts() {
+        if job.counts {
             for (_, view) in cast {
                 self.views[view.picture].copy_counts(context, &mut encoder);
             }

@@ -42,7 +42,7 @@ impl ViewBuffers {
     /// Uploads what is particular to one cast of the view.
     pub(super) fn prepare(&mut self, context: &Context, view: &ViewJob) {
         let tiling =
-            Tiling { stride: view.grid.stride, across: view.grid.across, tiles: view.tiles.len() as u32 };
+            Tiling { lattice: view.grid.lattice, across: view.grid.across, tiles: view.tiles.len() as u32 };
         self.raster = view.rays.raster;
         let pixels = self.pixel_count() as u64;
         self.pixels.reserve(context, 16 * pixels);
@@ -66,7 +66,7 @@ impl ViewBuffers {
         outcome: &mut CastOutcome,
     ) -> Result<(), DeviceError> {
         outcome.rays += view.ray_count();
-        if !job.has_counts() {
+        if !job.counts {
             return Ok(());
         }
         let counts: Vec<u32> = self.counts_back.read(context, self.pixel_count())?;

@@ -1,0 +1,165 @@
+//! Pixels that were not cast, from those that were and from what was shown before (LFD section 5, figure 12).
+//!
+//! Of one cast class of pixels, first their diagonal neighbours are made from the four cast ones around each, then all
+//! others from the four beside them. A missing pixel Q, with neighbours in opposite pairs, becomes
+//!
+//! ```text
+//! spatial = the mean of the opposite pair whose colours differ least
+//! ΔQ      = the largest change of any neighbour since the picture before
+//! Q'      = Q_before + smoothstep(ΔQ, low, high) (spatial − Q_before)
+//! ```
+//!
+//! What stands still keeps its detail, and what moves blurs rather than tears. Pixels that have been cast since rays last
+//! saw something else are shown as they were cast, whatever the filter says: so a still view comes to the full picture.
+
+use super::Classes;
+use rayon::prelude::*;
+
+/// Size of a picture, pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Raster {
+    /// Along x.
+    pub width: usize,
+    /// Along y.
+    pub height: usize,
+}
+
+/// How much a pixel's neighbours must have changed, in linear colour, for it to follow them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// Up to here it stays what it was.
+    pub low: f32,
+    /// From here on it is what they say.
+    pub high: f32,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self { low: 0.004, high: 0.03 }
+    }
+}
+
+type Pixel = [f32; 4];
+type Step = (i32, i32);
+
+const BESIDE: [[Step; 2]; 2] = [[(-1, 0), (1, 0)], [(0, -1), (0, 1)]];
+const DIAGONAL: [[Step; 2]; 2] = [[(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+/// Where whole rows are known: those above and below.
+const ACROSS: [[Step; 2]; 3] = [[(0, -1), (0, 1)], [(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+
+/// Makes the picture to show of `cast`, of which the pixels of the `known` classes stand. `before` is what was shown before,
+/// where anything was. Both have four numbers a pixel, rows from the top.
+///
+/// # Panics
+/// Where a picture has not as many numbers as the raster says.
+pub fn reconstruct(
+    cast: Vec<f32>,
+    before: Option<&[f32]>,
+    raster: Raster,
+    known: Classes,
+    thresholds: Thresholds,
+) -> Vec<f32> {
+    assert_eq!(cast.len(), 4 * raster.width * raster.height, "a picture fills its raster");
+    if known == Classes::ALL {
+        return cast;
+    }
+    let fill = |picture: &[f32], pairs: &[[Step; 2]], known: Classes, missing: Classes| {
+        let filter = Filter { picture, before, raster, pairs, known, thresholds };
+        filter.fill(missing)
+    };
+    if let Some(diagonal) = known.diagonal_of_one() {
+        let half = fill(&cast, &DIAGONAL, known, diagonal);
+        let both = known.with(diagonal);
+        return fill(&half, &BESIDE, both, Classes::ALL.without(both));
+    }
+    let is_rows =
+        (0..2).any(|y| known.has(0, y) && known.has(1, y) && !known.has(0, 1 - y) && !known.has(1, 1 - y));
+    let pairs = if is_rows { &ACROSS[..] } else { &BESIDE[..] };
+    fill(&cast, pairs, known, Classes::ALL.without(known))
+}
+
+/// One pass over a picture.
+struct Filter<'a> {
+    picture: &'a [f32],
+    before: Option<&'a [f32]>,
+    raster: Raster,
+    /// Neighbours, in opposite pairs.
+    pairs: &'a [[Step; 2]],
+    known: Classes,
+    thresholds: Thresholds,
+}
+
+impl Filter<'_> {
+    fn fill(&self, missing: Classes) -> Vec<f32> {
+        let mut filled = self.picture.to_vec();
+        filled.par_chunks_mut(4 * self.raster.width).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.chunks_exact_mut(4).enumerate().filter(|&(x, _)| missing.has(x, y)) {
+                pixel.copy_from_slice(&self.pixel(x, y));
+            }
+        });
+        filled
+    }
+
+    /// The index of the first number of a neighbour that is known.
+    fn neighbour(&self, x: usize, y: usize, (dx, dy): Step) -> Option<usize> {
+        let x = x.checked_add_signed(dx as isize).filter(|&x| x < self.raster.width)?;
+        let y = y.checked_add_signed(dy as isize).filter(|&y| y < self.raster.height)?;
+        self.known.has(x, y).then_some(4 * (y * self.raster.width + x))
+    }
+
+    fn pixel(&self, x: usize, y: usize) -> Pixel {
+        let mut best: Option<(f32, Pixel)> = None;
+        let (mut sum, mut neighbours, mut change) = ([0.0; 4], 0.0, 0.0_f32);
+        for pair in self.pairs {
+            let found = pair.map(|step| self.neighbour(x, y, step));
+            for at in found.into_iter().flatten() {
+                let now = pixel_at(self.picture, at);
+                sum = std::array::from_fn(|i| sum[i] + now[i]);
+                neighbours += 1.0;
+                change = change
+                    .max(self.before.map_or(f32::INFINITY, |before| difference(now, pixel_at(before, at))));
+            }
+            if let [Some(a), Some(b)] = found {
+                let (a, b) = (pixel_at(self.picture, a), pixel_at(self.picture, b));
+                let apart = difference(a, b);
+                if best.is_none_or(|(least, _)| apart < least) {
+                    best = Some((apart, std::array::from_fn(|i| 0.5 * (a[i] + b[i]))));
+                }
+            }
+        }
+        // At the rim there may be no whole pair; in a raster of a single pixel, no neighbour at all.
+        let at = 4 * (y * self.raster.width + x);
+        let spatial = match best {
+            Some((_, mean)) => mean,
+            None if neighbours > 0.0 => sum.map(|sum| sum / neighbours),
+            None => pixel_at(self.picture, at),
+        };
+        let Some(before) = self.before.map(|before| pixel_at(before, at)) else { return spatial };
+        match self.thresholds.share(change) {
+            // To the bit, as the sum below is not.
+            1.0 => spatial,
+            share => std::array::from_fn(|i| before[i] + share * (spatial[i] - before[i])),
+        }
+    }
+}
+
+impl Thresholds {
+    /// smoothstep(change, low, high).
+    fn share(&self, change: f32) -> f32 {
+        let s = ((change - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
+        s * s * (3.0 - 2.0 * s)
+    }
+}
+
+fn pixel_at(picture: &[f32], at: usize) -> Pixel {
+    [picture[at], picture[at + 1], picture[at + 2], picture[at + 3]]
+}
+
+/// The largest difference of any of a pixel's numbers.
+fn difference(a: Pixel, b: Pixel) -> f32 {
+    a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
+
+#[cfg(test)]
+#[path = "reconstruct_tests.rs"]
+mod tests;
