@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use optics::{Curve, Optics};
 use protocol::{
     Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, FromBackend, FromFrontend, ProjectorImage,
-    Render, RenderEvent, RendererOptions, Setup, Stages, StopAsked, VolumeRef, wire,
+    Render, RenderEvent, RendererOptions, ScreenImage, Screens, Setup, Stages, StopAsked, VolumeRef, wire,
 };
 
 use signal_hook::{
@@ -96,6 +96,9 @@ impl Render for Fake {
             let rgba = (0..4 * width * height).map(number).collect();
             sink(ProjectorImage { projector, width, height, rgba });
         }
+        Ok(())
+    }
+    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
         Ok(())
     }
 }

@@ -202,6 +202,11 @@ impl Link for ClusterLink {
         self.roster().activity = activity.to_owned();
     }
 
+    /// A launcher ends the job when a rank ends.
+    fn revive(&mut self, _: usize) -> Result<bool, LinkError> {
+        Ok(false)
+    }
+
     fn finish(&mut self) -> Result<(), LinkError> {
         let has_parted = watchdog::guard_parting("lightloom").map_err(LinkError::Launch)?;
         while self.messenger.is_sending().map_err(LinkError::Launch)? {

@@ -12,6 +12,7 @@
 //! | `roster`, `watchdog`, `process` | who takes part, and who is still there |
 //! | `launch` | how this process was started, and how it ends when a run cannot go on |
 
+pub mod beat;
 #[cfg(feature = "mpi")]
 pub mod cluster;
 pub mod launch;

@@ -57,6 +57,12 @@ pub trait Link {
     /// Notes what the run is doing ("drawing frame 3"), for the sentence said when the launcher ends it.
     fn set_activity(&mut self, activity: &str);
 
+    /// Starts a back-end again that has ended; false where that cannot be done. It says hello as it did at first.
+    ///
+    /// # Errors
+    /// It can be done, and did not work.
+    fn revive(&mut self, backend: usize) -> Result<bool, LinkError>;
+
     /// Takes leave of back-ends that were asked to quit; nothing travels after it.
     fn finish(&mut self) -> Result<(), LinkError>;
 }

@@ -1,8 +1,8 @@
 //! The thread of a back-end that draws.
 
 use super::opened::Opened;
-use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, bounded, unbounded};
-use protocol::{FrameState, FromBackend, Render, Setup};
+use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded, unbounded};
+use protocol::{FrameState, FromBackend, Render, Screens, Setup};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -16,6 +16,8 @@ pub(super) enum Command {
     Open(Box<Setup>),
     /// Draw this frame, and drop one that is not done.
     Draw(Box<FrameState>),
+    /// Draw this frame for the screens once the one before is done, and drop one that waits.
+    Beat(Box<FrameState>),
     /// Complete what is written beside the pictures.
     Finish,
 }
@@ -59,7 +61,8 @@ impl RenderThread {
         let (commands, inbox) = unbounded();
         let (outbox, replies) = bounded(MOST_AHEAD);
         let is_over = Arc::new(AtomicBool::new(false));
-        let studio = Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0 };
+        let studio =
+            Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0, screens: Screens::Nowhere };
         let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
         Ok(Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) })
     }
@@ -70,16 +73,9 @@ impl RenderThread {
         let _ = self.commands.as_ref().map(|commands| commands.send(command));
     }
 
-    /// Its next reply, if there is one within `timeout`.
-    pub(super) fn reply(&self, timeout: Duration) -> Option<Reply> {
-        let replies = self.replies.as_ref()?;
-        match replies.recv_timeout(timeout) {
-            Ok(reply) => Some(reply),
-            Err(RecvTimeoutError::Timeout) => None,
-            Err(RecvTimeoutError::Disconnected) => Some(Reply::Failed(
-                "the thread that draws has ended; please report it with this line".to_owned(),
-            )),
-        }
+    /// Where its replies come.
+    pub(super) fn replies(&self) -> &Receiver<Reply> {
+        self.replies.as_ref().expect("they are only taken away when it is dropped")
     }
 }
 
@@ -100,6 +96,18 @@ struct Studio {
     is_over: Arc<AtomicBool>,
     /// Commands that it has begun with.
     taken: u64,
+    /// Where the pictures of the beat go.
+    screens: Screens,
+}
+
+/// What a studio is at.
+enum Work {
+    /// Nothing.
+    Idle,
+    /// A frame that another takes the place of.
+    Frame,
+    /// A frame of the beat; the next one waits.
+    Beat { next: Option<Box<FrameState>> },
 }
 
 /// Why the thread ends.
@@ -135,7 +143,7 @@ impl Studio {
         M: FnOnce(Setup) -> Result<Opened, String>,
     {
         let Ok(Command::Open(setup)) = self.inbox.recv() else { return Ok(()) };
-        self.taken = 1;
+        (self.taken, self.screens) = (1, setup.screens);
         let (mut renderer, info) = make(*setup).map_err(End::Failed)?;
         self.tell(FromBackend::Ready(info), true)?;
         let ended = self.obey(renderer.as_mut());
@@ -148,21 +156,29 @@ impl Studio {
 
     /// Does what it is asked to, until nobody asks any more.
     fn obey(&mut self, renderer: &mut dyn Render) -> Result<(), End> {
-        let mut is_drawing = false;
+        let mut work = Work::Idle;
         loop {
-            match self.next(is_drawing)? {
-                Some(Command::Draw(frame)) => {
+            let command = self.next(!matches!(work, Work::Idle))?;
+            work = match (command, work) {
+                (Some(Command::Draw(frame)), _) => {
                     renderer.restart(&frame)?;
-                    is_drawing = true;
+                    Work::Frame
                 }
-                Some(Command::Finish) => {
+                (Some(Command::Beat(frame)), Work::Beat { .. }) => Work::Beat { next: Some(frame) },
+                (Some(Command::Beat(frame)), Work::Idle | Work::Frame) => {
+                    renderer.restart(&frame)?;
+                    Work::Beat { next: None }
+                }
+                (Some(Command::Finish), _) => {
                     renderer.finish()?;
                     self.tell(FromBackend::Finished, true)?;
-                    is_drawing = false;
+                    Work::Idle
                 }
-                Some(Command::Open(_)) => return Err(End::Failed("it was set up twice".to_owned())),
-                None => is_drawing = !self.go_on(renderer)?,
-            }
+                (Some(Command::Open(_)), _) => return Err(End::Failed("it was set up twice".to_owned())),
+                (None, Work::Beat { next }) => self.go_on_beating(renderer, next)?,
+                (None, Work::Frame) if !self.go_on(renderer)? => Work::Frame,
+                (None, Work::Frame | Work::Idle) => Work::Idle,
+            };
         }
     }
 
@@ -180,6 +196,24 @@ impl Studio {
             Err(TryRecvError::Empty) => Ok(None),
             Err(TryRecvError::Disconnected) => Err(End::Dismissed),
         }
+    }
+
+    /// Goes on with a frame of the beat until it is done or a command comes, and begins the next.
+    fn go_on_beating(&self, renderer: &mut dyn Render, next: Option<Box<FrameState>>) -> Result<Work, End> {
+        let has_command = || !self.inbox.is_empty() || self.is_over.load(Ordering::Relaxed);
+        let advance = renderer.advance(&has_command)?;
+        let mut sent = Ok(());
+        renderer.present_on_screens(&mut |image| {
+            if sent.is_ok() && self.screens == Screens::Frontend {
+                sent = self.tell(FromBackend::Screen(image), false);
+            }
+        })?;
+        sent?;
+        let Some(report) = advance.report else { return Ok(Work::Beat { next }) };
+        self.tell(FromBackend::Drawn(report), next.is_none())?;
+        let Some(frame) = next else { return Ok(Work::Idle) };
+        renderer.restart(&frame)?;
+        Ok(Work::Beat { next: None })
     }
 
     /// Goes on with the frame until it is done, a command comes, or it is time for news. Whether it is done.

@@ -5,7 +5,8 @@ use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads;
 use crate::{Link, LinkError};
 use protocol::{
-    Advance, DrawError, FrameState, FromBackend, FromFrontend, ProjectorImage, Render, Setup, StopAsked,
+    Advance, DrawError, FrameState, FromBackend, FromFrontend, ProjectorImage, Render, ScreenImage, Setup,
+    StopAsked,
 };
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -41,6 +42,9 @@ impl Render for Slow {
     }
 
     fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        Ok(())
+    }
+    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
         Ok(())
     }
 }

@@ -69,6 +69,11 @@ impl Session {
         Ok(session)
     }
 
+    /// What to drive a display with, in place of drawing frame after frame.
+    pub(crate) fn into_parts(self) -> (Box<dyn Link>, Arc<AtomicBool>) {
+        (self.link, self.stop)
+    }
+
     /// Lets back-ends go that nothing is asked of.
     pub fn dismiss(link: Box<dyn Link>, limits: Limits) -> Result<(), SessionError> {
         Self::greet(link, limits, Arc::default())?.part()
@@ -256,7 +261,7 @@ impl Session {
     }
 
     fn lost(&self, error: LinkError) -> SessionError {
-        explain(error, self.activity.clone(), |backend| self.link.name(backend))
+        SessionError::of_link(error, self.activity.clone(), |backend| self.link.name(backend))
     }
 }
 
@@ -271,16 +276,6 @@ impl Draw for Session {
 
     fn finish(&mut self) -> Result<(), DrawError> {
         self.part().map_err(|error| DrawError(error.to_string()))
-    }
-}
-
-fn explain(error: LinkError, activity: String, name: impl Fn(usize) -> String) -> SessionError {
-    match error {
-        LinkError::Ended { backend, how } => SessionError::Ended { name: name(backend), activity, how },
-        LinkError::Garbled { backend, error } => {
-            SessionError::Misfit { name: name(backend), what: error.to_string() }
-        }
-        error => SessionError::Link { activity, error },
     }
 }
 

@@ -87,3 +87,16 @@ pub enum SessionError {
         error: LinkError,
     },
 }
+
+impl SessionError {
+    /// What went wrong with a link, in words that name the back-end.
+    pub(crate) fn of_link(error: LinkError, activity: String, name: impl Fn(usize) -> String) -> Self {
+        match error {
+            LinkError::Ended { backend, how } => Self::Ended { name: name(backend), activity, how },
+            LinkError::Garbled { backend, error } => {
+                Self::Misfit { name: name(backend), what: error.to_string() }
+            }
+            error => Self::Link { activity, error },
+        }
+    }
+}

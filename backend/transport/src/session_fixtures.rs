@@ -3,7 +3,7 @@
 use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, Optics};
-use protocol::{DeviceInfo, FrameReport, FrameState, RendererOptions, Setup, Stages, VolumeRef};
+use protocol::{DeviceInfo, FrameReport, FrameState, RendererOptions, Screens, Setup, Stages, VolumeRef};
 
 pub(crate) fn setups(count: u32) -> Vec<Setup> {
     let display = Display {

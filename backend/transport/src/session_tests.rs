@@ -4,7 +4,7 @@ use super::*;
 use crate::Opened;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads::{self, ThreadLink};
-use protocol::{Advance, Hello, ProjectorImage, Render, StopAsked};
+use protocol::{Advance, Hello, ProjectorImage, Render, ScreenImage, StopAsked};
 use std::collections::VecDeque;
 
 /// Long against the interval of signs of life.
@@ -43,6 +43,9 @@ impl Render for Fake {
         if self.tiles == TILES {
             sink(ProjectorImage { projector: self.backend, width: 1, height: 1, rgba: vec![0.5; 4] });
         }
+        Ok(())
+    }
+    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
         Ok(())
     }
 }
@@ -129,6 +132,9 @@ fn fate_of_pieces(pieces: u64, each: Duration) -> Option<String> {
         fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
             Ok(())
         }
+        fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+            Ok(())
+        }
     }
     let open = move |_: Setup| -> Result<Opened, String> { Ok((Box::new(Slow(0, pieces, each)), device())) };
     let mut session = start(Box::new(threads::spawn(1, open).unwrap()), setups(1)).unwrap();
@@ -149,6 +155,9 @@ fn a_run_that_is_stopped_leaves_its_frame_and_completes_what_is_written() {
             Ok(Advance { done: 0, total: 1, lacking_bricks: 0, report: None })
         }
         fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+            Ok(())
+        }
+        fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
             Ok(())
         }
         fn finish(&mut self) -> Result<(), DrawError> {
@@ -201,6 +210,9 @@ impl Link for Script {
         }))
     }
     fn set_activity(&mut self, _: &str) {}
+    fn revive(&mut self, _: usize) -> Result<bool, LinkError> {
+        Ok(false)
+    }
     fn finish(&mut self) -> Result<(), LinkError> {
         Ok(())
     }

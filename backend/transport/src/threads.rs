@@ -27,6 +27,10 @@ pub struct ThreadLink {
     outboxes: Vec<Sender<FromFrontend>>,
     inbox: Receiver<(usize, Parcel)>,
     threads: Vec<JoinHandle<()>>,
+    /// Starts a back-end, with a link of its own.
+    start: Box<dyn Fn(ThreadWorkerLink) -> std::io::Result<JoinHandle<()>> + Send>,
+    /// Where what they say goes.
+    outbox: Option<Sender<(usize, Parcel)>>,
 }
 
 struct ThreadWorkerLink {
@@ -41,19 +45,35 @@ where
     M: Fn(Setup) -> Result<Opened, String> + Send + Sync + 'static,
 {
     let make = Arc::new(make);
-    let (outbox, inbox) = bounded(AHEAD_PER_BACKEND * count);
-    let mut link = ThreadLink { outboxes: Vec::new(), inbox, threads: Vec::new() };
-    for backend in 0..count {
-        let (to_worker, from_frontend) = unbounded();
-        let worker = ThreadWorkerLink { backend, inbox: from_frontend, outbox: outbox.clone() };
+    let start = move |link: ThreadWorkerLink| {
         let make = Arc::clone(&make);
-        let thread = Builder::new().name(format!("back-end {backend}")).spawn(move || run(worker, make));
-        let unstarted =
-            |error| LinkError::Ended { backend, how: format!("no thread could be started: {error}") };
-        link.threads.push(thread.map_err(unstarted)?);
+        Builder::new().name(format!("back-end {}", link.backend)).spawn(move || run(link, make))
+    };
+    let (outbox, inbox) = bounded(AHEAD_PER_BACKEND * count);
+    let mut link = ThreadLink {
+        outboxes: Vec::new(),
+        inbox,
+        threads: Vec::new(),
+        start: Box::new(start),
+        outbox: Some(outbox),
+    };
+    for backend in 0..count {
+        let (to_worker, thread) = link.start(backend)?;
         link.outboxes.push(to_worker);
+        link.threads.push(thread);
     }
     Ok(link)
+}
+
+impl ThreadLink {
+    fn start(&self, backend: usize) -> Result<(Sender<FromFrontend>, JoinHandle<()>), LinkError> {
+        let failed = |how: String| LinkError::Ended { backend, how };
+        let outbox = self.outbox.clone().ok_or_else(|| failed("the run is over".to_owned()))?;
+        let (to_worker, inbox) = unbounded();
+        let thread = (self.start)(ThreadWorkerLink { backend, inbox, outbox });
+        let thread = thread.map_err(|error| failed(format!("no thread could be started: {error}")))?;
+        Ok((to_worker, thread))
+    }
 }
 
 fn run<M>(mut link: ThreadWorkerLink, make: Arc<M>)
@@ -101,8 +121,15 @@ impl Link for ThreadLink {
 
     fn set_activity(&mut self, _: &str) {}
 
+    fn revive(&mut self, backend: usize) -> Result<bool, LinkError> {
+        let (outbox, thread) = self.start(backend)?;
+        (self.outboxes[backend], self.threads[backend]) = (outbox, thread);
+        Ok(true)
+    }
+
     fn finish(&mut self) -> Result<(), LinkError> {
         self.outboxes.clear();
+        self.outbox = None;
         // Who waits for room in the inbox goes on.
         self.inbox = never();
         let threads = std::mem::take(&mut self.threads);

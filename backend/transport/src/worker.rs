@@ -1,9 +1,11 @@
 //! The life of a back-end: one thread passes messages on, another draws. So messages reach a back-end that is busy.
 
+use super::beat::{ShowThread, Shown, now_us};
 use super::link::{LinkError, WorkerLink};
 use super::opened::Opened;
 use super::process;
 use super::render_loop::{Command, RenderThread, Reply};
+use crossbeam_channel::select;
 use protocol::{FromBackend, FromFrontend, Hello, PROTOCOL_VERSION, Setup};
 use std::time::{Duration, Instant};
 
@@ -28,6 +30,8 @@ const LAST_WORDS: Duration = Duration::from_secs(5);
 /// How long the messages' thread waits for the renderer before it looks at the link, while there is something to draw.
 const LOOK_INTERVAL: Duration = Duration::from_millis(1);
 
+const THREAD_ENDED: &str = "the thread that draws has ended; please report it with this line";
+
 /// How often a back-end with something to do says that it lives, while it has nothing else to say.
 const ALIVE_INTERVAL: Duration = Duration::from_millis(250);
 
@@ -51,22 +55,49 @@ where
             );
         }
     };
-    let mut desk =
-        Desk { link, renderer, is_set_up: false, asked: 0, answered: 0, last_said: Instant::now() };
+    let screens = match ShowThread::start() {
+        Ok(screens) => screens,
+        Err(error) => {
+            return fail(
+                link,
+                format!("no thread could be started to show with: {error}; start fewer back-ends"),
+            );
+        }
+    };
+    let mut desk = Desk {
+        link,
+        renderer,
+        screens,
+        is_set_up: false,
+        asked: 0,
+        answered: 0,
+        ordered: None,
+        last_said: Instant::now(),
+    };
     loop {
         let Some(message) = desk.next()? else { continue };
         let command = match message {
             FromFrontend::Alive => continue,
             FromFrontend::Quit => return Ok(()),
+            FromFrontend::Clock { asked_us } => {
+                desk.say(FromBackend::Clock { asked_us, here_us: now_us() })?;
+                continue;
+            }
+            FromFrontend::Show { frame, at_us } => {
+                desk.screens.show(frame, at_us);
+                desk.ordered = desk.ordered.max(Some(frame));
+                continue;
+            }
             FromFrontend::Setup(_) if desk.is_set_up => return desk.fail("it was set up twice".to_owned()),
             FromFrontend::Setup(setup) => {
                 desk.is_set_up = true;
                 Command::Open(setup)
             }
-            FromFrontend::Frame(_) if !desk.is_set_up => {
+            FromFrontend::Frame(_) | FromFrontend::Beat(_) if !desk.is_set_up => {
                 return desk.fail("a frame came before the setup".to_owned());
             }
             FromFrontend::Frame(frame) => Command::Draw(frame),
+            FromFrontend::Beat(frame) => Command::Beat(frame),
             FromFrontend::Finish if !desk.is_set_up => {
                 return desk.fail("its end came before the setup".to_owned());
             }
@@ -81,11 +112,14 @@ where
 struct Desk<'a> {
     link: &'a mut dyn WorkerLink,
     renderer: RenderThread,
+    screens: ShowThread,
     is_set_up: bool,
     /// Commands to the renderer.
     asked: u64,
     /// Those of them that it owes nothing for any more.
     answered: u64,
+    /// The latest frame of the beat that is to be shown and is not.
+    ordered: Option<u32>,
     /// When it last said anything.
     last_said: Instant,
 }
@@ -93,27 +127,48 @@ struct Desk<'a> {
 impl Desk<'_> {
     /// The next message of the front-end; None where the renderer had something to say first.
     fn next(&mut self) -> Result<Option<FromFrontend>, WorkerError> {
-        if self.answered == self.asked {
+        if self.answered == self.asked && self.ordered.is_none() {
             let silence = self.link.frontend_silence();
             return self.link.receive(silence).map(Some).map_err(|error| match error {
                 LinkError::Silent => WorkerError::FrontendSilent(silence.as_secs()),
                 error => error.into(),
             });
         }
-        match self.renderer.reply(LOOK_INTERVAL) {
-            Some(Reply::Failed(sentence)) => return self.fail(sentence).map(|()| None),
-            Some(Reply::Message { message, answered }) => {
-                self.answered = answered;
-                return self.say(message).map(|()| None);
+        select! {
+            recv(self.renderer.replies()) -> reply => {
+                return self.pass_on(reply.unwrap_or_else(|_| Reply::Failed(THREAD_ENDED.to_owned()))).map(|()| None);
             }
-            // The thread that draws may be in a piece of work that takes long.
-            None if self.last_said.elapsed() > ALIVE_INTERVAL => self.say(FromBackend::Alive)?,
-            None => {}
+            recv(self.screens.told()) -> shown => {
+                if let Ok(Shown { frame, at_us }) = shown {
+                    self.ordered = self.ordered.filter(|&ordered| ordered > frame);
+                    return self.say(FromBackend::Shown { frame, at_us }).map(|()| None);
+                }
+            }
+            default(LOOK_INTERVAL) => {
+                // The thread that draws may be in a piece of work that takes long.
+                if self.last_said.elapsed() > ALIVE_INTERVAL {
+                    self.say(FromBackend::Alive)?;
+                }
+            }
         }
         match self.link.receive(Duration::ZERO) {
             Ok(message) => Ok(Some(message)),
             Err(LinkError::Silent) => Ok(None),
             Err(error) => Err(error.into()),
+        }
+    }
+
+    /// What the renderer has to say, to whom it concerns.
+    fn pass_on(&mut self, reply: Reply) -> Result<(), WorkerError> {
+        match reply {
+            Reply::Failed(sentence) => self.fail(sentence),
+            Reply::Message { message, answered } => {
+                self.answered = answered;
+                if let FromBackend::Drawn(report) = &message {
+                    self.screens.drawn(report.frame);
+                }
+                self.say(message)
+            }
         }
     }
 

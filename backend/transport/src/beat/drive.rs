@@ -1,0 +1,332 @@
+//! The front-end's side of a driven display: frames on the beat, over a link.
+
+use super::clocks::OtherClock;
+use super::rhythm::{Beat, Rhythm, Step};
+use super::time::Time;
+use crate::link::{Link, LinkError};
+use crate::session::Session;
+use crate::session_error::SessionError;
+use protocol::{
+    DeviceInfo, FrameReport, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION, ScreenImage, Setup,
+};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// How long to listen before anything else is looked after.
+const TICK: Duration = Duration::from_millis(50);
+
+/// How often back-ends are asked for their clocks.
+const ASK_INTERVAL: Duration = Duration::from_millis(200);
+
+/// What an order needs besides the way of its message: a back-end looks for messages every millisecond.
+const LEAD: Duration = Duration::from_millis(3);
+
+/// What happens while a display is driven.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening {
+    /// A frame is due: hand it over with [`Drive::draw`].
+    Due {
+        /// Its number.
+        frame: u32,
+        /// When it will be seen, on the display's clock.
+        seen_at: Duration,
+    },
+    /// What screens will show of the frame that the back-end draws.
+    Screen {
+        /// The back-end.
+        backend: usize,
+        /// The picture.
+        image: ScreenImage,
+    },
+    /// A back-end has drawn a frame.
+    Drawn {
+        /// The back-end.
+        backend: usize,
+        /// Its account.
+        report: Box<FrameReport>,
+    },
+    /// All are told to show a frame.
+    Ordered {
+        /// Its number.
+        frame: u32,
+        /// When, on the display's clock.
+        at: Duration,
+    },
+    /// A back-end shows a frame.
+    Shown {
+        /// The back-end.
+        backend: usize,
+        /// Its number.
+        frame: u32,
+        /// Since when, on the display's clock, as well as it is known.
+        at: Duration,
+    },
+    /// A back-end cannot go on; the others do, and it is started again.
+    Lost {
+        /// The back-end.
+        backend: usize,
+        /// A sentence.
+        why: String,
+    },
+    /// A back-end that was lost draws again.
+    Returned {
+        /// The back-end.
+        backend: usize,
+    },
+    /// Somebody asked the run to end.
+    Stopped,
+}
+
+/// Where a back-end is between being lost and drawing again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Presence {
+    There,
+    /// It failed and was let go.
+    Leaving,
+    /// It was started again and has not said hello.
+    Greeting,
+    /// It opens its volume and device.
+    Opening,
+}
+
+/// A display that is driven.
+pub struct Drive {
+    link: Box<dyn Link>,
+    setups: Vec<Setup>,
+    devices: Vec<DeviceInfo>,
+    stop: Arc<AtomicBool>,
+    beat: Beat,
+    time: Time,
+    clocks: Vec<OtherClock>,
+    presence: Vec<Presence>,
+    /// The latest frame that each was told to show and has drawn, until it says that it shows it.
+    owes_show: Vec<Option<u32>>,
+    /// The latest frame that each has drawn.
+    drawn: Vec<Option<u32>>,
+    asked_clocks_at: Option<Duration>,
+}
+
+impl Drive {
+    /// Drives the display of a session's back-ends, which were set up with `setups`, a frame every `period` at best.
+    pub fn new(session: Session, setups: Vec<Setup>, period: Duration, time: Time) -> Self {
+        let devices = session.devices().to_vec();
+        let (link, stop) = session.into_parts();
+        let backends = link.backends();
+        let lead = if time.is_stepped() { Duration::ZERO } else { LEAD };
+        Self {
+            link,
+            setups,
+            devices,
+            stop,
+            beat: Beat::new(Rhythm { period, lead }, backends, time.now()),
+            time,
+            clocks: vec![OtherClock::default(); backends],
+            presence: vec![Presence::There; backends],
+            owes_show: vec![None; backends],
+            drawn: vec![None; backends],
+            asked_clocks_at: None,
+        }
+    }
+
+    /// What each back-end draws with.
+    pub fn devices(&self) -> &[DeviceInfo] {
+        &self.devices
+    }
+
+    /// What the display's clock says.
+    pub fn now(&self) -> Duration {
+        self.time.now()
+    }
+
+    /// Frames that were shown without each back-end.
+    pub fn late(&self) -> Vec<u64> {
+        self.beat.late()
+    }
+
+    /// A back-end's name and place.
+    pub fn name(&self, backend: usize) -> String {
+        self.link.name(backend)
+    }
+
+    /// Hands over the frame that is due.
+    ///
+    /// # Errors
+    /// It cannot be sent.
+    pub fn draw(&mut self, frame: &FrameState) -> Result<(), SessionError> {
+        self.tell_all(&FromFrontend::Beat(Box::new(frame.clone())))?;
+        self.beat.begin(self.time.now());
+        Ok(())
+    }
+
+    /// The next thing that happens. It waits for one.
+    ///
+    /// # Errors
+    /// A back-end is lost and cannot be started again, or is of another build.
+    pub fn next(&mut self) -> Result<Happening, SessionError> {
+        loop {
+            if self.stop.load(Ordering::SeqCst) {
+                return Ok(Happening::Stopped);
+            }
+            if let Some(happening) = self.poll()? {
+                return Ok(happening);
+            }
+        }
+    }
+
+    /// The same, but it waits no longer than a moment; None where nothing happened.
+    fn poll(&mut self) -> Result<Option<Happening>, SessionError> {
+        self.ask_clocks()?;
+        let now = self.time.now();
+        let until = match self.beat.step(now) {
+            Step::Begin { .. } if self.time.is_stepped() && self.is_anything_under_way() => None,
+            Step::Begin { frame, seen_at } => return Ok(Some(Happening::Due { frame, seen_at })),
+            Step::Show { frame, at } => {
+                self.show(frame, at)?;
+                return Ok(Some(Happening::Ordered { frame, at }));
+            }
+            Step::Wait { until: Some(until) } if self.time.is_stepped() && !self.is_anything_under_way() => {
+                self.time.jump(until);
+                return Ok(None);
+            }
+            Step::Wait { until } => until.filter(|_| !self.time.is_stepped()),
+        };
+        let wait = until.map_or(TICK, |until| until.saturating_sub(now).min(TICK));
+        match self.link.receive(wait) {
+            Ok((backend, message)) => self.heed(backend, message),
+            Err(LinkError::Silent) => Ok(None),
+            Err(LinkError::Ended { backend, how }) => self.revive(backend, how),
+            Err(error) => Err(self.explain(error)),
+        }
+    }
+
+    /// Whether a back-end is drawing, or about to show what it has drawn.
+    fn is_anything_under_way(&self) -> bool {
+        self.beat.owing().next().is_some()
+            || (0..self.presence.len()).any(|backend| {
+                self.presence[backend] != Presence::There
+                    || self.owes_show[backend].is_some_and(|frame| self.drawn[backend] >= Some(frame))
+            })
+    }
+
+    fn show(&mut self, frame: u32, at: Duration) -> Result<(), SessionError> {
+        let at_us = at.as_micros() as u64;
+        for backend in self.there() {
+            let there_us = (!self.time.is_stepped()).then(|| self.clocks[backend].there(at_us));
+            self.tell(backend, &FromFrontend::Show { frame, at_us: there_us })?;
+            self.owes_show[backend] = Some(frame);
+        }
+        Ok(())
+    }
+
+    fn ask_clocks(&mut self) -> Result<(), SessionError> {
+        let now = self.time.now();
+        let is_early = self.asked_clocks_at.is_some_and(|before| now < before + ASK_INTERVAL);
+        if self.time.is_stepped() || is_early {
+            return Ok(());
+        }
+        self.asked_clocks_at = Some(now);
+        let longest = self.clocks.iter().filter_map(OtherClock::longest_trip_us).max().unwrap_or(0);
+        self.beat.set_lead(LEAD + Duration::from_micros(longest));
+        self.tell_all(&FromFrontend::Clock { asked_us: now.as_micros() as u64 })
+    }
+
+    /// What a message means.
+    fn heed(&mut self, backend: usize, message: FromBackend) -> Result<Option<Happening>, SessionError> {
+        let now = self.time.now();
+        let misfit = |drive: &Self, what: &str| {
+            Err(SessionError::Misfit { name: drive.link.name(backend), what: what.to_owned() })
+        };
+        Ok(match (message, self.presence[backend]) {
+            (FromBackend::Failed(why), _) => {
+                self.tell(backend, &FromFrontend::Quit)?;
+                Some(self.lose(backend, why))
+            }
+            (FromBackend::Hello(hello), Presence::Greeting) if hello.protocol == PROTOCOL_VERSION => {
+                self.presence[backend] = Presence::Opening;
+                let setup = self.setups[backend].clone();
+                self.tell(backend, &FromFrontend::Setup(Box::new(setup)))?;
+                None
+            }
+            (FromBackend::Ready(info), Presence::Opening) => {
+                self.devices[backend] = info;
+                self.presence[backend] = Presence::There;
+                self.clocks[backend] = OtherClock::default();
+                self.beat.returned(backend);
+                Some(Happening::Returned { backend })
+            }
+            (FromBackend::Alive | FromBackend::Progress { .. }, _) => None,
+            // What is left of one that was let go.
+            (_, Presence::Leaving) => None,
+            (FromBackend::Drawn(report), Presence::There) => {
+                self.drawn[backend] = Some(report.frame);
+                self.beat.drawn(backend, report.frame, now);
+                Some(Happening::Drawn { backend, report })
+            }
+            (FromBackend::Screen(image), Presence::There) => Some(Happening::Screen { backend, image }),
+            (FromBackend::Shown { frame, at_us }, Presence::There) => {
+                self.owes_show[backend] = self.owes_show[backend].filter(|&owed| owed > frame);
+                let at = match self.time.is_stepped() {
+                    true => now,
+                    false => Duration::from_micros(self.clocks[backend].here(at_us)),
+                };
+                Some(Happening::Shown { backend, frame, at })
+            }
+            (FromBackend::Clock { asked_us, here_us }, Presence::There) => {
+                self.clocks[backend].learn(asked_us, here_us, now.as_micros() as u64);
+                None
+            }
+            _ => return misfit(self, "it answered the beat with something else"),
+        })
+    }
+
+    fn lose(&mut self, backend: usize, why: String) -> Happening {
+        self.presence[backend] = Presence::Leaving;
+        (self.owes_show[backend], self.drawn[backend]) = (None, None);
+        self.beat.lost(backend);
+        Happening::Lost { backend, why }
+    }
+
+    /// A back-end has ended: starts it again.
+    fn revive(&mut self, backend: usize, how: String) -> Result<Option<Happening>, SessionError> {
+        let name = self.link.name(backend);
+        let was_known = self.presence[backend] == Presence::Leaving;
+        if !self.link.revive(backend).map_err(|error| self.explain(error))? {
+            let activity = "driving the display".to_owned();
+            return Err(SessionError::Ended { name, activity, how });
+        }
+        let lost = self.lose(backend, how);
+        self.presence[backend] = Presence::Greeting;
+        Ok((!was_known).then_some(lost))
+    }
+
+    /// Lets the back-ends go.
+    ///
+    /// # Errors
+    /// They cannot be reached any more.
+    pub fn finish(&mut self) -> Result<(), SessionError> {
+        self.tell_all(&FromFrontend::Quit)?;
+        self.link.finish().map_err(|error| self.explain(error))
+    }
+
+    fn there(&self) -> Vec<usize> {
+        (0..self.presence.len()).filter(|&backend| self.presence[backend] == Presence::There).collect()
+    }
+
+    fn tell_all(&mut self, message: &FromFrontend) -> Result<(), SessionError> {
+        let there = self.there();
+        let told = match there.len() == self.presence.len() {
+            true => self.link.broadcast(message),
+            false => there.into_iter().try_for_each(|backend| self.link.send(backend, message)),
+        };
+        told.map_err(|error| self.explain(error))
+    }
+
+    fn tell(&mut self, backend: usize, message: &FromFrontend) -> Result<(), SessionError> {
+        self.link.send(backend, message).map_err(|error| self.explain(error))
+    }
+
+    fn explain(&self, error: LinkError) -> SessionError {
+        SessionError::of_link(error, "driving the display".to_owned(), |backend| self.link.name(backend))
+    }
+}

@@ -1,0 +1,12 @@
+//! The beat of a driven display: the life of a frame from the front-end's clock to every screen.
+
+mod clocks;
+mod drive;
+mod rhythm;
+mod showing;
+mod stage;
+mod time;
+
+pub use drive::{Drive, Happening};
+pub(crate) use showing::{ShowThread, Shown, now_us};
+pub use time::Time;
