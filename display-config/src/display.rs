@@ -21,6 +21,8 @@ pub struct Display {
     pub observer_in_display: DVec3,
     /// η: 0 one perspective view, 1 full horizontal parallax.
     pub eta: f64,
+    /// Pictures per second that its projectors show.
+    pub rate_hz: f64,
     /// Its projectors, in the order of their pictures.
     pub projectors: Vec<Projector>,
     /// Part of the name of the graphics adapter of each back-end; None, or no entry, where the file names none.

@@ -41,6 +41,9 @@ pub enum FrontendError {
     /// A back-end cannot go on; the sentence is its own.
     #[error("{0}")]
     Backend(String),
+    /// There is no window; the sentence says what to do.
+    #[error("{0}")]
+    Screen(String),
     /// A frame ended without all of its pictures.
     #[error(
         "frame {frame} ended without the pictures of projectors {missing:?}; the back-ends that draw them are at fault"

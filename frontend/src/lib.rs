@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod adapter;
 pub mod cli;
 pub mod command;
+pub mod drive;
 mod error;
 pub mod gallery;
 pub mod interrupt;

@@ -79,7 +79,7 @@ prop_compose! {
         };
         let display = Display {
             name, width_m: 1.6, height_m: 0.9, pixel_size_m: 1.5e-3, angular_accuracy: 0.014,
-            observer_in_display: DVec3::Z, eta: 1.0, projectors,
+            observer_in_display: DVec3::Z, eta: 1.0, rate_hz: 60.0, projectors,
             adapters: vec![None, Some("card".into())],
         };
         let options = RendererOptions {

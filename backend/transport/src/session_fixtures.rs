@@ -14,6 +14,7 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
         angular_accuracy: 0.01,
         observer_in_display: DVec3::Z,
         eta: 1.0,
+        rate_hz: 60.0,
         projectors: Vec::new(),
         adapters: Vec::new(),
     };

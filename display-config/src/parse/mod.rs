@@ -49,6 +49,13 @@ impl Display {
 /// Positive lengths, as messages ask for them.
 const A_LENGTH: &str = "a length in metres, above 0 and at most 1000000";
 
+/// What most projectors show, pictures per second.
+const USUAL_RATE_HZ: f64 = 60.0;
+
+fn is_rate(hz: f64) -> bool {
+    (0.1..=1000.0).contains(&hz)
+}
+
 fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError> {
     let width_m = source.positive("screen_width_m", &raw.screen_width_m, A_LENGTH)?;
     let height_m = source.positive("screen_height_m", &raw.screen_height_m, A_LENGTH)?;
@@ -66,6 +73,9 @@ fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError
         angular_accuracy: accuracy_deg.to_radians(),
         observer_in_display: observer(source, raw)?,
         eta: source.within("eta", &raw.eta, eta, |eta| (0.0..=1.0).contains(&eta))?,
+        rate_hz: raw.rate_hz.as_ref().map_or(Ok(USUAL_RATE_HZ), |rate| {
+            source.within("rate_hz", rate, "a rate in pictures per second, from 0.1 to 1000", is_rate)
+        })?,
         projectors,
         adapters,
     })

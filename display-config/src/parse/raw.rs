@@ -14,6 +14,8 @@ pub(super) struct RawDisplay {
     pub angular_accuracy_deg: Spanned<f64>,
     pub observer_m: Spanned<ListOf<f64, 3>>,
     pub eta: Spanned<f64>,
+    /// Absent for that of most projectors.
+    pub rate_hz: Option<Spanned<f64>>,
     /// Absent where a line generates the projectors.
     pub projector: Option<Spanned<Vec<Spanned<RawProjector>>>>,
     pub projector_line: Option<Spanned<RawLine>>,

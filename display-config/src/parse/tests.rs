@@ -66,7 +66,7 @@ fn message_of(text: &str, from: &str, to: &str) -> String {
 #[test]
 fn a_list_of_projectors_becomes_a_display() {
     let display = Display::from_toml(&listed(), "two.toml").unwrap();
-    assert_eq!(display.eta, 1.0);
+    assert_eq!((display.eta, display.rate_hz), (1.0, 60.0));
     assert_eq!(backends_of(&display), [0, 1]);
     let [left, right] = &display.projectors[..] else { panic!("two projectors") };
     assert_eq!(right.raster.output, Some(("DP-1".into(), 0, 600)));
@@ -241,6 +241,7 @@ fn numbers_outside_their_range_are_refused() {
         ("3.0]", "-3.0]", "line 6: `observer_m` is -3; give an observer before the screen"),
         ("eta = 1", "eta = 1.01", "line 7: `eta` is 1.01; give a number from 0"),
         ("eta = 1", "eta = -1", "line 7: `eta` is -1; give a number from 0"),
+        ("eta = 1", "eta = 1\nrate_hz = 0", "line 8: `rate_hz` is 0; give a rate"),
         ("width_px = 800", "width_px = 0", "line 12: `width_px` is 0; give a number of pixels"),
         ("height_px = 600", "height_px = 0", "line 13: `height_px` is 0; give a number of pixels"),
         ("1.6, 0.9]", "1.6, -0.9]", "line 14: `screen_rect_m` is -0.9; give [left, bottom, width, height]"),

@@ -5,12 +5,14 @@ use crate::{FrontendError, interrupt};
 use backend::open_renderer;
 use display_config::{Display, Wiring};
 use protocol::{
-    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, Draw, FilterChoice, RendererOptions, Setup,
+    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, Draw, FilterChoice, RendererOptions, Screens, Setup,
     VolumeRef,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+use transport::beat::{Drive, Time};
 use transport::{Launch, Limits, Link, Session, launch, threads, under_mpi};
 
 /// What back-ends draw with.
@@ -26,6 +28,17 @@ pub struct BackendOptions {
     pub cache_bytes: u64,
     /// The folder for traces of live frames; None where none are wanted.
     pub traces: Option<PathBuf>,
+}
+
+/// How a display is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Showing {
+    /// From frame to frame, at best.
+    pub period: Duration,
+    /// The clock.
+    pub time: Time,
+    /// Where the pictures go.
+    pub at: Screens,
 }
 
 /// Back-ends that run and wait to be set up.
@@ -77,6 +90,33 @@ impl Backends {
         volume: &VolumeRef,
         display: &Display,
     ) -> Result<Drawing, FrontendError> {
+        let setups = self.setups(options, volume, display, Screens::Nowhere);
+        let stop = Arc::clone(&self.stop);
+        let session = self.session(setups)?;
+        let devices = session.devices().to_vec();
+        Ok(Drawing { source: Box::new(session), devices, stop })
+    }
+
+    /// Sets them up as they are wired, to drive the display.
+    pub fn drive(
+        self,
+        options: &BackendOptions,
+        volume: &VolumeRef,
+        display: &Display,
+        showing: &Showing,
+    ) -> Result<Drive, FrontendError> {
+        let setups = self.setups(options, volume, display, showing.at);
+        let session = self.session(setups.clone())?;
+        Ok(Drive::new(session, setups, showing.period, showing.time))
+    }
+
+    fn setups(
+        &self,
+        options: &BackendOptions,
+        volume: &VolumeRef,
+        display: &Display,
+        screens: Screens,
+    ) -> Vec<Setup> {
         let setups = self.wiring.shares.iter().zip(0..).map(|(share, backend)| Setup {
             options: RendererOptions {
                 display: display.clone(),
@@ -90,12 +130,14 @@ impl Backends {
             },
             volume: volume.clone(),
             trace: options.traces.as_deref().map(|folder| trace::path(folder, backend)),
+            screens,
         });
-        let session = Session::start(self.link, setups.collect(), Limits::default(), Arc::clone(&self.stop));
-        let session = session
-            .map_err(|error| interrupt::or_stopped(FrontendError::Backend(error.to_string()), &self.stop))?;
-        let devices = session.devices().to_vec();
-        Ok(Drawing { source: Box::new(session), devices, stop: self.stop })
+        setups.collect()
+    }
+
+    fn session(self, setups: Vec<Setup>) -> Result<Session, FrontendError> {
+        let session = Session::start(self.link, setups, Limits::default(), Arc::clone(&self.stop));
+        session.map_err(|error| interrupt::or_stopped(FrontendError::Backend(error.to_string()), &self.stop))
     }
 }
 

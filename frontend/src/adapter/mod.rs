@@ -10,7 +10,7 @@ mod store;
 mod trace;
 mod volume;
 
-pub use backends::{BackendOptions, Backends, Drawing, dismiss_backends};
+pub use backends::{BackendOptions, Backends, Drawing, Showing, dismiss_backends};
 pub use display::{load_display, preset_displays};
 pub use export::{ExportSummary, export};
 pub use import::{ImportRequest, ImportSummary, RawRequest, Skipped, import};
@@ -18,4 +18,4 @@ pub use levels::LevelSummary;
 pub use replay::{ReplayRow, Traces};
 pub use store::{StoreSummary, VerifySummary, store_summary, verify};
 pub use trace::TraceFolder;
-pub use volume::{meet_volume, open_scene_volume};
+pub use volume::{looks_of, meet_volume, open_scene_volume};

@@ -1,7 +1,8 @@
 //! Volumes, opened for work in this process.
 
 use crate::FrontendError;
-use crate::scene::{LookChoice, Scene, VolumeFacts};
+use crate::drive::Looks;
+use crate::scene::{LookChoice, LookName, Scene, VolumeFacts, WishedLook, read_values, verdict};
 use bricks::BrickSource;
 use protocol::VolumeRef;
 use std::sync::Arc;
@@ -10,6 +11,16 @@ use std::sync::Arc;
 pub fn meet_volume(scene: &mut Scene) -> Result<(VolumeFacts, Option<LookChoice>), FrontendError> {
     let volume = open_scene_volume(scene)?;
     Ok((VolumeFacts::of(volume.as_ref()), scene.fit_look(volume.as_ref())))
+}
+
+/// The looks that the volume of a scene may be shown in, of which it has `shown`: none where the scene has one of its own.
+pub fn looks_of(scene: &Scene, shown: Option<&LookChoice>) -> Result<Looks, FrontendError> {
+    if scene.wish.look == WishedLook::Own {
+        return Ok(Looks::default());
+    }
+    let values = read_values(open_scene_volume(scene)?.as_ref());
+    let names = LookName::ALL.into_iter().filter(|&name| verdict(name, &values).fits).collect();
+    Ok(Looks { values: Some(values), names, shown: shown.map(|look| look.name) })
 }
 
 /// Opens the volume of a scene for work in this process. What is wrong with it is told with the place that names it.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod backends;
 mod debug_view;
+mod drive;
 mod export;
 mod gallery;
 mod import;
@@ -19,6 +20,7 @@ mod verify;
 pub use accuracy::AccuracyArgs;
 pub use backends::{BackendArgs, DeviceArg, FilterArg};
 pub use debug_view::DebugViewArg;
+pub use drive::{DriveArgs, OutputArg, ReconstructArg};
 pub use export::ExportArgs;
 pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
@@ -45,6 +47,8 @@ pub struct Cli {
 pub enum Command {
     /// Render what every projector of a display shows, and what eyes in front of it see.
     Simulate(SimulateArgs),
+    /// Drive a display: frame after frame, at its rate, with all projectors in step.
+    Drive(DriveArgs),
     /// Show each illustrative technique off and on, as eyes in front of a display see it, on one page.
     Gallery(GalleryArgs),
     /// Show a volume in every look of the library, on one page.

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod displays;
+mod drive;
 mod export;
 mod gallery;
 mod import;
@@ -22,11 +23,13 @@ use crate::{FrontendError, adapter};
 /// Does what the command line asks for. Back-ends that a launcher started and that have nothing to draw are let go
 /// before that.
 pub fn run(command: &Command) -> Result<(), FrontendError> {
-    if !matches!(command, Command::Simulate(_) | Command::Gallery(_) | Command::Looks(_)) {
+    if !matches!(command, Command::Simulate(_) | Command::Drive(_) | Command::Gallery(_) | Command::Looks(_))
+    {
         adapter::dismiss_backends()?;
     }
     match command {
         Command::Simulate(args) => simulate::simulate(args),
+        Command::Drive(args) => drive::drive(args),
         Command::Gallery(args) => gallery::gallery(args),
         Command::Looks(args) => looks::looks(args),
         Command::Import(args) => import::import(args),

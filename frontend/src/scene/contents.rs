@@ -3,7 +3,8 @@
 use super::band::normalised_band;
 use super::volume::PROCEDURAL_VOXEL_M;
 use super::{
-    Band, Edits, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError, VolumeFacts, VolumeSource,
+    Band, Edits, Handling, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError, VolumeFacts,
+    VolumeSource,
 };
 use display_config::{Display, Place};
 use glam::DVec3;
@@ -74,10 +75,23 @@ impl Scene {
         facts: &VolumeFacts,
     ) -> Result<FrameState, SceneError> {
         let time_s = f64::from(index) / self.rate_hz;
+        self.frame_at(index, time_s, &Handling::default(), display, facts)
+    }
+
+    /// A frame at a time of the scene's clock, seconds, with the volume as somebody handles it. Fails only where the look
+    /// does not fit the volume's values.
+    pub fn frame_at(
+        &self,
+        index: u32,
+        time_s: f64,
+        handling: &Handling,
+        display: &Display,
+        facts: &VolumeFacts,
+    ) -> Result<FrameState, SceneError> {
         let spacing_m = self.voxel_size_m.unwrap_or(facts.voxel_size_m());
         let extent_m = facts.dims.as_dvec3() * spacing_m;
-        let scale = self.placement.scale(extent_m, display);
-        let place = self.placement_at(time_s);
+        let scale = self.placement.scale(extent_m, display) * handling.scale;
+        let place = handling.applied(self.placement_at(time_s));
         let observer = self.observer_m.unwrap_or(display.observer_in_display);
         Ok(FrameState {
             index,
@@ -85,7 +99,12 @@ impl Scene {
             observer_in_display: self.motion.observer_m.at(time_s).unwrap_or(observer),
             eta: self.eta.unwrap_or(display.eta),
             display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
-            optics: self.optics_at(time_s, facts.value_range, extent_m.max_element() * scale)?,
+            optics: self.optics_at(
+                time_s,
+                place.centre_m,
+                facts.value_range,
+                extent_m.max_element() * scale,
+            )?,
             light: self.light,
             quality: self.quality,
             tool: self.tool_at(time_s),
@@ -107,15 +126,21 @@ impl Scene {
         let longest_m =
             (facts.dims.as_dvec3() * self.voxel_size_m.unwrap_or(facts.voxel_size_m())).max_element();
         for time_s in self.edits.times().filter(|&time_s| time_s <= last_s) {
-            self.optics_at(time_s, facts.value_range, longest_m)?;
+            self.optics_at(time_s, self.centre_at(time_s), facts.value_range, longest_m)?;
         }
         Ok(())
     }
 
-    /// The look at a time for a volume of those values, whose longest edge is `longest_m` metres in the display.
-    fn optics_at(&self, time_s: f64, value_range: (f64, f64), longest_m: f64) -> Result<Optics, SceneError> {
+    /// The look at a time for a volume of those values at that place, whose longest edge is `longest_m` metres in the display.
+    fn optics_at(
+        &self,
+        time_s: f64,
+        centre_m: DVec3,
+        value_range: (f64, f64),
+        longest_m: f64,
+    ) -> Result<Optics, SceneError> {
         let look = self.look.edited(&self.edits, time_s);
-        let optics = look.optics(value_range, longest_m, &self.chain_at(time_s));
+        let optics = look.optics(value_range, longest_m, &self.chain_around(centre_m, time_s));
         optics.map_err(|reason| self.look_error(value_range, reason))
     }
 
@@ -130,6 +155,11 @@ impl Scene {
         Placement { centre_m, rotation, ..still }
     }
 
+    /// Where the volume's centre is at a time, metres, display frame.
+    pub fn centre_at(&self, time_s: f64) -> DVec3 {
+        self.placement_at(time_s).centre_m
+    }
+
     /// The bands over s of a domain, in the order of the file.
     pub fn bands_over(&self, domain: (f64, f64)) -> Result<Vec<Trapezoid>, SceneError> {
         let failed = |e: TrapezoidError| self.look_error(domain, e.to_string());
@@ -138,7 +168,11 @@ impl Scene {
 
     /// The enhancers in their places, bands over data values.
     pub(super) fn chain_at(&self, time_s: f64) -> Vec<Enhancer> {
-        let centre_m = self.placement_at(time_s).centre_m;
+        self.chain_around(self.centre_at(time_s), time_s)
+    }
+
+    /// The enhancers in their places around the volume's centre, bands over data values.
+    fn chain_around(&self, centre_m: DVec3, time_s: f64) -> Vec<Enhancer> {
         let (tool, picked) = (self.tool_at(time_s), self.edits.pick.at(time_s).copied());
         self.enhancers.iter().map(|enhancer| enhancer.placed(centre_m, tool.as_ref(), picked)).collect()
     }

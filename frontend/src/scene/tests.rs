@@ -20,6 +20,7 @@ pub(super) fn display() -> Display {
         angular_accuracy: 0.014,
         observer_in_display: DVec3::new(0.0, 0.0, 3.0),
         eta: 1.0,
+        rate_hz: 60.0,
         projectors: vec![projector],
         adapters: Vec::new(),
     }

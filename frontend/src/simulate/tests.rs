@@ -39,6 +39,7 @@ fn display(projectors: u32) -> Display {
         angular_accuracy: 0.014,
         observer_in_display: DVec3::new(0.0, 0.0, 3.0),
         eta: 1.0,
+        rate_hz: 60.0,
         projectors: (0..projectors).map(projector).collect(),
         adapters: Vec::new(),
     }

@@ -15,5 +15,5 @@ pub use error::OutputError;
 pub use exr::write_exr;
 pub use eye::{EyePlan, EyeView};
 pub use picture::{Picture, PictureRef};
-pub use png::{encode_png, write_png};
+pub use png::{encode_png, write_codes, write_png};
 pub use srgb::srgb_code;

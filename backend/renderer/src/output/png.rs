@@ -19,8 +19,19 @@ pub fn encode_png(into: impl Write, picture: PictureRef<'_>) -> Result<(), Strin
     for pixel in picture.rgba().chunks_exact(4) {
         rgb.extend_from_slice(&[srgb_code(pixel[0]), srgb_code(pixel[1]), srgb_code(pixel[2])]);
     }
+    encode_codes(into, picture.width(), picture.height(), &rgb)
+}
+
+/// Writes a picture of codes, three to a pixel.
+pub fn write_codes(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), OutputError> {
+    write_atomically(path, |file| {
+        encode_codes(file, width, height, rgb).map_err(|reason| OutputError::encode(path, reason))
+    })
+}
+
+fn encode_codes(into: impl Write, width: u32, height: u32, rgb: &[u8]) -> Result<(), String> {
     PngEncoder::new_with_quality(into, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&rgb, picture.width(), picture.height(), ExtendedColorType::Rgb8)
+        .write_image(rgb, width, height, ExtendedColorType::Rgb8)
         .map_err(|e| e.to_string())
 }
 

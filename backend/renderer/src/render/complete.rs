@@ -10,6 +10,7 @@ use super::feedback::{feedback_of, keys_of};
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use crate::device::coarse;
+use crate::present::lattice_of;
 use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
@@ -76,9 +77,17 @@ impl Complete {
     ) -> Result<Option<FrameReport>, RenderError> {
         if !std::mem::replace(&mut self.has_begun, true) {
             engine.leave_live()?;
+            if work.frame.sub_frame.is_none() {
+                engine.easing.forget();
+                engine.known.forget();
+            } else {
+                let lattice = Self::lattice(work);
+                work.known = engine.known.begin(&work.frame, true, &lattice);
+            }
             engine.stock.damage.start_frame();
         }
         if self.view == work.setting.rays.len() {
+            engine.known.end(work.known);
             return Ok(Some(self.report(work, engine)));
         }
         let met = if self.is_in_round { Vec::new() } else { self.learn(work, engine) };
@@ -99,6 +108,11 @@ impl Complete {
             Stage::Casting => self.end_views(work, engine),
         }
         Ok(None)
+    }
+
+    /// The pixels that the frame shows as they are cast.
+    fn lattice(work: &Work) -> Lattice {
+        lattice_of(work.frame.sub_frame, work.setting.caster.fan.is_some())
     }
 
     /// What the rays of the cast found; of a view that has just begun, nothing.
@@ -163,7 +177,7 @@ impl Complete {
     fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<Vec<u32>>>) {
         self.stage = stage;
         let views = self.view..self.view + work.views_at_once();
-        let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { Lattice::ALL };
+        let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { Self::lattice(work) };
         let mut pending = Pending::all(&work.setting, views, lattice);
         if stage == Stage::Looking {
             pending.counts = false;

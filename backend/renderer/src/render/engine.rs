@@ -2,6 +2,7 @@
 
 use super::RenderError;
 use super::easing::Easing;
+use super::known::Known;
 use super::live_memory::Live;
 use super::recording::Recording;
 use super::shelf::Shelf;
@@ -24,6 +25,7 @@ pub(super) struct Engine {
     pub(super) tables: TableCache,
     pub(super) live: Live,
     pub(super) easing: Easing,
+    pub(super) known: Known,
     pub(super) thresholds: Thresholds,
     pub(super) recording: Recording,
 }
@@ -54,6 +56,7 @@ impl Engine {
             tables: TableCache::default(),
             live: Live::default(),
             easing: Easing::default(),
+            known: Known::default(),
             thresholds: Thresholds::default(),
             recording: Recording::default(),
         };

@@ -9,7 +9,7 @@ use super::rules::FrameRules;
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use crate::device::FeedbackTag;
-use crate::present::{Classes, lattice_of};
+use crate::present::lattice_of;
 use crate::working_set::{Feedback, Moment, Shortfall, Showing, most_in_flight};
 use bricks::NodeKey;
 use layout::FeedbackEntry;
@@ -48,10 +48,7 @@ impl LiveFrame {
         engine.recording.begin()?;
         engine.device.clear_feedback();
         let lattice = lattice_of(work.frame.sub_frame, work.setting.caster.fan.is_some());
-        let stays = self.is_still && !engine.shelf.has_changed;
-        let known = if stays { engine.live.known } else { Classes::default() };
-        // A frame that is left off leaves these pixels as nobody knows.
-        engine.live.known = known.without(Classes::of_lattice(&lattice));
+        work.known = engine.known.begin(&work.frame, !engine.shelf.has_changed, &lattice);
         work.begin_cast(Pending::all(&work.setting, 0..work.setting.rays.len(), lattice));
         Ok(None)
     }
@@ -92,8 +89,7 @@ impl LiveFrame {
         let time_s = engine.live.now_s(&work.frame);
         let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
         engine.device.end_feedback(FeedbackTag { keys: keys_of(engine.set.cut()), frame });
-        engine.live.known = engine.live.known.with(Classes::of_lattice(&work.pending.lattice));
-        work.known = engine.live.known;
+        engine.known.end(work.known);
         work.account.done = work.account.total;
         work.finals.extend(&work.setting.projectors);
         work.eases = self.is_still && self.fade_s > 0.0 && work.frame.quality.blended;
@@ -150,7 +146,6 @@ impl Engine {
     pub(super) fn leave_live(&mut self) -> Result<(), RenderError> {
         self.take_last_feedback()?;
         self.stock.loader.want(&[], &[]);
-        self.easing.forget();
         self.live = Live { ahead_s: self.live.ahead_s, ..Live::default() };
         Ok(())
     }

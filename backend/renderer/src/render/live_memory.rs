@@ -1,6 +1,5 @@
 //! What live frames remember of each other.
 
-use crate::present::Classes;
 use crate::working_set::Feedback;
 use bricks::LodRule;
 use display_config::Display;
@@ -17,8 +16,6 @@ pub(super) struct Live {
     pub(super) met: Vec<Feedback>,
     /// Whether that was the frame before.
     pub(super) is_fresh: bool,
-    /// The pixels that have been cast since rays last saw something else.
-    pub(super) known: Classes,
 }
 
 impl Live {

@@ -20,6 +20,7 @@ mod error;
 mod feedback;
 #[cfg(test)]
 mod interrupt_tests;
+mod known;
 mod live;
 mod live_memory;
 #[cfg(test)]

@@ -128,7 +128,8 @@ impl Renderer {
             let started = std::time::Instant::now();
             let mut image = self.picture(projector)?;
             if let Some(Course { work, .. }) = &mut self.course {
-                if let (Some(image), Pace::Live { .. }) = (&mut image, work.frame.pace) {
+                let is_shown_by_and_by = work.frame.pace != Pace::Complete || work.frame.sub_frame.is_some();
+                if let Some(image) = image.as_mut().filter(|_| is_shown_by_and_by) {
                     let Engine { easing, live, thresholds, .. } = &mut self.engine;
                     let raster = Raster { width: image.width as usize, height: image.height as usize };
                     let cast = std::mem::take(&mut image.rgba);

@@ -18,7 +18,9 @@ impl Engine {
         upkeep: Option<Upkeep>,
     ) -> FrameReport {
         let damage = &self.stock.damage;
-        let shortfall = short.into_iter().chain(self.damages()).collect::<Vec<_>>().join("; ");
+        let guessed = (work.known != Classes::ALL)
+            .then(|| "some pixels are reconstructed from those beside them".to_owned());
+        let shortfall = short.or(guessed).into_iter().chain(self.damages()).collect::<Vec<_>>().join("; ");
         FrameReport {
             frame: work.frame.index,
             backend: self.options.backend,
@@ -60,8 +62,6 @@ impl Engine {
             Some(format!("the detail of {fading} nodes is coming or going"))
         } else if self.easing.is_behind() {
             Some("the picture is on its way to the detail that has come".to_owned())
-        } else if self.live.known != Classes::ALL {
-            Some("some pixels are reconstructed from those beside them".to_owned())
         } else {
             (!is_known).then(|| "it is not known yet what rays of this frame lack".to_owned())
         }

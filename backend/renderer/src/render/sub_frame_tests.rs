@@ -31,6 +31,11 @@ fn moved(frame: &FrameState) -> FrameState {
     moved
 }
 
+/// The same, waiting for its detail.
+fn complete(frame: &FrameState, index: u32) -> FrameState {
+    FrameState { pace: Pace::Complete, ..live(frame, index) }
+}
+
 /// The share of pixels that differ.
 fn differing(a: &Pictures, b: &Pictures) -> f64 {
     let pixels = a.iter().flatten().zip(b.iter().flatten());
@@ -41,15 +46,17 @@ fn differing(a: &Pictures, b: &Pictures) -> f64 {
 
 #[test]
 fn a_still_view_comes_to_the_full_picture_to_the_bit() {
-    for caster in BOTH {
+    for (caster, paced) in
+        BOTH.into_iter().flat_map(|caster| [(caster, live as fn(&_, _) -> _), (caster, complete)])
+    {
         let (still, mut renderer) = (frame(0.05), renderer(caster));
         let full = draw(&mut renderer, &still).unwrap().0;
         let casts = if caster == CasterChoice::Rays { 4 } else { 2 };
         // Wherever it was, and whatever the number of the frame.
         for first in [0, 5, 11] {
-            draw(&mut renderer, &live(&moved(&still), first)).unwrap();
+            draw(&mut renderer, &paced(&moved(&still), first)).unwrap();
             for cast in 1..=6 {
-                let (pictures, report) = draw(&mut renderer, &live(&still, first + cast)).unwrap();
+                let (pictures, report) = draw(&mut renderer, &paced(&still, first + cast)).unwrap();
                 let is_full = pictures == full;
                 assert_eq!(
                     is_full,
@@ -60,6 +67,44 @@ fn a_still_view_comes_to_the_full_picture_to_the_bit() {
                 assert!(is_full || !report.complete, "a picture that is not complete does not say so");
             }
         }
+    }
+}
+
+/// A path of frames that move, rest and jump.
+fn path() -> Vec<FrameState> {
+    let (here, there) = (frame(0.05), moved(&frame(0.05)));
+    let halves = |index: u32| if matches!(index, 2..=7 | 11) { here.clone() } else { there.clone() };
+    (0..14).map(|index| complete(&halves(index), index)).collect()
+}
+
+#[test]
+fn complete_sub_frames_are_the_same_whoever_draws_the_other_projectors() {
+    for caster in BOTH {
+        let draw_all = |projectors: Vec<u32>| -> Vec<Pictures> {
+            let source: Arc<dyn BrickSource> =
+                Arc::new(ProceduralVolume::new("shells", UVec3::splat(100), 1e-3).unwrap());
+            let options = RendererOptions { caster, projectors, ..options() };
+            let mut renderer = Renderer::new(&options, source).unwrap().0;
+            path().iter().map(|frame| draw(&mut renderer, frame).unwrap().0).collect()
+        };
+        let (both, left, right) = (draw_all(vec![0, 1]), draw_all(vec![0]), draw_all(vec![1]));
+        for (frame, both) in both.iter().enumerate() {
+            assert_eq!(both, &[&left[frame][..], &right[frame][..]].concat(), "{caster:?} {frame}");
+        }
+    }
+}
+
+#[test]
+fn kinds_of_frames_in_turn_do_not_disturb_each_other() {
+    let (still, mut renderer) = (frame(0.05), renderer(CasterChoice::Rays));
+    let full = draw(&mut renderer, &still).unwrap().0;
+    for index in 0..3 {
+        draw(&mut renderer, &moved(&still)).unwrap();
+        (0..3).for_each(|i| drop(draw(&mut renderer, &live(&still, i)).unwrap()));
+        let after = |renderer: &mut Renderer, i: u32| draw(renderer, &complete(&still, i)).unwrap().0;
+        let last = (index..index + 4).map(|i| after(&mut renderer, i)).last();
+        assert_eq!(last.as_ref(), Some(&full));
+        assert_eq!(draw(&mut renderer, &still).unwrap().0, full);
     }
 }
 

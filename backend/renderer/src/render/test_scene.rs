@@ -34,6 +34,7 @@ pub(super) fn display() -> Display {
         angular_accuracy: 0.01,
         observer_in_display: DVec3::new(0.0, 0.0, 1.2),
         eta: 1.0,
+        rate_hz: 60.0,
         projectors: vec![projector(-0.2), projector(0.2)],
         adapters: Vec::new(),
     }

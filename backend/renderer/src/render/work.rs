@@ -39,6 +39,11 @@ impl Pending {
         Self { views, lattice, counts: true, tiles }
     }
 
+    /// Whether these only look ahead: nothing is shown of them.
+    fn is_look(&self) -> bool {
+        !self.counts
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.tiles.iter().all(Vec::is_empty)
     }
@@ -84,9 +89,10 @@ impl Work {
     }
 
     /// The device's picture of a view: those of a complete frame that are cast one by one follow each other in one, each
-    /// presented before the next is begun.
+    /// presented before the next is begun. A coarse look at views whose pixels are kept goes to others.
     pub(super) fn picture_of(&self, view: usize) -> usize {
-        if self.frame.pace == Pace::Complete { view % self.views_at_once() } else { view }
+        let keeps_all = self.frame.pace != Pace::Complete || self.frame.sub_frame.is_some();
+        if keeps_all { view } else { view % self.views_at_once() }
     }
 
     /// Views of a complete frame that are cast together.
@@ -108,7 +114,10 @@ impl Work {
         let outcome = engine.device.cast(&CastJob {
             scene: &self.setting.scene,
             views: &self.setting.rays[views.clone()],
-            first_picture: self.picture_of(views.start),
+            first_picture: match self.pending.is_look() && self.frame.sub_frame.is_some() {
+                true => self.setting.rays.len(),
+                false => self.picture_of(views.start),
+            },
             fan: self.setting.caster.fan.as_ref(),
             needs: Needs { blends: engine.shelf.blends, spreads: engine.shelf.spreads, ..self.setting.needs },
             part: Part::Tiles { lattice: *lattice, tiles },

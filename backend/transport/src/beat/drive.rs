@@ -11,13 +11,16 @@ use protocol::{
 };
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long to listen before anything else is looked after.
 const TICK: Duration = Duration::from_millis(50);
 
 /// How often back-ends are asked for their clocks.
 const ASK_INTERVAL: Duration = Duration::from_millis(200);
+
+/// How long to wait for the next word of what is under way when the show is over.
+const LONGEST_SETTLING: Duration = Duration::from_secs(5);
 
 /// What an order needs besides the way of its message: a back-end looks for messages every millisecond.
 const LEAD: Duration = Duration::from_millis(3);
@@ -198,6 +201,33 @@ impl Drive {
             Err(LinkError::Ended { backend, how }) => self.revive(backend, how),
             Err(error) => Err(self.explain(error)),
         }
+    }
+
+    /// The next thing that happens of what is under way, without a new frame; None once nothing is, or it takes too long.
+    ///
+    /// # Errors
+    /// See [`Drive::next`].
+    pub fn settle(&mut self) -> Result<Option<Happening>, SessionError> {
+        let since = Instant::now();
+        while since.elapsed() < LONGEST_SETTLING && !self.stop.load(Ordering::SeqCst) {
+            if let Step::Show { frame, at } = self.beat.step(self.time.now()) {
+                self.show(frame, at)?;
+                return Ok(Some(Happening::Ordered { frame, at }));
+            }
+            if !self.is_anything_under_way() {
+                break;
+            }
+            let happening = match self.link.receive(TICK) {
+                Ok((backend, message)) => self.heed(backend, message)?,
+                Err(LinkError::Silent) => None,
+                Err(LinkError::Ended { backend, how }) => self.revive(backend, how)?,
+                Err(error) => return Err(self.explain(error)),
+            };
+            if happening.is_some() {
+                return Ok(happening);
+            }
+        }
+        Ok(None)
     }
 
     /// Whether a back-end is drawing, or about to show what it has drawn.

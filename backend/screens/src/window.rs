@@ -1,0 +1,69 @@
+//! The ends of a window: the loop in the main thread, and what other threads show pictures and hear of people with.
+
+use crate::app::{App, Order};
+use crate::{Act, Picture, ScreenError};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Instant;
+use winit::event_loop::{EventLoop, EventLoopProxy};
+
+/// The main thread's end.
+pub struct WindowLoop {
+    events: EventLoop<Order>,
+    app: App,
+}
+
+/// The end that shows pictures. Dropped, it closes the window.
+pub struct Window {
+    orders: EventLoopProxy<Order>,
+}
+
+/// The end that tells what people do.
+pub struct Acts {
+    acts: Receiver<Act>,
+}
+
+/// A window for pictures of this size, which opens once its loop runs. Call it from the main thread, once in a process.
+///
+/// # Errors
+/// There is no window system.
+pub fn open(title: &str, width: u32, height: u32) -> Result<(WindowLoop, Window, Acts), ScreenError> {
+    let events = EventLoop::with_user_event()
+        .build()
+        .map_err(|error| ScreenError::NoWindowSystem(error.to_string()))?;
+    let (tell, acts) = channel();
+    let orders = events.create_proxy();
+    let app = App::new(title.to_owned(), Picture::black(width, height), tell);
+    Ok((WindowLoop { events, app }, Window { orders }, Acts { acts }))
+}
+
+impl WindowLoop {
+    /// Shows what is asked for until the other end is dropped.
+    ///
+    /// # Errors
+    /// The window system refuses the window, or goes away.
+    pub fn run(mut self) -> Result<(), ScreenError> {
+        self.events.run_app(&mut self.app).map_err(|error| ScreenError::Window(error.to_string()))?;
+        self.app.failure.map_or(Ok(()), Err)
+    }
+}
+
+impl Window {
+    /// Shows a picture from a moment on, after those that were handed over before.
+    pub fn show(&self, picture: Picture, at: Instant) {
+        // A loop that has ended shows nothing any more, and the person has seen to that.
+        let _ = self.orders.send_event(Order::Show { picture, at });
+    }
+}
+
+impl Acts {
+    /// What was done in the window since this was last asked.
+    pub fn take(&self) -> impl Iterator<Item = Act> {
+        self.acts.try_iter()
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        let _ = self.orders.send_event(Order::Close);
+    }
+}

@@ -1,0 +1,115 @@
+//! The arguments of `lightloom drive`.
+
+use super::BackendArgs;
+use super::live::{FADE_S, UPLOAD_MIB, fade, upload};
+use crate::scene::{LookName, QualityPreset};
+use clap::{Args, ValueEnum};
+use protocol::Pace;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// The fastest and the slowest rate, frames a second.
+const RATES_HZ: (f64, f64) = (0.1, 1000.0);
+/// The longest show, seconds: a year.
+const LONGEST_S: f64 = 3.2e7;
+
+/// `lightloom drive`.
+#[derive(Clone, Debug, Args)]
+pub struct DriveArgs {
+    /// A .toml scene, a .lloom store, procedural:NAME or procedural:NAME@VOXELS with shells, marschner-lobb or sparse-vessels.
+    pub scene: String,
+    /// A display: a preset's name (see `lightloom displays`) or a .toml file.
+    #[arg(long, value_name = "DISPLAY", default_value = "holo72")]
+    pub display: String,
+    /// What draws the pictures.
+    #[command(flatten)]
+    pub drawing: BackendArgs,
+    /// Where the pictures go.
+    #[arg(long, value_enum, default_value = "desktop")]
+    pub output: OutputArg,
+    /// The same as --output desktop.
+    #[arg(long, conflicts_with = "output")]
+    pub desktop: bool,
+    /// Frames per second instead of the display's.
+    #[arg(long, value_name = "HZ", value_parser = rate, allow_hyphen_values = true)]
+    pub rate: Option<f64>,
+    /// Whether each frame casts a quarter of its pixels and reconstructs the others from these and the frames before: what
+    /// moves comes four times as often, what rests is complete after four frames.
+    #[arg(long, value_enum, default_value = "quincunx")]
+    pub reconstruct: ReconstructArg,
+    /// End after so many frames.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames: Option<u32>,
+    /// End after so many seconds.
+    #[arg(long = "for", value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub time: Option<Duration>,
+    /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub look: Option<LookName>,
+    /// Quality, overriding the scene's.
+    #[arg(long, value_enum)]
+    pub quality: Option<QualityPreset>,
+    /// Time in which detail appears or disappears; 0 means at once. [default: 0.4]
+    #[arg(long, value_name = "SECONDS", value_parser = fade, allow_hyphen_values = true)]
+    pub fade: Option<f64>,
+    /// How much one frame of a back-end may upload. [default: 64]
+    #[arg(long, value_name = "N", value_parser = upload, allow_hyphen_values = true)]
+    pub upload_mib: Option<u64>,
+    /// Write what every projector shows in every frame into this folder, as PNG.
+    #[arg(long, value_name = "DIR")]
+    pub dump: Option<PathBuf>,
+    /// Let time stand still while a frame is drawn, and let each wait for its detail: the same scene gives the same pictures,
+    /// however many back-ends draw them. For --dump.
+    #[arg(long)]
+    pub stepped: bool,
+    /// Folder for the report of the show; created if missing.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// No status line, no summary.
+    #[arg(long)]
+    pub quiet: bool,
+    /// Print the report as JSON on standard output, and nothing else.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Where the pictures go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum OutputArg {
+    /// All side by side into one window of this desktop, where mouse and keys handle the volume.
+    Desktop,
+    /// Nowhere: they are drawn and timed.
+    None,
+}
+
+/// Which pixels a frame casts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ReconstructArg {
+    /// A quarter of them (row planes: half); the others are reconstructed.
+    Quincunx,
+    /// All of them.
+    Off,
+}
+
+impl DriveArgs {
+    /// How frames get their detail.
+    pub fn pace(&self) -> Pace {
+        Pace::Live {
+            upload_bytes: self.upload_mib.unwrap_or(UPLOAD_MIB) << 20,
+            fade_s: self.fade.unwrap_or(FADE_S),
+        }
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let (low, high) = RATES_HZ;
+    let rate = text.trim().parse().ok().filter(|rate| (low..=high).contains(rate));
+    rate.ok_or_else(|| format!("give a number of frames per second from {low} to {high}"))
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.trim().parse().ok().filter(|&seconds: &f64| seconds > 0.0 && seconds <= LONGEST_S);
+    seconds
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| format!("give a number of seconds above 0 and at most {LONGEST_S}"))
+}

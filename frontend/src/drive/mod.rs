@@ -1,0 +1,35 @@
+//! A display that lives: inputs change the world, and its frames go out on the beat.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `world` | what has happened to the scene since it was loaded |
+//! | `change`, `input` | what can happen to it, and where that comes from |
+//! | `run` | the loop: inputs, world, frames, screens |
+//! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
+//! | `histogram`, `measures`, `status`, `report` | how well the beat is kept |
+
+mod change;
+mod desktop;
+mod dump;
+mod histogram;
+mod input;
+mod measures;
+mod report;
+mod run;
+mod screens;
+mod sheet;
+mod status;
+mod world;
+
+pub use change::Change;
+pub use desktop::{Desktop, Hands, KEYS};
+pub use dump::Dump;
+pub use histogram::{Histogram, Quantiles};
+pub use input::Input;
+pub use measures::{BackendBeat, BeatSummary};
+pub use report::DriveReport;
+pub use run::{End, Plan, Played, run};
+pub use screens::{Screens, Sink};
+pub use sheet::Sheet;
+pub use status::Status;
+pub use world::{Looks, World};

@@ -1,0 +1,155 @@
+//! What a show reports when it is over: JSON for programs, and a page for people.
+
+use super::{BeatSummary, End, Histogram, Played, Quantiles};
+use crate::FrontendError;
+use crate::report::html::{escape, facts, table};
+use crate::report::page::STYLE;
+use crate::report::plot::{Chart, Point, Series, Stroke};
+use crate::report::{BackendSummary, write_text};
+use serde::Serialize;
+use std::path::Path;
+
+/// The report for programs.
+const JSON: &str = "drive.json";
+/// The page for people.
+const HTML: &str = "drive.html";
+
+/// A report.
+#[derive(Clone, Debug, Serialize)]
+pub struct DriveReport {
+    /// The scene's name.
+    pub scene: String,
+    /// The display's name.
+    pub display: String,
+    /// Its projectors.
+    pub projectors: usize,
+    /// Frames a second that were asked for.
+    pub rate_hz: f64,
+    /// Whether each frame casts a quarter of its pixels.
+    pub reconstructs: bool,
+    /// Whether time stood still while a frame was drawn.
+    pub stepped: bool,
+    /// How long it lasted, seconds of the display's clock.
+    pub seconds: f64,
+    /// Why it ended.
+    pub end: End,
+    /// How the beat was kept.
+    pub beat: BeatSummary,
+    /// What drew it.
+    pub backends: Vec<BackendSummary>,
+    /// What cast the rays of the last frames.
+    pub casters: Vec<String>,
+    /// Why the last pictures are not complete; empty where they are.
+    pub shortfall: Vec<String>,
+    /// What happened to back-ends that were lost.
+    pub troubles: Vec<String>,
+}
+
+/// What fraction of times is longer than each, as a plot.
+pub(super) fn plot_of_beat(interval: &Histogram, latency: &Histogram, skew: &Histogram) -> String {
+    let series = |(number, (name, histogram)): (usize, (&str, &Histogram))| {
+        let point = |(ms, share): (f64, f64)| Point {
+            x: ms,
+            y: 100.0 * share,
+            title: format!("{:.3} % take {ms:.3} ms or longer", 100.0 * share),
+        };
+        let points: Vec<Point> = histogram.beyond().into_iter().map(point).collect();
+        (!points.is_empty()).then(|| Series::new(name, points).tone(number).stroke(Stroke::Thin))
+    };
+    let named = [("from a frame to the next", interval), ("from input to screen", latency), ("skew", skew)];
+    let chart = Chart {
+        title: "How long things take".to_owned(),
+        x_label: "milliseconds".to_owned(),
+        y_label: "frames that take as long or longer, percent".to_owned(),
+        series: named.into_iter().enumerate().filter_map(series).collect(),
+    };
+    if chart.series.is_empty() { String::new() } else { chart.svg() }
+}
+
+impl DriveReport {
+    /// What is told on a terminal, in one line.
+    pub fn line(&self) -> String {
+        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends } = &self.beat;
+        let late: u64 = backends.iter().map(|backend| backend.late).sum();
+        let rate_hz = if interval_ms.p50 > 0.0 { 1e3 / interval_ms.p50 } else { 0.0 };
+        format!(
+            "{frames} frames in {:.1} s, {rate_hz:.1} a second; from input to screen {:.1} ms (99 %: {:.1}); \
+             skew {:.2} ms (99 %: {:.2}); {late} late",
+            self.seconds, input_to_shown_ms.p50, input_to_shown_ms.p99, skew_ms.p50, skew_ms.p99,
+        )
+    }
+
+    /// Writes it into a folder.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write(&self, played: &Played, folder: &Path) -> Result<(), FrontendError> {
+        write_text(&folder.join(JSON), &serde_json::to_string_pretty(self)?)?;
+        Ok(write_text(&folder.join(HTML), &self.page(&played.plot))?)
+    }
+
+    fn page(&self, plot: &str) -> String {
+        let title = escape(&self.scene);
+        let sentences = |heading: &str, sentences: &[String]| match sentences {
+            [] => String::new(),
+            some => {
+                let items: String = some.iter().map(|one| format!("<li>{}</li>", escape(one))).collect();
+                format!("<h2>{heading}</h2><ul>{items}</ul>")
+            }
+        };
+        format!(
+            "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\">\
+             <meta name=\"viewport\" content=\"width=device-width\"><title>{title} · lightloom</title>\
+             <style>{STYLE}</style></head><body><main><header><h1>{title}</h1><p>driven on {}</p></header>\
+             {}<h2>The beat</h2>{}{plot}<h2>Back-ends</h2>{}{}{}</main></body></html>\n",
+            escape(&self.display),
+            self.setting(),
+            self.times(),
+            self.table_of_backends(),
+            sentences("Not complete", &self.shortfall),
+            sentences("What happened", &self.troubles),
+        )
+    }
+
+    fn setting(&self) -> String {
+        let casts = if self.reconstructs {
+            "a quarter of its pixels, and reconstructs the others"
+        } else {
+            "all pixels"
+        };
+        let clock = if self.stepped { "stands still while a frame is drawn" } else { "this machine's" };
+        facts(&[
+            ("frames", self.beat.frames.to_string()),
+            ("length", format!("{:.1} s", self.seconds)),
+            ("asked for", format!("{} a second", self.rate_hz)),
+            ("a frame casts", casts.to_owned()),
+            ("its rays", self.casters.join("; ")),
+            ("the clock", clock.to_owned()),
+            ("projectors", self.projectors.to_string()),
+        ])
+    }
+
+    fn times(&self) -> String {
+        let row = |name: &str, times: &Quantiles| {
+            let cell = |ms: f64| format!("{ms:.2}");
+            vec![name.to_owned(), cell(times.p50), cell(times.p99), cell(times.max)]
+        };
+        let rows = [
+            row("from a frame to the next", &self.beat.interval_ms),
+            row("from input to screen", &self.beat.input_to_shown_ms),
+            row("skew: first to last back-end", &self.beat.skew_ms),
+        ];
+        table(&["milliseconds", "median", "99 %", "largest"], &rows)
+    }
+
+    fn table_of_backends(&self) -> String {
+        let row = |(number, (beat, backend)): (usize, (&super::BackendBeat, &BackendSummary))| {
+            let Quantiles { p50, p99, max, .. } = beat.drawing_ms;
+            let times = [p50, p99, max].map(|ms| format!("{ms:.1}"));
+            let counts = [beat.late.to_string(), beat.lost.to_string()];
+            [vec![format!("{number}: {}", backend.device.adapter)], times.to_vec(), counts.to_vec()].concat()
+        };
+        let rows: Vec<_> = self.beat.backends.iter().zip(&self.backends).enumerate().map(row).collect();
+        table(&["back-end", "draws a frame in, ms", "99 %", "largest", "late", "lost"], &rows)
+    }
+}

@@ -1,0 +1,195 @@
+//! The loop of a driven display.
+
+use super::measures::Measures;
+use super::report::plot_of_beat;
+use super::{BeatSummary, Change, Input, KEYS, Screens, Status, World};
+use crate::FrontendError;
+use serde::Serialize;
+use std::time::Duration;
+use transport::beat::{Drive, Happening};
+
+/// When a show ends, besides by somebody who ends it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// After so many frames.
+    pub frames: Option<u32>,
+    /// After so long.
+    pub time: Option<Duration>,
+}
+
+/// Why a show ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// Somebody asked it to, by a signal.
+    Stopped,
+    /// Somebody left, at the window.
+    Left,
+    /// It had its frames, or its time.
+    Planned,
+    /// The script is over.
+    Script,
+}
+
+/// A show that is over.
+#[derive(Clone, Debug)]
+pub struct Played {
+    /// Why it ended.
+    pub end: End,
+    /// How long it lasted on the display's clock.
+    pub length: Duration,
+    /// How the beat was kept.
+    pub beat: BeatSummary,
+    /// The same as a plot.
+    pub plot: String,
+    /// What became of back-ends that were lost, sentence by sentence; the latest of many.
+    pub troubles: Vec<String>,
+    /// Whether the last frame of each back-end was complete, or why not.
+    pub shortfall: Vec<String>,
+    /// What cast the rays of the last frame, a line for each kind.
+    pub casters: Vec<String>,
+}
+
+/// Troubles that are kept.
+const MOST_TROUBLES: usize = 100;
+
+/// A show.
+struct Show<'a, 'b> {
+    drive: &'a mut Drive,
+    world: &'a mut World,
+    inputs: &'a mut [&'b mut dyn Input],
+    screens: &'a mut Screens<'b>,
+    measures: Measures,
+    lost: Vec<u64>,
+    troubles: Vec<String>,
+    /// Of each back-end's latest frame.
+    latest: Vec<(String, String)>,
+    tell: &'a mut dyn FnMut(&str),
+}
+
+/// Drives a display until its end. `tell` is told in sentences what goes wrong, and what keys there are.
+///
+/// # Errors
+/// The show cannot go on.
+pub fn run<'b>(
+    drive: &mut Drive,
+    world: &mut World,
+    inputs: &mut [&'b mut dyn Input],
+    screens: &mut Screens<'b>,
+    plan: &Plan,
+    status: &mut Status,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Played, FrontendError> {
+    let backends = drive.devices().len();
+    let began = drive.now();
+    let mut show = Show {
+        drive,
+        world,
+        inputs,
+        screens,
+        measures: Measures::default(),
+        lost: vec![0; backends],
+        troubles: Vec::new(),
+        latest: vec![Default::default(); backends],
+        tell,
+    };
+    let end = loop {
+        let happening = show.drive.next().map_err(|error| FrontendError::Backend(error.to_string()))?;
+        let now = show.drive.now();
+        match happening {
+            Happening::Stopped => break End::Stopped,
+            Happening::Due { frame, seen_at } => {
+                let is_planned = plan.frames.is_some_and(|frames| frame >= frames)
+                    || plan.time.is_some_and(|time| now >= began + time);
+                if is_planned {
+                    break End::Planned;
+                }
+                if let Some(end) = show.begin(frame, seen_at, now)? {
+                    break end;
+                }
+                let look = show.world.look().map(|look| format!(", look {look}")).unwrap_or_default();
+                status.tell(now, &look, || show.measures.summary(&show.drive.late(), &show.lost));
+            }
+            other => show.heed(other, now)?,
+        }
+    };
+    if end != End::Stopped {
+        // What is under way is still to be seen.
+        while let Some(happening) =
+            show.drive.settle().map_err(|error| FrontendError::Backend(error.to_string()))?
+        {
+            let now = show.drive.now();
+            show.heed(happening, now)?;
+        }
+    }
+    let mut casters: Vec<String> = show.latest.iter().map(|latest| latest.0.clone()).collect();
+    casters.dedup();
+    Ok(Played {
+        end,
+        length: show.drive.now().saturating_sub(began),
+        beat: show.measures.summary(&show.drive.late(), &show.lost),
+        plot: plot_of_beat(&show.measures.interval, &show.measures.latency, &show.measures.skew),
+        troubles: show.troubles,
+        shortfall: show.latest.into_iter().map(|latest| latest.1).filter(|why| !why.is_empty()).collect(),
+        casters,
+    })
+}
+
+impl Show<'_, '_> {
+    /// Asks the inputs, and begins a frame. Why the show ends instead, if it does.
+    fn begin(&mut self, frame: u32, seen_at: Duration, now: Duration) -> Result<Option<End>, FrontendError> {
+        let mut changes = Vec::new();
+        self.inputs.iter_mut().for_each(|input| input.poll(now, &mut changes));
+        for change in changes {
+            match change {
+                Change::Quit => return Ok(Some(End::Left)),
+                Change::Help => (self.tell)(KEYS),
+                change => self.world.apply(change),
+            }
+        }
+        let state = self.world.frame(frame, seen_at)?;
+        if self.world.is_over() {
+            return Ok(Some(End::Script));
+        }
+        self.measures.began(frame, now);
+        self.drive.draw(&state).map_err(|error| FrontendError::Backend(error.to_string()))?;
+        Ok(None)
+    }
+
+    fn heed(&mut self, happening: Happening, now: Duration) -> Result<(), FrontendError> {
+        match happening {
+            Happening::Screen { backend, image } => self.screens.take(backend, image),
+            Happening::Drawn { backend, report } => {
+                self.measures.drawn(backend, report.frame, report.total_ms);
+                self.screens.drawn(backend, report.frame, now)?;
+                self.latest[backend] = (report.caster.to_string(), report.shortfall);
+            }
+            Happening::Ordered { frame, at } => {
+                self.measures.ordered(frame);
+                self.screens.ordered(frame, at, now)?;
+            }
+            Happening::Shown { backend, frame, at } => self.measures.shown(backend, frame, at),
+            Happening::Lost { backend, why } => {
+                self.lost[backend] += 1;
+                self.screens.forget(backend);
+                self.measures.lost(backend);
+                let name = self.drive.name(backend);
+                self.trouble(format!("{name} is lost, and is started again: {why}"));
+            }
+            Happening::Returned { backend } => {
+                let name = self.drive.name(backend);
+                self.trouble(format!("{name} draws again"));
+            }
+            Happening::Due { .. } | Happening::Stopped => {}
+        }
+        Ok(())
+    }
+
+    fn trouble(&mut self, sentence: String) {
+        (self.tell)(&sentence);
+        if self.troubles.len() == MOST_TROUBLES {
+            self.troubles.remove(0);
+        }
+        self.troubles.push(sentence);
+    }
+}
