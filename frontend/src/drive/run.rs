@@ -147,10 +147,10 @@ impl Show<'_, '_> {
                 change => self.world.apply(change),
             }
         }
-        let state = self.world.frame(frame, seen_at)?;
         if self.world.is_over() {
             return Ok(Some(End::Script));
         }
+        let state = self.world.frame(frame, seen_at)?;
         self.measures.began(frame, now);
         self.drive.draw(&state).map_err(|error| FrontendError::Backend(error.to_string()))?;
         Ok(None)

@@ -15,6 +15,9 @@ const FARTHEST: f64 = 5.0;
 /// The context that the clip plane keeps, as scenes have it that say nothing else.
 const CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
 
+/// Times that differ by less are the same, seconds: steps of a rate add up to a little less or more.
+const LEAST_STEP_S: f64 = 1e-6;
+
 /// The looks that a world can go through.
 #[derive(Clone, Debug, Default)]
 pub struct Looks {
@@ -135,7 +138,7 @@ impl World {
     /// Whether a script has come to its end. A scene in which nothing moves has none.
     pub fn is_over(&self) -> bool {
         let last = self.scene.frame_count.saturating_sub(1);
-        last > 0 && self.script_s >= f64::from(last) / self.scene.rate_hz
+        last > 0 && self.script_s + LEAST_STEP_S >= f64::from(last) / self.scene.rate_hz
     }
 
     /// The frame that is seen at a time of the display's clock: not before the frame that was made before it.
@@ -179,3 +182,7 @@ impl World {
         Some(scene)
     }
 }
+
+#[cfg(test)]
+#[path = "world_tests.rs"]
+mod tests;

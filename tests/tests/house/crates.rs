@@ -7,7 +7,7 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 16] = [
+pub const CRATES: [(&str, &str, &[&str]); 17] = [
     ("display-config", "display-config", &[]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
@@ -37,6 +37,7 @@ pub const CRATES: [(&str, &str, &[&str]); 16] = [
         ],
     ),
     ("transport", "backend/transport", &["display-config", "optics", "protocol"]),
+    ("screens", "backend/screens", &[]),
     ("backend", "backend", &["bricks", "display-config", "optics", "protocol", "renderer", "transport"]),
     (
         "frontend",
@@ -49,6 +50,7 @@ pub const CRATES: [(&str, &str, &[&str]); 16] = [
             "protocol",
             "reference",
             "renderer",
+            "screens",
             "transport",
             "twin",
             "volumes",
@@ -58,8 +60,14 @@ pub const CRATES: [(&str, &str, &[&str]); 16] = [
 ];
 pub const TESTS: &str = "lightloom-tests";
 /// Crates that one crate alone may depend on.
-const PRIVATE: [(&str, &str); 4] =
-    [("wgpu", "renderer"), ("mpi", "transport"), ("bincode", "protocol"), ("fearless_simd", "planes")];
+const PRIVATE: [(&str, &str); 6] = [
+    ("wgpu", "renderer"),
+    ("mpi", "transport"),
+    ("bincode", "protocol"),
+    ("fearless_simd", "planes"),
+    ("winit", "screens"),
+    ("softbuffer", "screens"),
+];
 /// The only places where the paths of a crate may begin: a folder ends in a slash.
 const CONFINED: [(&str, &[&str]); 3] = [
     ("mpi", &["backend/transport/src/mpi.rs"]),

@@ -360,3 +360,7 @@ impl Drive {
         SessionError::of_link(error, "driving the display".to_owned(), |backend| self.link.name(backend))
     }
 }
+
+#[cfg(test)]
+#[path = "drive_tests.rs"]
+mod tests;

@@ -1,0 +1,178 @@
+//! A display driven by back-ends in threads, which draw nothing and take as long as a test says.
+
+use super::*;
+use crate::session_fixtures::{device, frame, report, setups};
+use crate::{Limits, Opened, threads};
+use protocol::{Advance, DrawError, ProjectorImage, Render, Screens, StopAsked};
+use std::collections::BTreeMap;
+use std::sync::atomic::AtomicU32;
+
+const PERIOD: Duration = Duration::from_millis(10);
+
+/// What a back-end does in a frame: it takes a while, and may fail.
+type Behaviour = Arc<dyn Fn(u32, u32) -> Result<Duration, String> + Send + Sync>;
+
+struct Fake {
+    backend: u32,
+    frame: u32,
+    behaves: Behaviour,
+}
+
+impl Render for Fake {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        self.frame = frame.index;
+        Ok(())
+    }
+
+    fn advance(&mut self, _: StopAsked) -> Result<Advance, DrawError> {
+        std::thread::sleep((self.behaves)(self.backend, self.frame).map_err(DrawError)?);
+        let report = Some(Box::new(report(self.frame, self.backend)));
+        Ok(Advance { done: 1, total: 1, lacking_bricks: 0, report })
+    }
+
+    fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        Ok(())
+    }
+
+    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+        let [a, b, c, _] = self.frame.to_le_bytes();
+        sink(ScreenImage { projector: self.backend, width: 1, height: 1, rgb: vec![a, b, c] });
+        Ok(())
+    }
+}
+
+fn driving(backends: u32, time: Time, behaves: Behaviour) -> Drive {
+    let open = move |setup: Setup| -> Result<Opened, String> {
+        Ok((
+            Box::new(Fake { backend: setup.options.backend, frame: 0, behaves: Arc::clone(&behaves) }),
+            device(),
+        ))
+    };
+    let link = Box::new(threads::spawn(backends as usize, open).unwrap());
+    let setups: Vec<Setup> =
+        setups(backends).into_iter().map(|setup| Setup { screens: Screens::Frontend, ..setup }).collect();
+    let session = Session::start(link, setups.clone(), Limits::default(), Arc::default()).unwrap();
+    Drive::new(session, setups, PERIOD, time)
+}
+
+/// What is known of a show.
+#[derive(Default)]
+struct Seen {
+    /// Of each back-end, the frames that it showed, with their times.
+    shown: BTreeMap<usize, Vec<(u32, Duration)>>,
+    ordered: BTreeMap<u32, Duration>,
+    lost: Vec<String>,
+    returned: usize,
+    pictures: BTreeMap<usize, Vec<u32>>,
+}
+
+/// Drives so many frames.
+fn play(drive: &mut Drive, frames: u32) -> Seen {
+    let mut seen = Seen::default();
+    loop {
+        match drive.next().unwrap() {
+            Happening::Due { frame: index, .. } if index == frames => break,
+            Happening::Due { frame: index, .. } => drive.draw(&frame(index)).unwrap(),
+            other => note(&mut seen, other),
+        }
+    }
+    while let Some(happening) = drive.settle().unwrap() {
+        note(&mut seen, happening);
+    }
+    drive.finish().unwrap();
+    seen
+}
+
+fn note(seen: &mut Seen, happening: Happening) {
+    match happening {
+        Happening::Shown { backend, frame, at } => seen.shown.entry(backend).or_default().push((frame, at)),
+        Happening::Ordered { frame, at } => drop(seen.ordered.insert(frame, at)),
+        Happening::Lost { why, .. } => seen.lost.push(why),
+        Happening::Returned { .. } => seen.returned += 1,
+        Happening::Screen { backend, image } => {
+            let number = u32::from_le_bytes([image.rgb[0], image.rgb[1], image.rgb[2], 0]);
+            seen.pictures.entry(backend).or_default().push(number);
+        }
+        Happening::Drawn { .. } | Happening::Due { .. } | Happening::Stopped => {}
+    }
+}
+
+/// A time that looks random, and is the same each time.
+fn some(backend: u32, frame: u32, most_us: u64) -> Duration {
+    let mixed = (u64::from(backend) << 32 | u64::from(frame)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    Duration::from_micros((mixed >> 40) % most_us)
+}
+
+#[test]
+fn on_a_clock_that_steps_every_back_end_shows_every_frame_in_order() {
+    for backends in [1, 2, 4] {
+        let mut drive = driving(backends, Time::stepped(), Arc::new(|b, f| Ok(some(b, f, 3_000))));
+        let seen = play(&mut drive, 40);
+        assert_eq!(seen.shown.len(), backends as usize);
+        for (backend, shown) in &seen.shown {
+            let frames: Vec<u32> = shown.iter().map(|shown| shown.0).collect();
+            assert_eq!(frames, (0..40).collect::<Vec<_>>());
+            assert_eq!(seen.pictures[backend], frames);
+        }
+        assert_eq!(drive.late(), vec![0; backends as usize]);
+        let steps: Vec<Duration> = seen.ordered.values().copied().collect();
+        assert!(steps.windows(2).all(|pair| pair[1] - pair[0] == PERIOD), "{steps:?}");
+    }
+}
+
+#[test]
+fn on_a_real_clock_none_shows_a_frame_before_its_time() {
+    let mut drive = driving(3, Time::Real, Arc::new(|b, f| Ok(some(b, f, 4_000))));
+    let seen = play(&mut drive, 60);
+    for (frame, at) in seen.shown.values().flatten() {
+        // What one process thinks of another's clock errs by half a message's way; here they share one.
+        assert!(*at + Duration::from_millis(2) >= seen.ordered[frame], "{frame}");
+    }
+    assert!(seen.shown.values().all(|shown| shown.windows(2).all(|pair| pair[0].0 < pair[1].0)));
+}
+
+#[test]
+fn one_that_hangs_is_late_and_the_others_go_on() {
+    let hangs = |backend, frame| match (backend, frame) {
+        (1, 10) => Ok(Duration::from_millis(400)),
+        _ => Ok(Duration::from_millis(1)),
+    };
+    let mut drive = driving(3, Time::Real, Arc::new(hangs));
+    let seen = play(&mut drive, 80);
+    let late = drive.late();
+    assert!(late[1] >= 10, "{late:?}");
+    for backend in [0, 2] {
+        assert_eq!(seen.shown[&backend].len(), 80, "{backend} shows every frame");
+    }
+    let frames: Vec<u32> = seen.shown[&1].iter().map(|shown| shown.0).collect();
+    assert!(frames.contains(&10) && frames.last() == Some(&79), "{frames:?}");
+    assert!(seen.lost.is_empty());
+}
+
+#[test]
+fn those_that_fail_or_panic_come_back_and_the_others_show_every_frame() {
+    // Each frame fails once only: who comes back is not asked for it again, but counts begin anew with a thread.
+    let failures = Arc::new(AtomicU32::new(0));
+    let counted = Arc::clone(&failures);
+    let fails = move |backend, frame| {
+        if backend == 1 && frame % 8 == 5 {
+            match counted.fetch_add(1, Ordering::SeqCst) % 2 {
+                0 => return Err("the volume went away".to_owned()),
+                _ => panic!("a fault"),
+            }
+        }
+        Ok(Duration::from_millis(1))
+    };
+    let mut drive = driving(3, Time::Real, Arc::new(fails));
+    let seen = play(&mut drive, 300);
+    let lost = failures.load(Ordering::SeqCst) as usize;
+    assert!(lost > 10, "{lost}");
+    assert_eq!(seen.lost.len(), lost);
+    assert!(seen.returned + 1 >= lost, "{} of {lost}", seen.returned);
+    assert!(seen.lost.iter().any(|why| why.contains("the volume went away")));
+    assert!(seen.lost.iter().any(|why| why.contains("a fault")));
+    for backend in [0, 2] {
+        assert_eq!(seen.shown[&backend].len(), 300, "{backend} shows every frame");
+    }
+    assert!(seen.shown[&1].len() > 100);
+}
