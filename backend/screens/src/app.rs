@@ -1,6 +1,6 @@
 //! A window as its window system drives it.
 
-use crate::{Act, Button, Picture, ScreenError};
+use crate::{Act, Button, Picture, ScreenError, keys};
 use softbuffer::{Context, Surface};
 use std::collections::VecDeque;
 use std::num::NonZeroU32;
@@ -172,6 +172,7 @@ impl ApplicationHandler<Order> for App {
             } => self.press(&logical_key),
             WindowEvent::MouseInput { state, button, .. } => {
                 self.mouse.held = (state == ElementState::Pressed).then_some(button);
+                self.open.iter().for_each(|open| keys::take(&open.window));
             }
             WindowEvent::CursorMoved { position, .. } => self.drag((position.x, position.y)),
             WindowEvent::MouseWheel { delta, .. } => self.act(Act::Wheel(match delta {

@@ -6,6 +6,7 @@
 mod act;
 mod app;
 mod error;
+mod keys;
 mod picture;
 mod window;
 

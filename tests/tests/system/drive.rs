@@ -183,8 +183,7 @@ fn a_signal_ends_a_show_well() {
 #[test]
 fn what_cannot_be_driven_is_refused() {
     let refused = |more: &[&str], parts: &[&str]| {
-        let mut command =
-            lightloom(&[&["drive", "procedural:shells@16", "--display", "desk8"], more].concat());
+        let mut command = lightloom(&[&["drive", "procedural:shells@16"], more].concat());
         run(command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY")).refused(parts);
     };
     refused(&["--desktop"], &["no window can be opened", "--output none"]);

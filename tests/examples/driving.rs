@@ -1,0 +1,102 @@
+//! How fast and how evenly a display is driven on this machine: the program itself, with its output nowhere.
+//!
+//! `cargo run --release -p lightloom-tests --example driving -- [--seconds N]`
+
+use lightloom_tests::program::{cluster, lightloom, run};
+use lightloom_tests::results::{Program, Results};
+use serde_json::Value;
+use std::process::Command;
+
+/// How long each show lasts.
+const SECONDS: u32 = 15;
+
+/// Displays with scenes and options: rates as fast as can be.
+const SHOWS: [(&str, &str, &[&str]); 10] = [
+    ("desk8", "procedural:shells", &[]),
+    ("desk8", "procedural:shells", &["--reconstruct", "off"]),
+    ("desk8", "procedural:shells", &["--quality", "draft"]),
+    ("desk8", "procedural:shells", &["--quality", "draft", "--reconstruct", "off"]),
+    ("desk8", "procedural:shells", &["--quality", "draft", "--caster", "planes"]),
+    ("desk8", "procedural:sparse-vessels", &["--quality", "draft"]),
+    ("desk8", "procedural:sparse-vessels", &["--quality", "draft", "--reconstruct", "off"]),
+    ("holo72", "procedural:shells", &[]),
+    ("holo72", "procedural:shells", &["--quality", "draft"]),
+    ("holo72", "procedural:shells", &["--quality", "draft", "--reconstruct", "off"]),
+];
+
+/// Rates of a show that is little work, for latency and skew.
+const RATES_HZ: [&str; 3] = ["10", "30", "60"];
+
+fn report(command: &mut Command) -> Result<Value, String> {
+    let ran = run(command);
+    match ran.code {
+        Some(0) => serde_json::from_str(&ran.stdout).map_err(|error| error.to_string()),
+        _ => Err(ran.stderr),
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+fn quantiles(value: &Value) -> String {
+    format!("{:.2} / {:.2} / {:.2}", number(&value["p50"]), number(&value["p99"]), number(&value["max"]))
+}
+
+fn main() -> Result<(), String> {
+    let mut arguments = std::env::args().skip(1);
+    let seconds = match (arguments.next().as_deref(), arguments.next()) {
+        (None, _) => SECONDS,
+        (Some("--seconds"), Some(seconds)) => seconds.parse().map_err(|_| "give a number of seconds")?,
+        _ => return Err("give nothing, or --seconds N".to_owned()),
+    };
+    let fixed =
+        ["--device", "cpu", "--output", "none", "--json", "--for", &seconds.to_string()].map(str::to_owned);
+    let mut results = Results::new(Program::Study("driving"), "driving", "rates");
+    results.line("| display | scene | options | rays by | frames a second | from a frame to the next, ms | from input to screen, ms |");
+    results.line("| --- | --- | --- | --- | ---: | ---: | ---: |");
+    for (display, scene, options) in SHOWS {
+        let words = ["drive", scene, "--display", display].into_iter().chain(options.iter().copied());
+        let words: Vec<String> = words.map(str::to_owned).chain(fixed.clone()).collect();
+        let report = report(&mut lightloom(&words))?;
+        let beat = &report["beat"];
+        let caster =
+            report["casters"][0].as_str().unwrap_or_default().split([':', ',']).next().unwrap_or_default();
+        results.line(format!(
+            "| {display} | {scene} | `{}` | {caster} | {:.1} | {} | {} |",
+            options.join(" "),
+            1e3 / number(&beat["interval_ms"]["p50"]),
+            quantiles(&beat["interval_ms"]),
+            quantiles(&beat["input_to_shown_ms"]),
+        ));
+    }
+    results.finish()?;
+    latency(&fixed)
+}
+
+/// Four processes that draw little.
+fn latency(fixed: &[String]) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("driving"), "driving", "latency");
+    results.line("| rate asked for | frames | from a frame to the next, ms | from input to screen, ms | skew, ms | late |");
+    results.line("| --- | ---: | ---: | ---: | ---: | ---: |");
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let display = lightloom_tests::program::small_display(folder.path());
+    for rate in RATES_HZ {
+        let words =
+            ["drive", "procedural:shells@16", "--display", &display, "--quality", "draft", "--rate", rate];
+        let words: Vec<String> = words.into_iter().map(str::to_owned).chain(fixed.iter().cloned()).collect();
+        let Some(mut command) = cluster(&words, 4) else { return Ok(()) };
+        let report = report(&mut command)?;
+        let beat = &report["beat"];
+        let late: f64 =
+            beat["backends"].as_array().into_iter().flatten().map(|one| number(&one["late"])).sum();
+        results.line(format!(
+            "| {rate} a second | {} | {} | {} | {} | {late} |",
+            beat["frames"],
+            quantiles(&beat["interval_ms"]),
+            quantiles(&beat["input_to_shown_ms"]),
+            quantiles(&beat["skew_ms"]),
+        ));
+    }
+    results.finish()
+}
