@@ -25,7 +25,7 @@ const RESTING: usize = 8;
 const PROJECTORS: [u32; 2] = [1, 5];
 /// Pairs of thresholds, linear colour in units of 1/255.
 const SWEEP: [(f32, f32); 7] =
-    [(0.0, 1e-3), (0.25, 2.0), (1.0, 8.0), (1.0, 16.0), (4.0, 16.0), (8.0, 32.0), (32.0, 128.0)];
+    [(0.0, 1e-3), (1.0, 8.0), (4.0, 32.0), (8.0, 64.0), (16.0, 64.0), (32.0, 128.0), (1e3, 2e3)];
 
 /// How a scene moves: a name, and the frame at so many seconds.
 type Motion = (&'static str, fn(&FrameState, f64) -> FrameState);

@@ -1,16 +1,19 @@
-//! Pixels that were not cast, from those that were and from what was shown before (LFD section 5, figure 12).
+//! Pixels that were not cast, from those that were and from what was shown before (after LFD section 5, figure 12).
 //!
 //! Of one cast class of pixels, first their diagonal neighbours are made from the four cast ones around each, then all
-//! others from the four beside them. A missing pixel Q, with neighbours in opposite pairs, becomes
+//! others from the four beside them. A missing pixel Q, with neighbours N in opposite pairs, becomes
 //!
 //! ```text
-//! spatial = the mean of the opposite pair whose colours differ least
-//! ΔQ      = the largest change of any neighbour since the picture before
-//! Q'      = Q_before + smoothstep(ΔQ, low, high) (spatial − Q_before)
+//! spatial  = the mean of the opposite pair whose colours differ least
+//! temporal = Q_before + mean of (N − N_before)
+//! disorder = the largest distance of a neighbour's change N − N_before from their mean
+//! Q'       = mix(temporal, spatial, smoothstep(disorder, low, high))
 //! ```
 //!
-//! What stands still keeps its detail, and what moves blurs rather than tears. Pixels that have been cast since rays last
-//! saw something else are shown as they were cast, whatever the filter says: so a still view comes to the full picture.
+//! What stands still keeps its detail, also while light or opacity change all over it, and what moves blurs rather than
+//! tears. The paper keeps Q_before where no neighbour changes by much, and takes `spatial` elsewhere: then whatever
+//! changes a little everywhere loses its detail. Pixels that have been cast since rays last saw something else are shown
+//! as they were cast, whatever the filter says: so a still view comes to the full picture.
 
 use super::Classes;
 use rayon::prelude::*;
@@ -24,18 +27,19 @@ pub struct Raster {
     pub height: usize,
 }
 
-/// How much a pixel's neighbours must have changed, in linear colour, for it to follow them.
+/// How differently a pixel's neighbours must have changed, in linear colour, for it to be made from them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thresholds {
-    /// Up to here it stays what it was.
+    /// Up to here it changes as they do.
     pub low: f32,
-    /// From here on it is what they say.
+    /// From here on it is what they are.
     pub high: f32,
 }
 
 impl Default for Thresholds {
+    /// The best of a sweep over moving scenes: the study `reconstruction`.
     fn default() -> Self {
-        Self { low: 0.004, high: 0.03 }
+        Self { low: 16.0 / 255.0, high: 64.0 / 255.0 }
     }
 }
 
@@ -108,39 +112,60 @@ impl Filter<'_> {
     }
 
     fn pixel(&self, x: usize, y: usize) -> Pixel {
+        let at = 4 * (y * self.raster.width + x);
+        let mut around = [0; 2 * ACROSS.len()];
+        let mut count = 0;
         let mut best: Option<(f32, Pixel)> = None;
-        let (mut sum, mut neighbours, mut change) = ([0.0; 4], 0.0, 0.0_f32);
         for pair in self.pairs {
             let found = pair.map(|step| self.neighbour(x, y, step));
-            for at in found.into_iter().flatten() {
-                let now = pixel_at(self.picture, at);
-                sum = std::array::from_fn(|i| sum[i] + now[i]);
-                neighbours += 1.0;
-                change = change
-                    .max(self.before.map_or(f32::INFINITY, |before| difference(now, pixel_at(before, at))));
+            for neighbour in found.into_iter().flatten() {
+                around[count] = neighbour;
+                count += 1;
             }
-            if let [Some(a), Some(b)] = found {
-                let (a, b) = (pixel_at(self.picture, a), pixel_at(self.picture, b));
+            if let [Some(a), Some(b)] = found.map(|at| at.map(|at| pixel_at(self.picture, at))) {
                 let apart = difference(a, b);
                 if best.is_none_or(|(least, _)| apart < least) {
                     best = Some((apart, std::array::from_fn(|i| 0.5 * (a[i] + b[i]))));
                 }
             }
         }
+        let around = &around[..count];
         // At the rim there may be no whole pair; in a raster of a single pixel, no neighbour at all.
-        let at = 4 * (y * self.raster.width + x);
         let spatial = match best {
             Some((_, mean)) => mean,
-            None if neighbours > 0.0 => sum.map(|sum| sum / neighbours),
+            None if count > 0 => mean(around, |at| pixel_at(self.picture, at)),
             None => pixel_at(self.picture, at),
         };
-        let Some(before) = self.before.map(|before| pixel_at(before, at)) else { return spatial };
-        match self.thresholds.share(change) {
+        let Some(before) = self.before else { return spatial };
+        self.in_time(spatial, before, at, around)
+    }
+
+    /// The colour of a pixel, made from those around it in space and in time.
+    fn in_time(&self, spatial: Pixel, before: &[f32], at: usize, around: &[usize]) -> Pixel {
+        let change = |at| {
+            let (now, was) = (pixel_at(self.picture, at), pixel_at(before, at));
+            std::array::from_fn(|i| now[i] - was[i])
+        };
+        let typical = mean(around, change);
+        let disorder = around.iter().fold(0.0_f32, |most, &at| most.max(difference(change(at), typical)));
+        let was = pixel_at(before, at);
+        let temporal = |i: usize| (was[i] + typical[i]).clamp(0.0, was[i].max(1.0));
+        match self.thresholds.share(disorder) {
             // To the bit, as the sum below is not.
             1.0 => spatial,
-            share => std::array::from_fn(|i| before[i] + share * (spatial[i] - before[i])),
+            share => std::array::from_fn(|i| temporal(i) + share * (spatial[i] - temporal(i))),
         }
     }
+}
+
+/// The mean of what is said of some places; 0 of none.
+fn mean(places: &[usize], of: impl Fn(usize) -> Pixel) -> Pixel {
+    let mut sum = [0.0; 4];
+    for &place in places {
+        let one = of(place);
+        sum = std::array::from_fn(|i| sum[i] + one[i]);
+    }
+    sum.map(|sum| sum / places.len().max(1) as f32)
 }
 
 impl Thresholds {

@@ -69,7 +69,7 @@ fn slopes_come_back_without_what_was_before() {
 
 #[test]
 fn what_stands_still_stays_to_the_bit_and_what_jumps_follows() {
-    let (still, bright) = (picture(|x, y| (3.0 * x).sin() * y), picture(|_, _| 0.875));
+    let (still, bright) = (picture(|x, y| (3.0 * x).sin().abs() * y), picture(|_, _| 0.875));
     let dark = picture(|_, _| 0.125);
     for known in known_sets() {
         let again =
@@ -78,6 +78,18 @@ fn what_stands_still_stays_to_the_bit_and_what_jumps_follows() {
         let shown =
             reconstruct(partly(&bright, RASTER, known), Some(&dark), RASTER, known, Thresholds::default());
         assert_eq!(shown, bright, "{known:?}");
+    }
+}
+
+/// Light that grows everywhere by as much leaves detail as it is, also detail that no neighbour has.
+#[test]
+fn an_even_change_keeps_detail() {
+    let detail = |x: f32, y: f32| if (x + y) % 3.0 == 0.0 { 0.5 } else { 0.25 };
+    let (before, now) = (picture(detail), picture(|x, y| detail(x, y) + 0.125));
+    for known in known_sets() {
+        let shown =
+            reconstruct(partly(&now, RASTER, known), Some(&before), RASTER, known, Thresholds::default());
+        assert_eq!(shown, now, "{known:?}");
     }
 }
 
@@ -111,6 +123,6 @@ proptest! {
         let cast: Vec<f32> = now.chunks_exact(4).enumerate()
             .flat_map(|(i, p)| [if is_known(i) { p[0] } else { 0.5 }; 4]).collect();
         let shown = reconstruct(cast, Some(&before), raster, known, Thresholds::default());
-        prop_assert!(shown.iter().all(|number| (0.0..1.0).contains(number)));
+        prop_assert!(shown.iter().all(|number| (0.0..=1.0).contains(number)));
     }
 }
