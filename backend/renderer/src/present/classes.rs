@@ -40,6 +40,16 @@ impl Classes {
         self.0 & Self::of_pixel(x, y).0 != 0
     }
 
+    /// Whether these are every other row.
+    pub(super) fn are_rows(self) -> bool {
+        matches!(self.0, 0b0011 | 0b1100)
+    }
+
+    /// Whether these are every other column.
+    pub(super) fn are_columns(self) -> bool {
+        matches!(self.0, 0b0101 | 0b1010)
+    }
+
     /// Where this is one class: that of its pixels' diagonal neighbours.
     pub(super) fn diagonal_of_one(self) -> Option<Self> {
         let swapped = (self.0 & 1) << 3 | (self.0 & 2) << 1 | (self.0 & 4) >> 1 | self.0 >> 3;

@@ -49,7 +49,11 @@ type Step = (i32, i32);
 const BESIDE: [[Step; 2]; 2] = [[(-1, 0), (1, 0)], [(0, -1), (0, 1)]];
 const DIAGONAL: [[Step; 2]; 2] = [[(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
 /// Where whole rows are known: those above and below.
-const ACROSS: [[Step; 2]; 3] = [[(0, -1), (0, 1)], [(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+const ACROSS_ROWS: [[Step; 2]; 3] = [[(0, -1), (0, 1)], [(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+/// Where whole columns are.
+const ACROSS_COLUMNS: [[Step; 2]; 3] = [[(-1, 0), (1, 0)], [(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+/// Pairs of neighbours, at most.
+const MOST_PAIRS: usize = 3;
 
 /// Makes the picture to show of `cast`, of which the pixels of the `known` classes stand. `before` is what was shown before,
 /// where anything was. Both have four numbers a pixel, rows from the top.
@@ -67,19 +71,20 @@ pub fn reconstruct(
     if known == Classes::ALL {
         return cast;
     }
-    let fill = |picture: &[f32], pairs: &[[Step; 2]], known: Classes, missing: Classes| {
-        let filter = Filter { picture, before, raster, pairs, known, thresholds };
-        filter.fill(missing)
+    let fill = |picture: &[f32], pairs: &[[Step; 2]], missing: Classes| {
+        Filter { picture, before, raster, pairs, thresholds }.fill(missing)
     };
     if let Some(diagonal) = known.diagonal_of_one() {
-        let half = fill(&cast, &DIAGONAL, known, diagonal);
+        let half = fill(&cast, &DIAGONAL, diagonal);
         let both = known.with(diagonal);
-        return fill(&half, &BESIDE, both, Classes::ALL.without(both));
+        return fill(&half, &BESIDE, Classes::ALL.without(both));
     }
-    let is_rows =
-        (0..2).any(|y| known.has(0, y) && known.has(1, y) && !known.has(0, 1 - y) && !known.has(1, 1 - y));
-    let pairs = if is_rows { &ACROSS[..] } else { &BESIDE[..] };
-    fill(&cast, pairs, known, Classes::ALL.without(known))
+    let pairs = match known {
+        known if known.are_rows() => &ACROSS_ROWS[..],
+        known if known.are_columns() => &ACROSS_COLUMNS[..],
+        _ => &BESIDE[..],
+    };
+    fill(&cast, pairs, Classes::ALL.without(known))
 }
 
 /// One pass over a picture.
@@ -87,10 +92,36 @@ struct Filter<'a> {
     picture: &'a [f32],
     before: Option<&'a [f32]>,
     raster: Raster,
-    /// Neighbours, in opposite pairs.
+    /// Neighbours, in opposite pairs: all of them are known where they are in the raster.
     pairs: &'a [[Step; 2]],
-    known: Classes,
     thresholds: Thresholds,
+}
+
+/// The neighbours of a pixel: the indices of their first numbers, pair by pair, those outside the raster left out.
+#[derive(Default)]
+struct Around {
+    places: [usize; 2 * MOST_PAIRS],
+    count: usize,
+    /// Where whole pairs begin among these.
+    pairs: [usize; MOST_PAIRS],
+    pair_count: usize,
+}
+
+impl Around {
+    fn places(&self) -> &[usize] {
+        &self.places[..self.count]
+    }
+
+    fn add(&mut self, pair: [Option<usize>; 2]) {
+        if pair[0].is_some() && pair[1].is_some() {
+            self.pairs[self.pair_count] = self.count;
+            self.pair_count += 1;
+        }
+        for place in pair.into_iter().flatten() {
+            self.places[self.count] = place;
+            self.count += 1;
+        }
+    }
 }
 
 impl Filter<'_> {
@@ -104,56 +135,68 @@ impl Filter<'_> {
         filled
     }
 
-    /// The index of the first number of a neighbour that is known.
-    fn neighbour(&self, x: usize, y: usize, (dx, dy): Step) -> Option<usize> {
-        let x = x.checked_add_signed(dx as isize).filter(|&x| x < self.raster.width)?;
-        let y = y.checked_add_signed(dy as isize).filter(|&y| y < self.raster.height)?;
-        self.known.has(x, y).then_some(4 * (y * self.raster.width + x))
+    /// The neighbours of a pixel.
+    fn around(&self, x: usize, y: usize) -> Around {
+        let Raster { width, height } = self.raster;
+        let mut around = Around::default();
+        let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
+        for pair in self.pairs {
+            around.add(pair.map(|(dx, dy)| {
+                let (x, y) = (x.wrapping_add_signed(dx as isize), y.wrapping_add_signed(dy as isize));
+                (is_inside || (x < width && y < height)).then_some(4 * (y * width + x))
+            }));
+        }
+        around
     }
 
     fn pixel(&self, x: usize, y: usize) -> Pixel {
-        let at = 4 * (y * self.raster.width + x);
-        let mut around = [0; 2 * ACROSS.len()];
-        let mut count = 0;
+        let (at, around) = (4 * (y * self.raster.width + x), self.around(x, y));
+        let Some(before) = self.before else { return self.in_space(at, &around) };
+        // Most of a picture is empty, or stands still.
+        let stays = |&place: &usize| self.picture[place..place + 4] == before[place..place + 4];
+        if around.places().iter().all(stays) {
+            return pixel_at(before, at);
+        }
+        self.in_time(before, at, &around)
+    }
+
+    /// The mean of the opposite pair whose colours differ least. At the rim there may be no whole pair; in a raster of a
+    /// single pixel, no neighbour at all.
+    fn in_space(&self, at: usize, around: &Around) -> Pixel {
         let mut best: Option<(f32, Pixel)> = None;
-        for pair in self.pairs {
-            let found = pair.map(|step| self.neighbour(x, y, step));
-            for neighbour in found.into_iter().flatten() {
-                around[count] = neighbour;
-                count += 1;
-            }
-            if let [Some(a), Some(b)] = found.map(|at| at.map(|at| pixel_at(self.picture, at))) {
-                let apart = difference(a, b);
-                if best.is_none_or(|(least, _)| apart < least) {
-                    best = Some((apart, std::array::from_fn(|i| 0.5 * (a[i] + b[i]))));
-                }
+        for &pair in &around.pairs[..around.pair_count] {
+            let [a, b] = [0, 1].map(|i| pixel_at(self.picture, around.places[pair + i]));
+            let apart = difference(a, b);
+            if best.is_none_or(|(least, _)| apart < least) {
+                best = Some((apart, std::array::from_fn(|i| 0.5 * (a[i] + b[i]))));
             }
         }
-        let around = &around[..count];
-        // At the rim there may be no whole pair; in a raster of a single pixel, no neighbour at all.
-        let spatial = match best {
+        match best {
             Some((_, mean)) => mean,
-            None if count > 0 => mean(around, |at| pixel_at(self.picture, at)),
+            None if around.count > 0 => mean(around.places(), |at| pixel_at(self.picture, at)),
             None => pixel_at(self.picture, at),
-        };
-        let Some(before) = self.before else { return spatial };
-        self.in_time(spatial, before, at, around)
+        }
     }
 
     /// The colour of a pixel, made from those around it in space and in time.
-    fn in_time(&self, spatial: Pixel, before: &[f32], at: usize, around: &[usize]) -> Pixel {
+    fn in_time(&self, before: &[f32], at: usize, around: &Around) -> Pixel {
         let change = |at| {
             let (now, was) = (pixel_at(self.picture, at), pixel_at(before, at));
             std::array::from_fn(|i| now[i] - was[i])
         };
-        let typical = mean(around, change);
-        let disorder = around.iter().fold(0.0_f32, |most, &at| most.max(difference(change(at), typical)));
+        let typical = mean(around.places(), change);
+        let disorder =
+            around.places().iter().fold(0.0_f32, |most, &at| most.max(difference(change(at), typical)));
         let was = pixel_at(before, at);
         let temporal = |i: usize| (was[i] + typical[i]).clamp(0.0, was[i].max(1.0));
         match self.thresholds.share(disorder) {
+            0.0 => std::array::from_fn(temporal),
             // To the bit, as the sum below is not.
-            1.0 => spatial,
-            share => std::array::from_fn(|i| temporal(i) + share * (spatial[i] - temporal(i))),
+            1.0 => self.in_space(at, around),
+            share => {
+                let spatial = self.in_space(at, around);
+                std::array::from_fn(|i| temporal(i) + share * (spatial[i] - temporal(i)))
+            }
         }
     }
 }

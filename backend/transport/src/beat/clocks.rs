@@ -47,9 +47,11 @@ impl OtherClock {
         there_us.saturating_add_signed(-self.best().map_or(0, |answer| answer.ahead_us))
     }
 
-    /// The longest way there and back of late, microseconds; None before anything is known.
-    pub fn longest_trip_us(&self) -> Option<u64> {
-        self.answers.iter().map(|answer| answer.trip_us).max()
+    /// The usual way there and back of late, microseconds; None before anything is known.
+    pub fn usual_trip_us(&self) -> Option<u64> {
+        let mut trips: Vec<u64> = self.answers.iter().map(|answer| answer.trip_us).collect();
+        trips.sort_unstable();
+        trips.get(trips.len() / 2).copied()
     }
 }
 

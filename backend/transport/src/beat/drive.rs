@@ -25,6 +25,9 @@ const LONGEST_SETTLING: Duration = Duration::from_secs(5);
 /// What an order needs besides the way of its message: a back-end looks for messages every millisecond.
 const LEAD: Duration = Duration::from_millis(3);
 
+/// Enough for every back-end of a machine to show its pictures before any of them draws again.
+const BREATH: Duration = Duration::from_millis(1);
+
 /// What happens while a display is driven.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Happening {
@@ -116,13 +119,13 @@ impl Drive {
         let devices = session.devices().to_vec();
         let (link, stop) = session.into_parts();
         let backends = link.backends();
-        let lead = if time.is_stepped() { Duration::ZERO } else { LEAD };
+        let [lead, breath] = if time.is_stepped() { [Duration::ZERO; 2] } else { [LEAD, BREATH] };
         Self {
             link,
             setups,
             devices,
             stop,
-            beat: Beat::new(Rhythm { period, lead }, backends, time.now()),
+            beat: Beat::new(Rhythm { period, lead, breath }, backends, time.now()),
             time,
             clocks: vec![OtherClock::default(); backends],
             presence: vec![Presence::There; backends],
@@ -256,8 +259,8 @@ impl Drive {
             return Ok(());
         }
         self.asked_clocks_at = Some(now);
-        let longest = self.clocks.iter().filter_map(OtherClock::longest_trip_us).max().unwrap_or(0);
-        self.beat.set_lead(LEAD + Duration::from_micros(longest));
+        let slowest = self.clocks.iter().filter_map(OtherClock::usual_trip_us).max().unwrap_or(0);
+        self.beat.set_lead(LEAD + Duration::from_micros(slowest));
         self.tell_all(&FromFrontend::Clock { asked_us: now.as_micros() as u64 })
     }
 

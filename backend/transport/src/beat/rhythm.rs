@@ -19,6 +19,8 @@ pub struct Rhythm {
     pub period: Duration,
     /// From the order to show a frame to the moment it is shown: longer than a message takes.
     pub lead: Duration,
+    /// From that moment to the beginning of the next frame: whoever shows a frame needs a core for an instant.
+    pub breath: Duration,
 }
 
 /// What is to be done now.
@@ -129,7 +131,7 @@ impl Beat {
         // On the grid again, where there is time.
         let period = self.rhythm.period.as_nanos().max(1);
         let next = (self.next_begin + self.rhythm.period).as_nanos() / period * period;
-        self.next_begin = now.max(nanoseconds(next));
+        self.next_begin = now.max(nanoseconds(next) + self.rhythm.breath);
         Step::Show { frame: current.frame, at }
     }
 

@@ -8,7 +8,7 @@ use std::collections::BinaryHeap;
 
 const PERIOD: Duration = Duration::from_millis(16);
 const LEAD: Duration = Duration::from_millis(2);
-const RHYTHM: Rhythm = Rhythm { period: PERIOD, lead: LEAD };
+const RHYTHM: Rhythm = Rhythm { period: PERIOD, lead: LEAD, breath: Duration::from_millis(1) };
 
 /// What happens at some time to some back-end; or to the front-end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -158,7 +158,7 @@ fn nothing_tears_while_all_keep_the_deadline() {
     for backends in [1, 2, 4, 36] {
         let (mut draws, mut messages) = (Dice(7), Dice(8));
         // Every frame is drawn within the period that the shortest deadline leaves, and every message within the lead.
-        let show = Show::run(backends, FRAMES, &mut |_, _| draws.throw(500, 11_000), &mut || {
+        let show = Show::run(backends, FRAMES, &mut |_, _| draws.throw(500, 9_500), &mut || {
             messages.throw(10, 1_500)
         });
         assert_eq!(show.tears(), 0, "{backends}");
@@ -234,13 +234,13 @@ fn one_that_is_lost_is_not_waited_for_and_comes_back() {
     assert_eq!(beat.step(ms(5)), Step::Wait { until: None }, "nobody knows yet how long frames take");
     beat.lost(1);
     assert!(matches!(beat.step(ms(6)), Step::Show { frame: 0, .. }));
-    assert!(matches!(beat.step(ms(16)), Step::Begin { frame: 1, .. }));
-    beat.begin(ms(16));
+    assert!(matches!(beat.step(ms(17)), Step::Begin { frame: 1, .. }));
+    beat.begin(ms(17));
     beat.returned(1);
     assert_eq!(beat.owing().collect::<Vec<_>>(), [0], "it takes part from the next frame on");
     beat.drawn(0, 1, ms(20));
     assert!(matches!(beat.step(ms(20)), Step::Show { frame: 1, .. }));
-    beat.begin(ms(32));
+    beat.begin(ms(33));
     assert_eq!(beat.owing().collect::<Vec<_>>(), [0, 1]);
     assert_eq!(beat.late(), [0, 1], "it has missed one");
 }
