@@ -74,8 +74,8 @@ fn shown_of_sub_frames(
         known = if rests { known } else { Classes::default() }.with(Classes::of_lattice(&lattice));
         for (shown, cast) in shown.iter_mut().zip(cast) {
             let raster = Raster { width: cast.width as usize, height: cast.height as usize };
-            let picture = reconstruct(cast.rgba.clone(), Some(&shown.rgba), raster, known, thresholds);
-            shown.rgba = picture;
+            let now = reconstruct((&cast.rgba).into(), Some(&shown.rgba), raster, known, thresholds);
+            shown.rgba = now.into_owned();
         }
         all.push(shown.clone());
     }

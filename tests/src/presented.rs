@@ -235,5 +235,5 @@ pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>
             stop: NEVER,
         })
         .expect("the device stays");
-    (device.picture(0).expect("the device stays"), outcome.samples)
+    (device.picture(0).expect("the device stays").into_owned(), outcome.samples)
 }

@@ -131,12 +131,12 @@ fn a_cast_of_a_frame_draws_the_same_and_counts_where_it_is_asked() {
     for choice in draw::devices() {
         let mut stage = Stage::new(choice);
         let own = stage.cast(0, Gather::Own, true);
-        let picture = stage.device.picture(0).unwrap();
+        let picture = stage.device.picture(0).unwrap().into_owned();
         let counted = stage.cast(0, Gather::Frame, true);
         assert_eq!((counted.rays, counted.samples), (own.rays, own.samples), "{choice:?}");
         assert!(own.samples > 0 && own.rays == 72 * 54);
         let plain = stage.cast(0, Gather::Frame, false);
-        assert!(stage.device.picture(0).unwrap() == picture, "{choice:?}");
+        assert!(stage.device.picture(0).unwrap().into_owned() == picture, "{choice:?}");
         assert_eq!((plain.rays, plain.samples, plain.missing_tiles.len()), (own.rays, 0, 0), "{choice:?}");
     }
 }
@@ -146,7 +146,7 @@ fn views_cast_together_are_views_cast_one_by_one() {
     let _turn = draw::turn();
     for choice in draw::devices() {
         let mut stage = Stage::new(choice);
-        let alone = [0, 1].map(|view| (stage.own(view), stage.device.picture(0).unwrap()));
+        let alone = [0, 1].map(|view| (stage.own(view), stage.device.picture(0).unwrap().into_owned()));
         assert!(alone[0].1 != alone[1].1, "two views that look alike tell nothing here");
         let views = [0, 1].map(|view| stage.views[view].rays);
         let job = CastJob {
@@ -163,9 +163,9 @@ fn views_cast_together_are_views_cast_one_by_one() {
         let both = stage.device.cast(&job).unwrap();
         assert_eq!((both.rays, both.missing_tiles.len()), (2 * 72 * 54, 2), "{choice:?}");
         assert!(both.feedback == union(&alone[0].0, &alone[1].0), "{choice:?}");
-        assert!(stage.device.picture(0).unwrap() == alone[1].1, "the picture of another cast stays");
+        assert!(stage.device.picture(0).unwrap().into_owned() == alone[1].1, "the picture of another cast stays");
         for (index, (_, picture)) in alone.iter().enumerate() {
-            assert!(stage.device.picture(1 + index).unwrap() == *picture, "{choice:?}, view {index}");
+            assert!(stage.device.picture(1 + index).unwrap().into_owned() == *picture, "{choice:?}, view {index}");
         }
         // A view without tiles keeps its picture.
         let tiles = [vec![], vec![0]];
@@ -175,8 +175,8 @@ fn views_cast_together_are_views_cast_one_by_one() {
             ..job
         };
         assert_eq!(stage.device.cast(&job).unwrap().rays, 64, "{choice:?}");
-        assert!(stage.device.picture(1).unwrap() == alone[0].1, "{choice:?}");
-        let mixed = stage.device.picture(2).unwrap();
+        assert!(stage.device.picture(1).unwrap().into_owned() == alone[0].1, "{choice:?}");
+        let mixed = stage.device.picture(2).unwrap().into_owned();
         let pixels = |picture: &[f32]| [picture[..4 * 8].to_vec(), picture[4 * 72 * 54 - 4..].to_vec()];
         let expected = [&pixels(&alone[0].1)[0], &pixels(&alone[1].1)[1]].map(Clone::clone);
         assert!(pixels(&mixed) == expected, "{choice:?}");

@@ -8,6 +8,7 @@ use bricks::BRICK_VOXELS;
 use layout::NodeRecord;
 use needs::tables::Tables;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixels};
 
 /// The brick cache in main memory, and the pictures.
@@ -137,8 +138,8 @@ impl CpuDevice {
         !self.tables_of_frames.is_empty()
     }
 
-    pub(super) fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
-        Ok(self.pictures[index].clone())
+    pub(super) fn picture(&mut self, index: usize) -> Result<Cow<'_, [f32]>, DeviceError> {
+        Ok(Cow::from(&self.pictures[index]))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{CastJob, CastOutcome, CpuDevice, DeviceError, FeedbackTag, TaggedFeedback};
 use layout::NodeRecord;
 use needs::tables::Tables;
+use std::borrow::Cow;
 
 /// A device with its brick cache.
 #[derive(Debug)]
@@ -106,7 +107,7 @@ impl Device {
     ///
     /// # Panics
     /// Where nothing was cast into it yet.
-    pub fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
+    pub fn picture(&mut self, index: usize) -> Result<Cow<'_, [f32]>, DeviceError> {
         on_device!(self, device => device.picture(index))
     }
 }

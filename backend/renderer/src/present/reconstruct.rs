@@ -17,6 +17,7 @@
 
 use super::Classes;
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// Size of a picture, pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,13 +61,13 @@ const MOST_PAIRS: usize = 3;
 ///
 /// # Panics
 /// Where a picture has not as many numbers as the raster says.
-pub fn reconstruct(
-    cast: Vec<f32>,
+pub fn reconstruct<'a>(
+    cast: Cow<'a, [f32]>,
     before: Option<&[f32]>,
     raster: Raster,
     known: Classes,
     thresholds: Thresholds,
-) -> Vec<f32> {
+) -> Cow<'a, [f32]> {
     assert_eq!(cast.len(), 4 * raster.width * raster.height, "a picture fills its raster");
     if known == Classes::ALL {
         return cast;
@@ -77,14 +78,14 @@ pub fn reconstruct(
     if let Some(diagonal) = known.diagonal_of_one() {
         let half = fill(&cast, &DIAGONAL, diagonal);
         let both = known.with(diagonal);
-        return fill(&half, &BESIDE, Classes::ALL.without(both));
+        return fill(&half, &BESIDE, Classes::ALL.without(both)).into();
     }
     let pairs = match known {
         known if known.are_rows() => &ACROSS_ROWS[..],
         known if known.are_columns() => &ACROSS_COLUMNS[..],
         _ => &BESIDE[..],
     };
-    fill(&cast, pairs, Classes::ALL.without(known))
+    fill(&cast, pairs, Classes::ALL.without(known)).into()
 }
 
 /// One pass over a picture.

@@ -5,6 +5,16 @@ use crate::present::lattice_of;
 use proptest::prelude::*;
 use protocol::SubFrame;
 
+fn shown_of(
+    cast: Vec<f32>,
+    before: Option<&[f32]>,
+    raster: Raster,
+    known: Classes,
+    thresholds: Thresholds,
+) -> Vec<f32> {
+    reconstruct(cast.into(), before, raster, known, thresholds).into_owned()
+}
+
 const RASTER: Raster = Raster { width: 9, height: 7 };
 
 fn picture(colour: impl Fn(f32, f32) -> f32) -> Vec<f32> {
@@ -39,8 +49,7 @@ fn known_pixels_are_shown_as_they_were_cast() {
     let (now, before) = (picture(|x, y| (x * y).sin()), picture(|x, y| (x + y).cos()));
     for known in known_sets() {
         for before in [None, Some(&before[..])] {
-            let shown =
-                reconstruct(partly(&now, RASTER, known), before, RASTER, known, Thresholds::default());
+            let shown = shown_of(partly(&now, RASTER, known), before, RASTER, known, Thresholds::default());
             assert!(shown.iter().all(|number| number.is_finite()), "{known:?}");
             for (i, (shown, now)) in shown.chunks_exact(4).zip(now.chunks_exact(4)).enumerate() {
                 if known.has(i % RASTER.width, i / RASTER.width) {
@@ -57,7 +66,7 @@ fn known_pixels_are_shown_as_they_were_cast() {
 fn slopes_come_back_without_what_was_before() {
     let ramp = picture(|x, y| 0.1 * x + 0.03 * y);
     for known in known_sets() {
-        let shown = reconstruct(partly(&ramp, RASTER, known), None, RASTER, known, Thresholds::default());
+        let shown = shown_of(partly(&ramp, RASTER, known), None, RASTER, known, Thresholds::default());
         for y in 2..RASTER.height - 2 {
             for x in 2..RASTER.width - 2 {
                 let at = 4 * (y * RASTER.width + x);
@@ -73,10 +82,10 @@ fn what_stands_still_stays_to_the_bit_and_what_jumps_follows() {
     let dark = picture(|_, _| 0.125);
     for known in known_sets() {
         let again =
-            reconstruct(partly(&still, RASTER, known), Some(&still), RASTER, known, Thresholds::default());
+            shown_of(partly(&still, RASTER, known), Some(&still), RASTER, known, Thresholds::default());
         assert_eq!(again, still, "{known:?}");
         let shown =
-            reconstruct(partly(&bright, RASTER, known), Some(&dark), RASTER, known, Thresholds::default());
+            shown_of(partly(&bright, RASTER, known), Some(&dark), RASTER, known, Thresholds::default());
         assert_eq!(shown, bright, "{known:?}");
     }
 }
@@ -88,7 +97,7 @@ fn an_even_change_keeps_detail() {
     let (before, now) = (picture(detail), picture(|x, y| detail(x, y) + 0.125));
     for known in known_sets() {
         let shown =
-            reconstruct(partly(&now, RASTER, known), Some(&before), RASTER, known, Thresholds::default());
+            shown_of(partly(&now, RASTER, known), Some(&before), RASTER, known, Thresholds::default());
         assert_eq!(shown, now, "{known:?}");
     }
 }
@@ -98,7 +107,7 @@ fn an_even_change_keeps_detail() {
 fn edges_along_a_pair_stay_sharp() {
     let diagonal = picture(|x, y| if x > y { 1.0 } else { 0.0 });
     for known in known_sets() {
-        let shown = reconstruct(partly(&diagonal, RASTER, known), None, RASTER, known, Thresholds::default());
+        let shown = shown_of(partly(&diagonal, RASTER, known), None, RASTER, known, Thresholds::default());
         for y in 1..RASTER.height - 1 {
             for x in 1..RASTER.width - 1 {
                 let value = shown[4 * (y * RASTER.width + x)];
@@ -122,7 +131,7 @@ proptest! {
         let is_known = |i: usize| known.has(i % width, i / width);
         let cast: Vec<f32> = now.chunks_exact(4).enumerate()
             .flat_map(|(i, p)| [if is_known(i) { p[0] } else { 0.5 }; 4]).collect();
-        let shown = reconstruct(cast, Some(&before), raster, known, Thresholds::default());
+        let shown = shown_of(cast, Some(&before), raster, known, Thresholds::default());
         prop_assert!(shown.iter().all(|number| (0.0..=1.0).contains(number)));
     }
 }

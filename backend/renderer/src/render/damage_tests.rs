@@ -146,7 +146,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
                 stop: NEVER,
             })
             .unwrap();
-        device.picture(0).unwrap()
+        device.picture(0).unwrap().into_owned()
     };
     rays.iter().map(picture).collect()
 }

@@ -4,7 +4,7 @@
 //! pixel may go from dark to bright within a hundredth of a fade. So pictures of a still view, in which nothing but detail
 //! changes, go no faster toward what rays see than [`MOST_PER_S`]. What moves is shown as it was cast.
 
-use protocol::ProjectorImage;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// What any of a pixel's numbers may change by in a second: 12/255 in a frame at 60 Hz.
@@ -17,7 +17,7 @@ pub(super) struct Easing {
 }
 
 /// A picture as it was shown.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Shown {
     rgba: Vec<f32>,
     time_s: f64,
@@ -37,15 +37,22 @@ impl Easing {
     }
 
     /// Makes of a picture that has been cast the one to show; `eases` if the view is still.
-    pub(super) fn show(&mut self, image: &mut ProjectorImage, now_s: f64, eases: bool) {
-        let before = self.shown.remove(&image.projector);
-        let mut is_behind = false;
-        if let Some(before) = before.filter(|before| eases && before.rgba.len() == image.rgba.len()) {
-            let most = (MOST_PER_S * (now_s - before.time_s).max(0.0)) as f32;
-            is_behind = ease(&before.rgba, &mut image.rgba, most);
+    pub(super) fn show(&mut self, projector: u32, cast: Cow<'_, [f32]>, now_s: f64, eases: bool) -> &[f32] {
+        let (mut cast, mut is_behind) = (cast, false);
+        let shown = self.shown.entry(projector).or_default();
+        if eases && shown.rgba.len() == cast.len() {
+            let most = (MOST_PER_S * (now_s - shown.time_s).max(0.0)) as f32;
+            is_behind = ease(&shown.rgba, cast.to_mut(), most);
         }
-        let shown = Shown { rgba: image.rgba.clone(), time_s: now_s, is_behind };
-        self.shown.insert(image.projector, shown);
+        match cast {
+            Cow::Owned(cast) => shown.rgba = cast,
+            Cow::Borrowed(cast) => {
+                shown.rgba.clear();
+                shown.rgba.extend_from_slice(cast);
+            }
+        }
+        (shown.time_s, shown.is_behind) = (now_s, is_behind);
+        &shown.rgba
     }
 
     /// Others show their own pictures now.
@@ -77,19 +84,25 @@ mod tests {
     const FRAME_S: f64 = 1.0 / 60.0;
     const MOST: f32 = 12.0 / 255.0;
 
-    fn image(rgba: [f32; 4]) -> ProjectorImage {
-        ProjectorImage { projector: 3, width: 2, height: 1, rgba: [[0.25; 4], rgba].concat() }
+    /// Two pixels.
+    fn image(rgba: [f32; 4]) -> Vec<f32> {
+        [[0.25; 4], rgba].concat()
+    }
+
+    fn show(easing: &mut Easing, image: &[f32], now_s: f64, eases: bool) -> Vec<f32> {
+        let owned = easing.shown.len() % 2 == 0;
+        let cast = if owned { Cow::Owned(image.to_vec()) } else { Cow::Borrowed(image) };
+        easing.show(3, cast, now_s, eases).to_vec()
     }
 
     #[test]
     fn a_still_view_goes_on_evenly_and_ends_at_what_was_cast() {
         let (mut easing, cast) = (Easing::default(), image([0.9, 0.1, 0.5, 0.7]));
-        easing.show(&mut image([0.0, 0.4, 0.5, 0.7]), 0.0, false);
+        show(&mut easing, &image([0.0, 0.4, 0.5, 0.7]), 0.0, false);
         let mut last = [0.0, 0.4, 0.5, 0.7];
         for frame in 1..=40 {
-            let mut shown = cast.clone();
-            easing.show(&mut shown, f64::from(frame) * FRAME_S, true);
-            let pixel: [f32; 4] = shown.rgba[4..].try_into().unwrap();
+            let shown = show(&mut easing, &cast, f64::from(frame) * FRAME_S, true);
+            let pixel: [f32; 4] = shown[4..].try_into().unwrap();
             let change = pixel.iter().zip(last).fold(0.0_f32, |most, (a, b)| most.max((a - b).abs()));
             assert!(change <= MOST + 1e-6, "frame {frame}: {change}");
             // 0.9 takes 20 steps of 12/255.
@@ -103,16 +116,14 @@ mod tests {
     fn what_moves_and_what_is_new_is_shown_as_it_was_cast() {
         let mut easing = Easing::default();
         for (number, eases) in [(0.2, true), (0.9, false)] {
-            let mut shown = image([number; 4]);
-            easing.show(&mut shown, 0.0, eases);
+            let shown = show(&mut easing, &image([number; 4]), 0.0, eases);
             assert_eq!(shown, image([number; 4]));
             assert!(!easing.is_behind());
         }
-        easing.show(&mut image([0.1; 4]), FRAME_S, true);
+        show(&mut easing, &image([0.1; 4]), FRAME_S, true);
         assert!(easing.is_behind());
         easing.forget();
-        let mut shown = image([0.1; 4]);
-        easing.show(&mut shown, 2.0 * FRAME_S, true);
+        let shown = show(&mut easing, &image([0.1; 4]), 2.0 * FRAME_S, true);
         assert_eq!(shown, image([0.1; 4]));
     }
 }

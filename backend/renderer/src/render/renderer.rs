@@ -1,7 +1,7 @@
 //! What a renderer is made of, and how a frame goes through it.
 
 use super::RenderError;
-use super::account::Account;
+use super::account::{Account, milliseconds};
 use super::course::Course;
 use super::engine::Engine;
 use super::error::check;
@@ -15,6 +15,7 @@ use protocol::{
     Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
     RendererOptions, ScreenImage, StopAsked, VolumeRef,
 };
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -103,11 +104,9 @@ impl Renderer {
     /// The device stopped answering.
     pub fn picture(&mut self, projector: u32) -> Result<Option<ProjectorImage>, RenderError> {
         let Some(Course { work, .. }) = &self.course else { return Ok(None) };
-        let Some(view) = work.setting.projectors.iter().position(|&known| known == projector) else {
-            return Ok(None);
-        };
+        let Some(view) = work.view_of(projector) else { return Ok(None) };
         let [width, height] = work.setting.rays[view].raster;
-        let rgba = self.engine.device.picture(work.picture_of(view))?;
+        let rgba = self.engine.device.picture(work.picture_of(view))?.into_owned();
         Ok(Some(ProjectorImage { projector, width, height, rgba }))
     }
 
@@ -122,24 +121,34 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), RenderError> {
-        let finals =
-            self.course.as_mut().map(|course| std::mem::take(&mut course.work.finals)).unwrap_or_default();
-        for projector in finals {
+        self.show_finals(&mut |projector, [width, height], rgba| {
+            sink(ProjectorImage { projector, width, height, rgba: rgba.into_owned() });
+        })
+    }
+
+    /// The pictures that have become final, as they are shown: projector, pixels along x and y, colours.
+    fn show_finals(
+        &mut self,
+        sink: &mut dyn FnMut(u32, [u32; 2], Cow<'_, [f32]>),
+    ) -> Result<(), RenderError> {
+        let Self { engine, course: Some(Course { work, .. }) } = self else { return Ok(()) };
+        for projector in std::mem::take(&mut work.finals) {
             let started = std::time::Instant::now();
-            let mut image = self.picture(projector)?;
-            if let Some(Course { work, .. }) = &mut self.course {
-                let is_shown_by_and_by = work.frame.pace != Pace::Complete || work.frame.sub_frame.is_some();
-                if let Some(image) = image.as_mut().filter(|_| is_shown_by_and_by) {
-                    let Engine { easing, live, thresholds, .. } = &mut self.engine;
-                    let raster = Raster { width: image.width as usize, height: image.height as usize };
-                    let cast = std::mem::take(&mut image.rgba);
-                    let before = easing.before(projector).filter(|before| before.len() == cast.len());
-                    image.rgba = reconstruct(cast, before, raster, work.known, *thresholds);
-                    easing.show(image, live.now_s(&work.frame), work.eases);
-                }
-                work.account.stages.readback_ms += super::account::milliseconds(started);
-            }
-            image.into_iter().for_each(&mut *sink);
+            let Some(view) = work.view_of(projector) else { continue };
+            let (size, picture) = (work.setting.rays[view].raster, work.picture_of(view));
+            let Engine { easing, live, thresholds, device, .. } = &mut *engine;
+            let cast = device.picture(picture)?;
+            let is_of_many = work.frame.pace != Pace::Complete || work.frame.sub_frame.is_some();
+            let shown = if is_of_many {
+                let raster = Raster { width: size[0] as usize, height: size[1] as usize };
+                let before = easing.before(projector).filter(|before| before.len() == cast.len());
+                let whole = reconstruct(cast, before, raster, work.known, *thresholds);
+                Cow::from(easing.show(projector, whole, live.now_s(&work.frame), work.eases))
+            } else {
+                cast
+            };
+            work.account.stages.readback_ms += milliseconds(started);
+            sink(projector, size, shown);
         }
         Ok(())
     }
@@ -179,7 +188,7 @@ impl Render for Renderer {
     }
 
     fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
-        Ok(Self::present(self, &mut |image| sink(screen_image(&image)))?)
+        Ok(self.show_finals(&mut |projector, size, rgba| sink(screen_image(projector, size, &rgba)))?)
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

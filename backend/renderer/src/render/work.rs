@@ -95,6 +95,11 @@ impl Work {
         if keeps_all { view } else { view % self.views_at_once() }
     }
 
+    /// The view of a projector.
+    pub(super) fn view_of(&self, projector: u32) -> Option<usize> {
+        self.setting.projectors.iter().position(|&known| known == projector)
+    }
+
     /// Views of a complete frame that are cast together.
     pub(super) fn views_at_once(&self) -> usize {
         if self.setting.caster.fan.is_some() { self.setting.rays.len() } else { 1 }

@@ -18,6 +18,7 @@ use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, KernelKey};
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -295,7 +296,7 @@ impl GpuDevice {
         self.frame_feedback.take(&context)
     }
 
-    pub(in crate::device) fn picture(&mut self, index: usize) -> Result<Vec<f32>, DeviceError> {
+    pub(in crate::device) fn picture(&mut self, index: usize) -> Result<Cow<'_, [f32]>, DeviceError> {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
         let view = &self.views[index];
@@ -303,7 +304,7 @@ impl GpuDevice {
         let mut encoder = new_encoder(&context);
         self.pixels_back.copy(&context, &mut encoder, &view.pixels.buffer, 4 * numbers as u64);
         context.run(encoder)?;
-        self.pixels_back.read(&context, numbers)
+        Ok(self.pixels_back.read(&context, numbers)?.into())
     }
 
     /// Uploads what all views of a cast share, and makes room for their pictures.
