@@ -78,13 +78,16 @@ pub enum WireError {
     },
 }
 
+/// A message without the numbers of its picture, and these as bytes; None where there is no picture.
+pub type Parted<'a, M> = Option<(M, Cow<'a, [u8]>)>;
+
 /// A message that can travel as bytes.
 pub trait WireMessage: Serialize + DeserializeOwned {
     /// The message without the numbers of its picture, and these as bytes; None where it carries no picture.
     ///
     /// # Errors
     /// The numbers do not fill the picture's raster.
-    fn part(&self) -> Result<Option<(Self, Cow<'_, [u8]>)>, WireError>;
+    fn part(&self) -> Result<Parted<'_, Self>, WireError>;
 
     /// Puts these bytes back into a message that came without them.
     ///
@@ -94,7 +97,7 @@ pub trait WireMessage: Serialize + DeserializeOwned {
 }
 
 impl WireMessage for FromFrontend {
-    fn part(&self) -> Result<Option<(Self, Cow<'_, [u8]>)>, WireError> {
+    fn part(&self) -> Result<Parted<'_, Self>, WireError> {
         Ok(None)
     }
 
@@ -104,7 +107,7 @@ impl WireMessage for FromFrontend {
 }
 
 impl WireMessage for FromBackend {
-    fn part(&self) -> Result<Option<(Self, Cow<'_, [u8]>)>, WireError> {
+    fn part(&self) -> Result<Parted<'_, Self>, WireError> {
         Ok(match self {
             Self::Image(image) => {
                 check_raster(image.projector, [image.width, image.height], 4, image.rgba.len())?;

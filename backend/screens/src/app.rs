@@ -91,11 +91,10 @@ impl App {
     /// Shows what is due, and says when to look again.
     fn look(&mut self, events: &ActiveEventLoop) {
         let now = Instant::now();
-        let mut is_new = false;
-        while let Some((picture, _)) = self.next.pop_front_if(|(_, at)| *at <= now) {
-            (self.shown, is_new) = (picture, true);
-        }
-        if is_new {
+        let due = self.next.partition_point(|(_, at)| *at <= now);
+        let latest = self.next.drain(..due).next_back();
+        if let Some((picture, _)) = latest {
+            self.shown = picture;
             self.draw_or_fail(events);
         }
         let wait = self.next.front().map_or(ControlFlow::Wait, |(_, at)| ControlFlow::WaitUntil(*at));

@@ -6,7 +6,7 @@
 //! | `change`, `input` | what can happen to it, and where that comes from |
 //! | `run` | the loop: inputs, world, frames, screens |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
-//! | `histogram`, `measures`, `status`, `report` | how well the beat is kept |
+//! | `histogram`, `measures`, `plot`, `status`, `report` | how well the beat is kept |
 
 mod change;
 mod desktop;
@@ -14,6 +14,7 @@ mod dump;
 mod histogram;
 mod input;
 mod measures;
+mod plot;
 mod report;
 mod run;
 mod screens;

@@ -1,10 +1,9 @@
 //! What a show reports when it is over: JSON for programs, and a page for people.
 
-use super::{BeatSummary, End, Histogram, Played, Quantiles};
+use super::{BeatSummary, End, Played, Quantiles};
 use crate::FrontendError;
 use crate::report::html::{escape, facts, table};
 use crate::report::page::STYLE;
-use crate::report::plot::{Chart, Point, Series, Stroke};
 use crate::report::{BackendSummary, write_text};
 use serde::Serialize;
 use std::path::Path;
@@ -43,27 +42,6 @@ pub struct DriveReport {
     pub shortfall: Vec<String>,
     /// What happened to back-ends that were lost.
     pub troubles: Vec<String>,
-}
-
-/// What fraction of times is longer than each, as a plot.
-pub(super) fn plot_of_beat(interval: &Histogram, latency: &Histogram, skew: &Histogram) -> String {
-    let series = |(number, (name, histogram)): (usize, (&str, &Histogram))| {
-        let point = |(ms, share): (f64, f64)| Point {
-            x: ms,
-            y: 100.0 * share,
-            title: format!("{:.3} % take {ms:.3} ms or longer", 100.0 * share),
-        };
-        let points: Vec<Point> = histogram.beyond().into_iter().map(point).collect();
-        (!points.is_empty()).then(|| Series::new(name, points).tone(number).stroke(Stroke::Thin))
-    };
-    let named = [("from a frame to the next", interval), ("from input to screen", latency), ("skew", skew)];
-    let chart = Chart {
-        title: "How long things take".to_owned(),
-        x_label: "milliseconds".to_owned(),
-        y_label: "frames that take as long or longer, percent".to_owned(),
-        series: named.into_iter().enumerate().filter_map(series).collect(),
-    };
-    if chart.series.is_empty() { String::new() } else { chart.svg() }
 }
 
 impl DriveReport {

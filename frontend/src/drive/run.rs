@@ -1,7 +1,7 @@
 //! The loop of a driven display.
 
 use super::measures::Measures;
-use super::report::plot_of_beat;
+use super::plot::plot_of_beat;
 use super::{BeatSummary, Change, Input, KEYS, Screens, Status, World};
 use crate::FrontendError;
 use serde::Serialize;
@@ -94,7 +94,7 @@ pub fn run<'b>(
         tell,
     };
     let end = loop {
-        let happening = show.drive.next().map_err(|error| FrontendError::Backend(error.to_string()))?;
+        let happening = show.drive.await_next().map_err(|error| FrontendError::Backend(error.to_string()))?;
         let now = show.drive.now();
         match happening {
             Happening::Stopped => break End::Stopped,

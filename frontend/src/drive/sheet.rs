@@ -95,7 +95,8 @@ fn columns(count: u32, cell: UVec2) -> Option<u32> {
     let fits = |&columns: &u32| size(count, columns, cell).cmple(LARGEST).all();
     // Whole rows where there are any.
     let all = || (1..=count).filter(fits);
-    all().filter(|columns| count.is_multiple_of(*columns)).last().or_else(|| all().last()).or_else(|| {
+    let whole = all().rfind(|columns| count.is_multiple_of(*columns));
+    whole.or_else(|| all().next_back()).or_else(|| {
         // One cell of a single pixel fits no desktop of so many: then it is as it is.
         (cell == UVec2::ONE).then_some(count)
     })

@@ -12,7 +12,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
         "backend/bricks",
         &["temporary", "working_file", "working_folder", "volume", "store", "lod", "procedural"],
     ),
-    ("backend/renderer", &["output", "cache_size", "working_set", "device", "render"]),
+    ("backend/renderer", &["output", "present", "cache_size", "working_set", "device", "render"]),
     (
         "frontend",
         &[
@@ -25,6 +25,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "report",
             "simulate",
             "gallery",
+            "drive",
             "adapter",
             "cli",
             "command",

@@ -163,9 +163,15 @@ fn views_cast_together_are_views_cast_one_by_one() {
         let both = stage.device.cast(&job).unwrap();
         assert_eq!((both.rays, both.missing_tiles.len()), (2 * 72 * 54, 2), "{choice:?}");
         assert!(both.feedback == union(&alone[0].0, &alone[1].0), "{choice:?}");
-        assert!(stage.device.picture(0).unwrap().into_owned() == alone[1].1, "the picture of another cast stays");
+        assert!(
+            stage.device.picture(0).unwrap().into_owned() == alone[1].1,
+            "the picture of another cast stays"
+        );
         for (index, (_, picture)) in alone.iter().enumerate() {
-            assert!(stage.device.picture(1 + index).unwrap().into_owned() == *picture, "{choice:?}, view {index}");
+            assert!(
+                stage.device.picture(1 + index).unwrap().into_owned() == *picture,
+                "{choice:?}, view {index}"
+            );
         }
         // A view without tiles keeps its picture.
         let tiles = [vec![], vec![0]];

@@ -90,7 +90,7 @@ mod tests {
     }
 
     fn show(easing: &mut Easing, image: &[f32], now_s: f64, eases: bool) -> Vec<f32> {
-        let owned = easing.shown.len() % 2 == 0;
+        let owned = easing.shown.is_empty();
         let cast = if owned { Cow::Owned(image.to_vec()) } else { Cow::Borrowed(image) };
         easing.show(3, cast, now_s, eases).to_vec()
     }

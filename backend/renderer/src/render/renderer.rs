@@ -19,6 +19,9 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// Takes a picture: projector, pixels along x and y, colours.
+type Sink<'a> = dyn FnMut(u32, [u32; 2], Cow<'_, [f32]>) + 'a;
+
 /// The renderer of one back-end.
 pub struct Renderer {
     pub(super) engine: Engine,
@@ -126,11 +129,8 @@ impl Renderer {
         })
     }
 
-    /// The pictures that have become final, as they are shown: projector, pixels along x and y, colours.
-    fn show_finals(
-        &mut self,
-        sink: &mut dyn FnMut(u32, [u32; 2], Cow<'_, [f32]>),
-    ) -> Result<(), RenderError> {
+    /// The pictures that have become final, as they are shown.
+    fn show_finals(&mut self, sink: &mut Sink<'_>) -> Result<(), RenderError> {
         let Self { engine, course: Some(Course { work, .. }) } = self else { return Ok(()) };
         for projector in std::mem::take(&mut work.finals) {
             let started = std::time::Instant::now();

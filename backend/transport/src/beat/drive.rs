@@ -169,7 +169,7 @@ impl Drive {
     ///
     /// # Errors
     /// A back-end is lost and cannot be started again, or is of another build.
-    pub fn next(&mut self) -> Result<Happening, SessionError> {
+    pub fn await_next(&mut self) -> Result<Happening, SessionError> {
         loop {
             if self.stop.load(Ordering::SeqCst) {
                 return Ok(Happening::Stopped);
@@ -209,7 +209,7 @@ impl Drive {
     /// The next thing that happens of what is under way, without a new frame; None once nothing is, or it takes too long.
     ///
     /// # Errors
-    /// See [`Drive::next`].
+    /// See [`Drive::await_next`].
     pub fn settle(&mut self) -> Result<Option<Happening>, SessionError> {
         let since = Instant::now();
         while since.elapsed() < LONGEST_SETTLING && !self.stop.load(Ordering::SeqCst) {

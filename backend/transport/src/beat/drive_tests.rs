@@ -74,7 +74,7 @@ struct Seen {
 fn play(drive: &mut Drive, frames: u32) -> Seen {
     let mut seen = Seen::default();
     loop {
-        match drive.next().unwrap() {
+        match drive.await_next().unwrap() {
             Happening::Due { frame: index, .. } if index == frames => break,
             Happening::Due { frame: index, .. } => drive.draw(&frame(index)).unwrap(),
             other => note(&mut seen, other),

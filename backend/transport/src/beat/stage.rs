@@ -32,7 +32,7 @@ impl Stage {
     /// The frame to show next, and when: of those whose time has come the latest, or else the first to come.
     pub fn due(&self, now_us: u64) -> Option<(u32, u64)> {
         let ready = self.drawn.iter().filter_map(|&frame| Some((frame, *self.ordered.get(&frame)?)));
-        let has_come = ready.clone().filter(|&(_, at_us)| at_us <= now_us).next_back();
+        let has_come = ready.clone().rfind(|&(_, at_us)| at_us <= now_us);
         has_come.or_else(|| ready.min_by_key(|&(_, at_us)| at_us))
     }
 
