@@ -2,6 +2,7 @@
 
 use super::BackendArgs;
 use super::live::{FADE_S, UPLOAD_MIB, fade, upload};
+use super::parse::whole;
 use crate::scene::{LookName, QualityPreset};
 use clap::{Args, ValueEnum};
 use protocol::Pace;
@@ -38,7 +39,7 @@ pub struct DriveArgs {
     #[arg(long, value_enum, default_value = "quincunx")]
     pub reconstruct: ReconstructArg,
     /// End after so many frames.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=u32::MAX), allow_hyphen_values = true)]
     pub frames: Option<u32>,
     /// End after so many seconds.
     #[arg(long = "for", value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
