@@ -4,6 +4,9 @@ use crate::{BeamLaw, CanonicalRaster, Projector, RayError, Resolution};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
+/// The slowest and the fastest rate of a display, pictures per second.
+pub const RATES_HZ: (f64, f64) = (0.1, 1000.0);
+
 /// A light-field display. Display frame: metres, origin at the screen's centre, x right, y up, z toward the viewers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Display {

@@ -17,7 +17,7 @@ pub mod text;
 mod wiring;
 mod zone;
 
-pub use display::Display;
+pub use display::{Display, RATES_HZ};
 pub use error::{Clip, ConfigError, Place, RayError};
 pub use eye::EyeModel;
 pub use homography::Homography;

@@ -91,6 +91,18 @@ pub enum FrontendError {
     Json(#[from] serde_json::Error),
 }
 
+impl From<transport::SessionError> for FrontendError {
+    fn from(error: transport::SessionError) -> Self {
+        Self::Backend(error.to_string())
+    }
+}
+
+impl From<screens::ScreenError> for FrontendError {
+    fn from(error: screens::ScreenError) -> Self {
+        Self::Screen(error.to_string())
+    }
+}
+
 impl From<protocol::DrawError> for FrontendError {
     fn from(error: protocol::DrawError) -> Self {
         Self::Backend(error.to_string())

@@ -6,7 +6,7 @@ mod raw;
 mod source;
 
 use crate::text::{brief_text, did_you_mean, read_text};
-use crate::{ConfigError, Display, Projector, presets};
+use crate::{ConfigError, Display, Projector, RATES_HZ, presets};
 use glam::{DVec2, DVec3};
 use raw::{RawBackend, RawDisplay};
 use source::Source;
@@ -49,11 +49,14 @@ impl Display {
 /// Positive lengths, as messages ask for them.
 const A_LENGTH: &str = "a length in metres, above 0 and at most 1000000";
 
+/// Rates, as messages ask for them.
+const A_RATE: &str = "a rate in pictures per second, from 0.1 to 1000";
+
 /// What most projectors show, pictures per second.
 const USUAL_RATE_HZ: f64 = 60.0;
 
 fn is_rate(hz: f64) -> bool {
-    (0.1..=1000.0).contains(&hz)
+    (RATES_HZ.0..=RATES_HZ.1).contains(&hz)
 }
 
 fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError> {
@@ -73,9 +76,10 @@ fn checked(source: &Source<'_>, raw: &RawDisplay) -> Result<Display, ConfigError
         angular_accuracy: accuracy_deg.to_radians(),
         observer_in_display: observer(source, raw)?,
         eta: source.within("eta", &raw.eta, eta, |eta| (0.0..=1.0).contains(&eta))?,
-        rate_hz: raw.rate_hz.as_ref().map_or(Ok(USUAL_RATE_HZ), |rate| {
-            source.within("rate_hz", rate, "a rate in pictures per second, from 0.1 to 1000", is_rate)
-        })?,
+        rate_hz: raw
+            .rate_hz
+            .as_ref()
+            .map_or(Ok(USUAL_RATE_HZ), |rate| source.within("rate_hz", rate, A_RATE, is_rate))?,
         projectors,
         adapters,
     })

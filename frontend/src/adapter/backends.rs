@@ -137,7 +137,7 @@ impl Backends {
 
     fn session(self, setups: Vec<Setup>) -> Result<Session, FrontendError> {
         let session = Session::start(self.link, setups, Limits::default(), Arc::clone(&self.stop));
-        session.map_err(|error| interrupt::or_stopped(FrontendError::Backend(error.to_string()), &self.stop))
+        session.map_err(|error| interrupt::or_stopped(error.into(), &self.stop))
     }
 }
 
@@ -165,7 +165,7 @@ pub fn dismiss_backends() -> Result<(), FrontendError> {
     if !under_mpi() || cfg!(not(feature = "mpi")) {
         return Ok(());
     }
-    Session::dismiss(cluster_link()?, Limits::default()).map_err(|e| FrontendError::Backend(e.to_string()))
+    Ok(Session::dismiss(cluster_link()?, Limits::default())?)
 }
 
 #[cfg(feature = "mpi")]

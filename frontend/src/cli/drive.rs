@@ -1,16 +1,15 @@
 //! The arguments of `lightloom drive`.
 
 use super::BackendArgs;
-use super::live::{FADE_S, UPLOAD_MIB, fade, upload};
+use super::live::{fade, live_pace, upload};
 use super::parse::whole;
 use crate::scene::{LookName, QualityPreset};
 use clap::{Args, ValueEnum};
+use display_config::RATES_HZ;
 use protocol::Pace;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// The fastest and the slowest rate, frames a second.
-const RATES_HZ: (f64, f64) = (0.1, 1000.0);
 /// The longest show, seconds: a year.
 const LONGEST_S: f64 = 3.2e7;
 
@@ -95,10 +94,7 @@ pub enum ReconstructArg {
 impl DriveArgs {
     /// How frames get their detail.
     pub fn pace(&self) -> Pace {
-        Pace::Live {
-            upload_bytes: self.upload_mib.unwrap_or(UPLOAD_MIB) << 20,
-            fade_s: self.fade.unwrap_or(FADE_S),
-        }
+        live_pace(self.upload_mib, self.fade)
     }
 }
 

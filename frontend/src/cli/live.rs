@@ -38,11 +38,13 @@ impl LiveArgs {
         if !self.live {
             return Pace::Complete;
         }
-        Pace::Live {
-            upload_bytes: self.upload_mib.unwrap_or(UPLOAD_MIB) << 20,
-            fade_s: self.fade.unwrap_or(FADE_S),
-        }
+        live_pace(self.upload_mib, self.fade)
     }
+}
+
+/// The pace of live frames, where the command line leaves some of it open.
+pub(super) fn live_pace(upload_mib: Option<u64>, fade_s: Option<f64>) -> Pace {
+    Pace::Live { upload_bytes: upload_mib.unwrap_or(UPLOAD_MIB) << 20, fade_s: fade_s.unwrap_or(FADE_S) }
 }
 
 pub(super) fn fade(text: &str) -> Result<f64, String> {

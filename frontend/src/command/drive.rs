@@ -6,7 +6,7 @@ use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
 use crate::cli::{DriveArgs, OutputArg, ReconstructArg};
 use crate::drive::{
-    Desktop, DriveReport, Dump, Hands, Input, Plan, Played, Screens, Sheet, Sink, Status, World, run,
+    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, World, run,
 };
 use crate::report::BackendSummary;
 use crate::scene::Scene;
@@ -51,12 +51,11 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     let sheet = Sheet::new(world.display());
     let title = format!("lightloom: {}", world.display().name);
     let size = sheet.picture();
-    let opened = screens::open(&title, size.width, size.height);
-    let (window_loop, window, acts) = opened.map_err(|error| FrontendError::Screen(error.to_string()))?;
+    let (window_loop, window, acts) = screens::open(&title, size.width, size.height)?;
     let view = View { window, acts, sheet };
     std::thread::scope(|scope| {
         let show = scope.spawn(|| play(args, world, Some(view)));
-        let shown = window_loop.run().map_err(|error| FrontendError::Screen(error.to_string()));
+        let shown = window_loop.run().map_err(FrontendError::from);
         let played = show.join().unwrap_or_else(|panic| resume_unwind(panic));
         shown.and(played)
     })
@@ -106,20 +105,16 @@ fn play(args: &DriveArgs, mut world: World, view: Option<View>) -> Result<(), Fr
         reconstructs: args.reconstruct == ReconstructArg::Quincunx,
         stepped: args.stepped,
         seconds: played.length.as_secs_f64(),
-        end: played.end,
-        beat: played.beat.clone(),
         backends: BackendSummary::all(&wiring, driving.devices().to_vec()),
-        casters: played.casters.clone(),
-        shortfall: played.shortfall.clone(),
-        troubles: played.troubles.clone(),
+        played,
     };
-    driving.finish().map_err(|error| FrontendError::Backend(error.to_string()))?;
-    finish(args, &report, &played)
+    driving.finish()?;
+    finish(args, &report)
 }
 
-fn finish(args: &DriveArgs, report: &DriveReport, played: &Played) -> Result<(), FrontendError> {
+fn finish(args: &DriveArgs, report: &DriveReport) -> Result<(), FrontendError> {
     if let Some(folder) = &args.out {
-        report.write(played, folder)?;
+        report.write(folder)?;
     }
     if args.json {
         say(&serde_json::to_string_pretty(report)?)?;

@@ -1,6 +1,6 @@
 //! What a show reports when it is over: JSON for programs, and a page for people.
 
-use super::{BeatSummary, End, Played, Quantiles};
+use super::{BeatSummary, Played, Quantiles};
 use crate::FrontendError;
 use crate::report::html::{escape, facts, table};
 use crate::report::page::STYLE;
@@ -30,24 +30,17 @@ pub struct DriveReport {
     pub stepped: bool,
     /// How long it lasted, seconds of the display's clock.
     pub seconds: f64,
-    /// Why it ended.
-    pub end: End,
-    /// How the beat was kept.
-    pub beat: BeatSummary,
     /// What drew it.
     pub backends: Vec<BackendSummary>,
-    /// What cast the rays of the last frames.
-    pub casters: Vec<String>,
-    /// Why the last pictures are not complete; empty where they are.
-    pub shortfall: Vec<String>,
-    /// What happened to back-ends that were lost.
-    pub troubles: Vec<String>,
+    /// How it went.
+    #[serde(flatten)]
+    pub played: Played,
 }
 
 impl DriveReport {
     /// What is told on a terminal, in one line.
     pub fn line(&self) -> String {
-        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends } = &self.beat;
+        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends } = &self.played.beat;
         let late: u64 = backends.iter().map(|backend| backend.late).sum();
         let rate_hz = if interval_ms.p50 > 0.0 { 1e3 / interval_ms.p50 } else { 0.0 };
         format!(
@@ -61,12 +54,13 @@ impl DriveReport {
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn write(&self, played: &Played, folder: &Path) -> Result<(), FrontendError> {
+    pub fn write(&self, folder: &Path) -> Result<(), FrontendError> {
         write_text(&folder.join(JSON), &serde_json::to_string_pretty(self)?)?;
-        Ok(write_text(&folder.join(HTML), &self.page(&played.plot))?)
+        Ok(write_text(&folder.join(HTML), &self.page())?)
     }
 
-    fn page(&self, plot: &str) -> String {
+    fn page(&self) -> String {
+        let plot = &self.played.plot;
         let title = escape(&self.scene);
         let sentences = |heading: &str, sentences: &[String]| match sentences {
             [] => String::new(),
@@ -84,8 +78,8 @@ impl DriveReport {
             self.setting(),
             self.times(),
             self.table_of_backends(),
-            sentences("Not complete", &self.shortfall),
-            sentences("What happened", &self.troubles),
+            sentences("Not complete", &self.played.shortfall),
+            sentences("What happened", &self.played.troubles),
         )
     }
 
@@ -97,11 +91,11 @@ impl DriveReport {
         };
         let clock = if self.stepped { "stands still while a frame is drawn" } else { "this machine's" };
         facts(&[
-            ("frames", self.beat.frames.to_string()),
+            ("frames", self.played.beat.frames.to_string()),
             ("length", format!("{:.1} s", self.seconds)),
             ("asked for", format!("{} a second", self.rate_hz)),
             ("a frame casts", casts.to_owned()),
-            ("its rays", self.casters.join("; ")),
+            ("its rays", self.played.casters.join("; ")),
             ("the clock", clock.to_owned()),
             ("projectors", self.projectors.to_string()),
         ])
@@ -113,9 +107,9 @@ impl DriveReport {
             vec![name.to_owned(), cell(times.p50), cell(times.p99), cell(times.max)]
         };
         let rows = [
-            row("from a frame to the next", &self.beat.interval_ms),
-            row("from input to screen", &self.beat.input_to_shown_ms),
-            row("skew: first to last back-end", &self.beat.skew_ms),
+            row("from a frame to the next", &self.played.beat.interval_ms),
+            row("from input to screen", &self.played.beat.input_to_shown_ms),
+            row("skew: first to last back-end", &self.played.beat.skew_ms),
         ];
         table(&["milliseconds", "median", "99 %", "largest"], &rows)
     }
@@ -127,7 +121,8 @@ impl DriveReport {
             let counts = [beat.late.to_string(), beat.lost.to_string()];
             [vec![format!("{number}: {}", backend.device.adapter)], times.to_vec(), counts.to_vec()].concat()
         };
-        let rows: Vec<_> = self.beat.backends.iter().zip(&self.backends).enumerate().map(row).collect();
+        let rows: Vec<_> =
+            self.played.beat.backends.iter().zip(&self.backends).enumerate().map(row).collect();
         table(&["back-end", "draws a frame in, ms", "99 %", "largest", "late", "lost"], &rows)
     }
 }

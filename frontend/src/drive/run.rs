@@ -32,15 +32,17 @@ pub enum End {
 }
 
 /// A show that is over.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Played {
     /// Why it ended.
     pub end: End,
     /// How long it lasted on the display's clock.
+    #[serde(skip)]
     pub length: Duration,
     /// How the beat was kept.
     pub beat: BeatSummary,
     /// The same as a plot.
+    #[serde(skip)]
     pub plot: String,
     /// What became of back-ends that were lost, sentence by sentence; the latest of many.
     pub troubles: Vec<String>,
@@ -94,7 +96,7 @@ pub fn run<'b>(
         tell,
     };
     let end = loop {
-        let happening = show.drive.await_next().map_err(|error| FrontendError::Backend(error.to_string()))?;
+        let happening = show.drive.await_next()?;
         let now = show.drive.now();
         match happening {
             Happening::Stopped => break End::Stopped,
@@ -115,9 +117,7 @@ pub fn run<'b>(
     };
     if end != End::Stopped {
         // What is under way is still to be seen.
-        while let Some(happening) =
-            show.drive.settle().map_err(|error| FrontendError::Backend(error.to_string()))?
-        {
+        while let Some(happening) = show.drive.settle()? {
             let now = show.drive.now();
             show.heed(happening, now)?;
         }
@@ -152,7 +152,7 @@ impl Show<'_, '_> {
         }
         let state = self.world.frame(frame, seen_at)?;
         self.measures.began(frame, now);
-        self.drive.draw(&state).map_err(|error| FrontendError::Backend(error.to_string()))?;
+        self.drive.draw(&state)?;
         Ok(None)
     }
 

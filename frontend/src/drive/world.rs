@@ -1,10 +1,12 @@
 //! What has happened to a scene since it was loaded. Pure: the same changes at the same times give the same frames.
 
 use super::Change;
-use crate::scene::{Anchor, Handling, LookName, Scene, SceneEnhancer, SceneError, Values, VolumeFacts};
+use crate::scene::{
+    Anchor, CLIP_CONTEXT, Handling, LookName, Scene, SceneEnhancer, SceneError, Values, VolumeFacts,
+};
 use display_config::Display;
 use glam::{DQuat, DVec3};
-use optics::{ClipPlane, Enhancer, MOST_ENHANCERS, Ramp};
+use optics::{ClipPlane, Enhancer, MOST_ENHANCERS};
 use protocol::{FrameState, Pace, SubFrame, VolumeRef};
 use std::time::Duration;
 
@@ -12,8 +14,6 @@ use std::time::Duration;
 const SCALES: (f64, f64) = (0.05, 50.0);
 /// How far its centre may be from where the scene has it, in widths of the screen.
 const FARTHEST: f64 = 5.0;
-/// The context that the clip plane keeps, as scenes have it that say nothing else.
-const CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
 
 /// Times that differ by less are the same, seconds: steps of a rate add up to a little less or more.
 const LEAST_STEP_S: f64 = 1e-6;
@@ -171,7 +171,7 @@ impl World {
         let plane = ClipPlane {
             point_in_display,
             normal_in_display: DVec3::Z,
-            context: CONTEXT,
+            context: CLIP_CONTEXT,
             thickness_m: 0.0,
             boost: 1.0,
             strength: 1.0,

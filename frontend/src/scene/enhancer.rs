@@ -2,8 +2,11 @@
 
 use super::band::normalised_band;
 use glam::DVec3;
-use optics::{Enhancer, Trapezoid, TrapezoidError};
+use optics::{Enhancer, Ramp, Trapezoid, TrapezoidError};
 use protocol::Tool;
+
+/// The context of a clip plane for which nothing else is said: one minus the cosine of the angle to its normal, of 11° and 37°.
+pub const CLIP_CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
 
 /// What an enhancer goes with.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,7 +27,7 @@ pub use axis::{VolumeAxes, VolumeAxis};
 pub use band::Band;
 pub use contents::Scene;
 pub use edits::{Edits, Held};
-pub use enhancer::{Anchor, SceneEnhancer};
+pub use enhancer::{Anchor, CLIP_CONTEXT, SceneEnhancer};
 pub use error::SceneError;
 pub use handling::Handling;
 pub use look::{DataLook, Look};

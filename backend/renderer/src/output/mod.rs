@@ -17,3 +17,4 @@ pub use eye::{EyePlan, EyeView};
 pub use picture::{Picture, PictureRef};
 pub use png::{encode_png, write_codes, write_png};
 pub use srgb::srgb_code;
+pub(crate) use srgb::srgb_codes;

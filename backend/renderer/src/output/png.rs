@@ -1,6 +1,6 @@
 //! PNG: 8-bit sRGB over black.
 
-use super::{OutputError, PictureRef, srgb_code, write_atomically};
+use super::{OutputError, PictureRef, srgb_codes, write_atomically};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Write;
@@ -17,7 +17,7 @@ pub fn write_png(path: &Path, picture: PictureRef<'_>) -> Result<(), OutputError
 pub fn encode_png(into: impl Write, picture: PictureRef<'_>) -> Result<(), String> {
     let mut rgb = Vec::with_capacity(picture.rgba().len() / 4 * 3);
     for pixel in picture.rgba().chunks_exact(4) {
-        rgb.extend_from_slice(&[srgb_code(pixel[0]), srgb_code(pixel[1]), srgb_code(pixel[2])]);
+        rgb.extend_from_slice(&srgb_codes(pixel));
     }
     encode_codes(into, picture.width(), picture.height(), &rgb)
 }

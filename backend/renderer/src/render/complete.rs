@@ -10,13 +10,11 @@ use super::feedback::{feedback_of, keys_of};
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use crate::device::coarse;
-use crate::present::lattice_of;
 use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
 use std::collections::HashSet;
 use std::time::Instant;
-use twin::Lattice;
 
 /// The coarse look casts every 16th pixel along x and y.
 const COARSE_STRIDE: u32 = 16;
@@ -81,7 +79,7 @@ impl Complete {
                 engine.easing.forget();
                 engine.known.forget();
             } else {
-                let lattice = Self::lattice(work);
+                let lattice = work.lattice();
                 work.known = engine.known.begin(&work.frame, true, &lattice);
             }
             engine.stock.damage.start_frame();
@@ -108,11 +106,6 @@ impl Complete {
             Stage::Casting => self.end_views(work, engine),
         }
         Ok(None)
-    }
-
-    /// The pixels that the frame shows as they are cast.
-    fn lattice(work: &Work) -> Lattice {
-        lattice_of(work.frame.sub_frame, work.setting.caster.fan.is_some())
     }
 
     /// What the rays of the cast found; of a view that has just begun, nothing.
@@ -177,7 +170,7 @@ impl Complete {
     fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<Vec<u32>>>) {
         self.stage = stage;
         let views = self.view..self.view + work.views_at_once();
-        let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { Self::lattice(work) };
+        let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { work.lattice() };
         let mut pending = Pending::all(&work.setting, views, lattice);
         if stage == Stage::Looking {
             pending.counts = false;

@@ -9,7 +9,6 @@ use super::shelf::Shelf;
 use super::stock::Stock;
 use super::table_cache::TableCache;
 use crate::device::{CacheWish, ChosenDevice, Device, open_device};
-use crate::present::Thresholds;
 use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
 use bricks::{BrickSource, NodeKey};
 use protocol::{DeviceInfo, RendererOptions};
@@ -26,7 +25,6 @@ pub(super) struct Engine {
     pub(super) live: Live,
     pub(super) easing: Easing,
     pub(super) known: Known,
-    pub(super) thresholds: Thresholds,
     pub(super) recording: Recording,
 }
 
@@ -57,7 +55,6 @@ impl Engine {
             live: Live::default(),
             easing: Easing::default(),
             known: Known::default(),
-            thresholds: Thresholds::default(),
             recording: Recording::default(),
         };
         Ok((engine, info))

@@ -9,7 +9,6 @@ use super::rules::FrameRules;
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use crate::device::FeedbackTag;
-use crate::present::lattice_of;
 use crate::working_set::{Feedback, Moment, Shortfall, Showing, most_in_flight};
 use bricks::NodeKey;
 use layout::FeedbackEntry;
@@ -47,7 +46,7 @@ impl LiveFrame {
         self.upkeep = Some(self.keep_up(work, engine)?);
         engine.recording.begin()?;
         engine.device.clear_feedback();
-        let lattice = lattice_of(work.frame.sub_frame, work.setting.caster.fan.is_some());
+        let lattice = work.lattice();
         work.known = engine.known.begin(&work.frame, !engine.shelf.has_changed, &lattice);
         work.begin_cast(Pending::all(&work.setting, 0..work.setting.rays.len(), lattice));
         Ok(None)

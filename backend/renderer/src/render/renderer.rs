@@ -8,11 +8,11 @@ use super::error::check;
 use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
-use crate::present::{Raster, reconstruct, screen_image};
+use crate::present::{Raster, Thresholds, reconstruct, screen_image};
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
-    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, Pace, ProjectorImage, Render, RenderEvent,
+    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, ProjectorImage, Render, RenderEvent,
     RendererOptions, ScreenImage, StopAsked, VolumeRef,
 };
 use std::borrow::Cow;
@@ -136,13 +136,12 @@ impl Renderer {
             let started = std::time::Instant::now();
             let Some(view) = work.view_of(projector) else { continue };
             let (size, picture) = (work.setting.rays[view].raster, work.picture_of(view));
-            let Engine { easing, live, thresholds, device, .. } = &mut *engine;
+            let Engine { easing, live, device, .. } = &mut *engine;
             let cast = device.picture(picture)?;
-            let is_of_many = work.frame.pace != Pace::Complete || work.frame.sub_frame.is_some();
-            let shown = if is_of_many {
+            let shown = if work.is_of_many() {
                 let raster = Raster { width: size[0] as usize, height: size[1] as usize };
                 let before = easing.before(projector).filter(|before| before.len() == cast.len());
-                let whole = reconstruct(cast, before, raster, work.known, *thresholds);
+                let whole = reconstruct(cast, before, raster, work.known, Thresholds::default());
                 Cow::from(easing.show(projector, whole, live.now_s(&work.frame), work.eases))
             } else {
                 cast

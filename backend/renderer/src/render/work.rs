@@ -5,7 +5,7 @@ use super::account::{Account, milliseconds};
 use super::engine::Engine;
 use super::setting::Setting;
 use crate::device::{CastJob, Gather, Part, TileGrid};
-use crate::present::Classes;
+use crate::present::{Classes, lattice_of};
 use layout::FeedbackEntry;
 use needs::Needs;
 use protocol::{FrameState, Pace, StopAsked};
@@ -91,8 +91,17 @@ impl Work {
     /// The device's picture of a view: those of a complete frame that are cast one by one follow each other in one, each
     /// presented before the next is begun. A coarse look at views whose pixels are kept goes to others.
     pub(super) fn picture_of(&self, view: usize) -> usize {
-        let keeps_all = self.frame.pace != Pace::Complete || self.frame.sub_frame.is_some();
-        if keeps_all { view } else { view % self.views_at_once() }
+        if self.is_of_many() { view } else { view % self.views_at_once() }
+    }
+
+    /// Whether what it shows depends on the frames before, so that each view keeps its picture.
+    pub(super) fn is_of_many(&self) -> bool {
+        self.frame.pace != Pace::Complete || self.frame.sub_frame.is_some()
+    }
+
+    /// The pixels that it shows as they are cast.
+    pub(super) fn lattice(&self) -> Lattice {
+        lattice_of(self.frame.sub_frame, self.setting.caster.fan.is_some())
     }
 
     /// The view of a projector.

@@ -108,8 +108,6 @@ pub struct Drive {
     presence: Vec<Presence>,
     /// The latest frame that each was told to show and has drawn, until it says that it shows it.
     owes_show: Vec<Option<u32>>,
-    /// The latest frame that each has drawn.
-    drawn: Vec<Option<u32>>,
     asked_clocks_at: Option<Duration>,
 }
 
@@ -130,7 +128,6 @@ impl Drive {
             clocks: vec![OtherClock::default(); backends],
             presence: vec![Presence::There; backends],
             owes_show: vec![None; backends],
-            drawn: vec![None; backends],
             asked_clocks_at: None,
         }
     }
@@ -187,10 +184,7 @@ impl Drive {
         let until = match self.beat.step(now) {
             Step::Begin { .. } if self.time.is_stepped() && self.is_anything_under_way() => None,
             Step::Begin { frame, seen_at } => return Ok(Some(Happening::Due { frame, seen_at })),
-            Step::Show { frame, at } => {
-                self.show(frame, at)?;
-                return Ok(Some(Happening::Ordered { frame, at }));
-            }
+            Step::Show { frame, at } => return self.show(frame, at).map(Some),
             Step::Wait { until: Some(until) } if self.time.is_stepped() && !self.is_anything_under_way() => {
                 self.time.jump(until);
                 return Ok(None);
@@ -198,6 +192,11 @@ impl Drive {
             Step::Wait { until } => until.filter(|_| !self.time.is_stepped()),
         };
         let wait = until.map_or(TICK, |until| until.saturating_sub(now).min(TICK));
+        self.listen(wait)
+    }
+
+    /// What comes from a back-end within a time, and means something.
+    fn listen(&mut self, wait: Duration) -> Result<Option<Happening>, SessionError> {
         match self.link.receive(wait) {
             Ok((backend, message)) => self.heed(backend, message),
             Err(LinkError::Silent) => Ok(None),
@@ -214,20 +213,13 @@ impl Drive {
         let since = Instant::now();
         while since.elapsed() < LONGEST_SETTLING && !self.stop.load(Ordering::SeqCst) {
             if let Step::Show { frame, at } = self.beat.step(self.time.now()) {
-                self.show(frame, at)?;
-                return Ok(Some(Happening::Ordered { frame, at }));
+                return self.show(frame, at).map(Some);
             }
             if !self.is_anything_under_way() {
                 break;
             }
-            let happening = match self.link.receive(TICK) {
-                Ok((backend, message)) => self.heed(backend, message)?,
-                Err(LinkError::Silent) => None,
-                Err(LinkError::Ended { backend, how }) => self.revive(backend, how)?,
-                Err(error) => return Err(self.explain(error)),
-            };
-            if happening.is_some() {
-                return Ok(happening);
+            if let Some(happening) = self.listen(TICK)? {
+                return Ok(Some(happening));
             }
         }
         Ok(None)
@@ -238,18 +230,20 @@ impl Drive {
         self.beat.owing().next().is_some()
             || (0..self.presence.len()).any(|backend| {
                 self.presence[backend] != Presence::There
-                    || self.owes_show[backend].is_some_and(|frame| self.drawn[backend] >= Some(frame))
+                    || self.owes_show[backend]
+                        .is_some_and(|frame| self.beat.latest_of(backend) >= Some(frame))
             })
     }
 
-    fn show(&mut self, frame: u32, at: Duration) -> Result<(), SessionError> {
+    /// Tells all to show a frame.
+    fn show(&mut self, frame: u32, at: Duration) -> Result<Happening, SessionError> {
         let at_us = at.as_micros() as u64;
         for backend in self.there() {
             let there_us = (!self.time.is_stepped()).then(|| self.clocks[backend].there(at_us));
             self.tell(backend, &FromFrontend::Show { frame, at_us: there_us })?;
             self.owes_show[backend] = Some(frame);
         }
-        Ok(())
+        Ok(Happening::Ordered { frame, at })
     }
 
     fn ask_clocks(&mut self) -> Result<(), SessionError> {
@@ -292,7 +286,6 @@ impl Drive {
             // What is left of one that was let go.
             (_, Presence::Leaving) => None,
             (FromBackend::Drawn(report), Presence::There) => {
-                self.drawn[backend] = Some(report.frame);
                 self.beat.drawn(backend, report.frame, now);
                 Some(Happening::Drawn { backend, report })
             }
@@ -315,18 +308,16 @@ impl Drive {
 
     fn lose(&mut self, backend: usize, why: String) -> Happening {
         self.presence[backend] = Presence::Leaving;
-        (self.owes_show[backend], self.drawn[backend]) = (None, None);
+        self.owes_show[backend] = None;
         self.beat.lost(backend);
         Happening::Lost { backend, why }
     }
 
     /// A back-end has ended: starts it again.
     fn revive(&mut self, backend: usize, how: String) -> Result<Option<Happening>, SessionError> {
-        let name = self.link.name(backend);
         let was_known = self.presence[backend] == Presence::Leaving;
         if !self.link.revive(backend).map_err(|error| self.explain(error))? {
-            let activity = "driving the display".to_owned();
-            return Err(SessionError::Ended { name, activity, how });
+            return Err(self.explain(LinkError::Ended { backend, how }));
         }
         let lost = self.lose(backend, how);
         self.presence[backend] = Presence::Greeting;

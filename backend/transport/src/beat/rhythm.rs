@@ -177,6 +177,11 @@ impl Beat {
         self.members.iter().map(|member| member.late).collect()
     }
 
+    /// The latest frame that a back-end has drawn, since it was last lost.
+    pub fn latest_of(&self, backend: usize) -> Option<u32> {
+        self.members[backend].drawn
+    }
+
     /// Back-ends that owe a frame.
     pub fn owing(&self) -> impl Iterator<Item = usize> {
         self.members.iter().enumerate().filter(|(_, m)| !m.is_lost && m.is_busy()).map(|(i, _)| i)

@@ -3,7 +3,7 @@
 use crate::scene::error::Checked;
 use crate::scene::file::{BandTable, EnhancerTable, Key, Limits, Number, Triple, key};
 use crate::scene::text::SceneText;
-use crate::scene::{Anchor, Band, SceneEnhancer};
+use crate::scene::{Anchor, Band, CLIP_CONTEXT, SceneEnhancer};
 use ::optics::{
     BandPicker, ClipPlane, Enhancer, EnhancerKind, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
 };
@@ -13,8 +13,6 @@ use toml::Spanned;
 
 /// Cosines of the angles to an axis: none of an effect beyond 37°, all of it within 11°.
 const FACING: Ramp = Ramp { low: 0.8, high: 0.98 };
-/// One minus the cosine of the angle to a clip plane's normal: the same angles.
-const CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
 /// Of the rescaled gradient: homogeneous tissue is not an edge.
 const EDGES: Ramp = Ramp { low: 0.2, high: 0.8 };
 /// The scalar's change over a voxel that counts as the strongest edge, parts of the domain.
@@ -152,7 +150,7 @@ impl SceneText {
         Ok(ClipPlane {
             point_in_display: DVec3::ZERO,
             normal_in_display: self.direction_or(&table.normal, DVec3::Z)?,
-            context: self.ramp_or(&table.context, CONTEXT)?,
+            context: self.ramp_or(&table.context, CLIP_CONTEXT)?,
             thickness_m: self.at_least_zero_or(&table.thickness_m, THICKNESS_M)?,
             boost: self.at_least_zero_or(&table.boost, ClipPlane::OPAQUE)?,
             strength: self.within_or(&table.strength, 1.0, 0.0..=1.0)?,
