@@ -3,8 +3,9 @@
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use bricks::store::Store;
-use protocol::{Setup, VolumeRef};
+use protocol::{Setup, VolumeRef, Wall};
 use renderer::Renderer;
+use screens::OutputWall;
 use std::sync::Arc;
 use transport::Opened;
 use transport::local_rank;
@@ -16,12 +17,19 @@ use transport::local_rank;
 /// One sentence: the volume cannot be opened, or there is no such device.
 pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
     setup.options.adapter.turn = local_rank().unwrap_or(setup.options.adapter.turn);
+    // First, so that outputs are black while a large volume opens.
+    let wall = if setup.screens.outputs { Some(open_wall(&setup)?) } else { None };
     let source = open_volume(&setup.volume)?;
     let (mut renderer, info) = Renderer::new(&setup.options, source).map_err(|error| error.to_string())?;
     if let Some(path) = setup.trace {
         renderer.record(path, &setup.volume);
     }
-    Ok((Box::new(renderer), info))
+    Ok(Opened { renderer: Box::new(renderer), device: info, wall })
+}
+
+fn open_wall(setup: &Setup) -> Result<Box<dyn Wall>, String> {
+    let wall = OutputWall::open(&setup.options.display, &setup.options.projectors);
+    Ok(Box::new(wall.map_err(|error| error.to_string())?))
 }
 
 /// Opens a volume.

@@ -132,9 +132,26 @@ pub enum ConfigError {
     DuplicateName { place: Place, name: String },
     /// Two rasters on the same pixels of an output.
     #[error(
-        "{place} puts the raster on pixels of output `{output}` that projector `{other}` uses; move one of them"
+        "{place} puts the picture on pixels of `{output}` that projector `{other}` of the same back-end uses; move one of them"
     )]
     OverlappingOutput { place: Place, output: String, other: String },
+    /// A back-end of a line with more projectors than connectors.
+    #[error(
+        "{place} has {outputs} connectors, and back-end {backend} has more projectors; name one for each projector of a back-end"
+    )]
+    TooFewLineOutputs { place: Place, outputs: usize, backend: u32 },
+    /// A projector that cannot be driven.
+    #[error(
+        "projector `{projector}` has no output in the display file; give it one (`lightloom outputs` lists them), or show \
+         the display on a desktop with --desktop"
+    )]
+    NoOutput { projector: String },
+    /// Two projectors of one back-end with the same pixels, since others share them than the file says.
+    #[error(
+        "projectors `{other}` and `{projector}` of one back-end have the same pixels of an output; start as many back-ends \
+         as the display file wires"
+    )]
+    SharedOutput { projector: String, other: String },
     /// Back-ends are not numbered 0, 1, 2, …
     #[error(
         "{place} is {highest}, but no projector has back-end {missing}; number the back-ends from 0 without gaps"

@@ -7,6 +7,7 @@ mod eye;
 #[cfg(test)]
 mod fixed_seed;
 mod homography;
+mod output;
 mod parse;
 mod preset;
 mod projector;
@@ -21,6 +22,7 @@ pub use display::{Display, RATES_HZ};
 pub use error::{Clip, ConfigError, Place, RayError};
 pub use eye::EyeModel;
 pub use homography::Homography;
+pub use output::{Output, Turn};
 pub use preset::presets;
 pub use projector::Projector;
 pub use raster::{COVER_TOLERANCE_PX, CanonicalRaster, MOST_PIXELS, Raster, RasterInverse, Warp};

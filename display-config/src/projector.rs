@@ -18,6 +18,14 @@ pub struct Projector {
 }
 
 impl Projector {
+    /// Whether this and another have pixels of an output of one host in common.
+    pub fn shares_pixels(&self, other: &Self) -> bool {
+        match (&self.raster.output, &other.raster.output) {
+            (Some(one), Some(two)) => one.overlaps(self.raster.pixels(), two, other.raster.pixels()),
+            _ => false,
+        }
+    }
+
     /// The way from the raster that a display's projectors share to its own; None where they coincide.
     pub fn warp(&self, canonical: &CanonicalRaster) -> Option<Warp> {
         Warp::between(canonical, &self.raster)

@@ -1,6 +1,6 @@
 //! Which back-end drives which projectors.
 
-use crate::{ConfigError, Display};
+use crate::{ConfigError, Display, Projector};
 use std::fmt;
 use std::ops::Range;
 
@@ -82,6 +82,26 @@ impl Display {
                 if backends == 1 { Origin::Single } else { Origin::Even { wired, started: backends } };
             Wiring { shares: even_shares(projectors, backends).map(even).collect(), origin }
         })
+    }
+
+    /// Whether everything that a back-end drives has pixels of its own on an output.
+    ///
+    /// # Errors
+    /// A projector has no output, or two have the same pixels.
+    pub fn check_outputs(&self, share: &Share) -> Result<(), ConfigError> {
+        let mut earlier: Vec<&Projector> = Vec::new();
+        for &index in &share.projectors {
+            let projector = &self.projectors[index as usize];
+            let name = || projector.name.clone();
+            if projector.raster.output.is_none() {
+                return Err(ConfigError::NoOutput { projector: name() });
+            }
+            if let Some(other) = earlier.iter().find(|other| other.shares_pixels(projector)) {
+                return Err(ConfigError::SharedOutput { projector: name(), other: other.name.clone() });
+            }
+            earlier.push(projector);
+        }
+        Ok(())
     }
 
     /// Back-ends that the display file wires; they are numbered without gaps.
@@ -166,5 +186,25 @@ mod tests {
         let message = display.wiring(9).unwrap_err().to_string();
         assert_eq!(message, "cannot share 8 projectors among 9 back-ends; start from 1 to 8 of them");
         assert!(matches!(display.wiring(0), Err(ConfigError::Backends { backends: 0, projectors: 8 })));
+    }
+    #[test]
+    fn what_is_driven_has_an_output_of_its_own() {
+        let text =
+            std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/desk8.toml")).unwrap();
+        let display = Display::from_toml(&format!("{text}outputs = [\"A\", \"B\"]\n"), "desk8").unwrap();
+        let checked = |backends: usize| {
+            let shares = display.wiring(backends).unwrap().shares;
+            shares
+                .iter()
+                .try_for_each(|share| display.check_outputs(share))
+                .map_err(|error| error.to_string())
+        };
+        assert_eq!(checked(4), Ok(()));
+        assert!(
+            checked(2).unwrap_err().contains("projectors `projector-0` and `projector-2` of one back-end")
+        );
+        let plain = Display::load("desk8").unwrap();
+        let refused = plain.check_outputs(&plain.wiring(4).unwrap().shares[0]).unwrap_err().to_string();
+        assert!(refused.contains("projector `projector-0` has no output"), "{refused}");
     }
 }

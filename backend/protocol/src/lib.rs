@@ -6,6 +6,7 @@ mod image;
 mod message;
 mod report;
 mod setup;
+mod wall;
 pub mod wire;
 
 pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
@@ -17,3 +18,4 @@ pub use setup::{
     AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Screens,
     Setup, VolumeRef,
 };
+pub use wall::{Wall, WallError};

@@ -4,7 +4,7 @@ use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, ScreenIm
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 9;
+pub const PROTOCOL_VERSION: u32 = 10;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,6 +71,8 @@ pub enum FromBackend {
         /// What the back-end's clock says, microseconds.
         here_us: u64,
     },
+    /// Something has happened that whoever runs the show should know, and the show goes on: one sentence.
+    Said(String),
     /// What it wrote beside the pictures is complete.
     Finished,
     /// It cannot go on: one sentence.

@@ -107,15 +107,13 @@ impl RendererOptions {
     }
 }
 
-/// Where the pictures of a driven display go.
+/// Where the pictures of a driven display go; nowhere, they are drawn and timed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Screens {
-    /// Nowhere: they are drawn and timed.
-    #[default]
-    Nowhere,
+pub struct Screens {
     /// To the front-end, as codes.
-    Frontend,
+    pub frontend: bool,
+    /// Onto the outputs that the display names, in windows of the back-end.
+    pub outputs: bool,
 }
 
 /// The first message to a back-end.

@@ -88,7 +88,7 @@ prop_compose! {
             caster: CasterChoice::Planes, cache_bytes: n,
         };
         FromFrontend::Setup(Box::new(Setup {
-            options, volume, screens: if n % 2 == 0 { Screens::Frontend } else { Screens::Nowhere }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
+            options, volume, screens: Screens { frontend: n % 2 == 0, outputs: n % 3 == 1 }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
         }))
     }
 }

@@ -38,6 +38,8 @@ pub(crate) struct App {
 /// A window that is open.
 struct Open {
     window: Rc<Window>,
+    /// As the events tell it: to ask for it would be a fault of the program where the window system has gone away.
+    size: PhysicalSize<u32>,
     surface: Surface<Rc<Window>, Rc<Window>>,
 }
 
@@ -60,12 +62,12 @@ impl App {
         let window = Rc::new(events.create_window(attributes).map_err(|error| error.to_string())?);
         let context = Context::new(Rc::clone(&window)).map_err(|error| error.to_string())?;
         let surface = Surface::new(&context, Rc::clone(&window)).map_err(|error| error.to_string())?;
-        Ok(Open { window, surface })
+        Ok(Open { size: window.inner_size(), window, surface })
     }
 
     fn draw(&mut self) -> Result<(), String> {
-        let Some(Open { window, surface }) = &mut self.open else { return Ok(()) };
-        let PhysicalSize { width, height } = window.inner_size();
+        let Some(Open { size, surface, .. }) = &mut self.open else { return Ok(()) };
+        let PhysicalSize { width, height } = *size;
         // One that is minimised has no pixels.
         let (Some(across), Some(down)) = (NonZeroU32::new(width), NonZeroU32::new(height)) else {
             return Ok(());
@@ -159,8 +161,9 @@ impl ApplicationHandler<Order> for App {
         match event {
             WindowEvent::CloseRequested => self.act(Act::Leave),
             WindowEvent::RedrawRequested => self.draw_or_fail(events),
-            WindowEvent::Resized(_) => {
-                if let Some(open) = &self.open {
+            WindowEvent::Resized(size) => {
+                if let Some(open) = &mut self.open {
+                    open.size = size;
                     open.window.request_redraw();
                 }
             }

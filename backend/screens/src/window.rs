@@ -2,7 +2,8 @@
 
 use crate::app::{App, Order};
 use crate::{Act, Picture, ScreenError};
-use std::sync::mpsc::{Receiver, channel};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
 use winit::event_loop::{EventLoop, EventLoopProxy};
 
@@ -41,9 +42,13 @@ impl WindowLoop {
     ///
     /// # Errors
     /// The window system refuses the window, or goes away.
-    pub fn run(mut self) -> Result<(), ScreenError> {
-        self.events.run_app(&mut self.app).map_err(|error| ScreenError::Window(error.to_string()))?;
-        self.app.failure.map_or(Ok(()), Err)
+    pub fn run(self) -> Result<(), ScreenError> {
+        let Self { events, mut app } = self;
+        // The library panics where the window system goes away between two of its questions.
+        let ended = catch_unwind(AssertUnwindSafe(|| events.run_app(&mut app)));
+        let ended = ended.map_err(|_| ScreenError::Window("the window system went away".to_owned()))?;
+        ended.map_err(|error| ScreenError::Window(error.to_string()))?;
+        app.failure.map_or(Ok(()), Err)
     }
 }
 
@@ -56,9 +61,19 @@ impl Window {
 }
 
 impl Acts {
-    /// What was done in the window since this was last asked.
-    pub fn take(&self) -> impl Iterator<Item = Act> {
-        self.acts.try_iter()
+    /// What was done in the window since this was last asked. Whoever was at a window that is gone has left.
+    pub fn take(&self) -> Vec<Act> {
+        let mut acts = Vec::new();
+        loop {
+            match self.acts.try_recv() {
+                Ok(act) => acts.push(act),
+                Err(TryRecvError::Empty) => return acts,
+                Err(TryRecvError::Disconnected) => {
+                    acts.push(Act::Leave);
+                    return acts;
+                }
+            }
+        }
     }
 }
 

@@ -139,10 +139,8 @@ pub fn open(setup: Setup) -> Result<Opened, String> {
         cache_bytes: 1 << 20,
     };
     let Setup { options, .. } = setup;
-    Ok((
-        Box::new(Fake { backend: options.backend, width: options.cache_bytes as u32, frame: 0, step: 0 }),
-        info,
-    ))
+    let fake = Fake { backend: options.backend, width: options.cache_bytes as u32, frame: 0, step: 0 };
+    Ok(Opened::new(Box::new(fake), info))
 }
 
 fn setups(count: usize, width: u32) -> Vec<Setup> {
@@ -168,7 +166,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         options: options(backend),
         volume: volume(),
         trace: None,
-        screens: Screens::Nowhere,
+        screens: Screens::default(),
     };
     (0..count as u32).map(setup).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::opened::Opened;
 use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded, unbounded};
-use protocol::{FrameState, FromBackend, Render, Screens, Setup};
+use protocol::{FrameState, FromBackend, Render, ScreenImage, Screens, Setup, Wall};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -31,6 +31,10 @@ pub(super) enum Reply {
         /// Commands for which it owes nothing any more; a frame that another takes the place of is owed no longer.
         answered: u64,
     },
+    /// Show pictures on this from now on.
+    Wall(Box<dyn Wall>),
+    /// A picture of the frame that it draws, for the wall.
+    Picture(ScreenImage),
     /// It cannot go on: one sentence.
     Failed(String),
 }
@@ -62,7 +66,7 @@ impl RenderThread {
         let (outbox, replies) = bounded(MOST_AHEAD);
         let is_over = Arc::new(AtomicBool::new(false));
         let studio =
-            Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0, screens: Screens::Nowhere };
+            Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0, screens: Screens::default() };
         let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
         Ok(Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) })
     }
@@ -144,8 +148,11 @@ impl Studio {
     {
         let Ok(Command::Open(setup)) = self.inbox.recv() else { return Ok(()) };
         (self.taken, self.screens) = (1, setup.screens);
-        let (mut renderer, info) = make(*setup).map_err(End::Failed)?;
-        self.tell(FromBackend::Ready(info), true)?;
+        let Opened { mut renderer, device, wall } = make(*setup).map_err(End::Failed)?;
+        if let Some(wall) = wall {
+            self.outbox.send(Reply::Wall(wall)).map_err(|_| End::Dismissed)?;
+        }
+        self.tell(FromBackend::Ready(device), true)?;
         let ended = self.obey(renderer.as_mut());
         if let Err(End::Dismissed) = ended {
             // Whoever ended the run wants what was written until then. Nobody is left to hear why that fails.
@@ -204,8 +211,8 @@ impl Studio {
         let advance = renderer.advance(&has_command)?;
         let mut sent = Ok(());
         renderer.present_on_screens(&mut |image| {
-            if sent.is_ok() && self.screens == Screens::Frontend {
-                sent = self.tell(FromBackend::Screen(image), false);
+            if sent.is_ok() {
+                sent = self.show(image);
             }
         })?;
         sent?;
@@ -232,6 +239,17 @@ impl Studio {
         let Some(report) = advance.report else { return Ok(false) };
         self.tell(FromBackend::Done(report), true)?;
         Ok(true)
+    }
+
+    /// Sends a picture of the beat where the setup wants it.
+    fn show(&self, image: ScreenImage) -> Result<(), End> {
+        if self.screens.outputs {
+            self.outbox.send(Reply::Picture(image.clone())).map_err(|_| End::Dismissed)?;
+        }
+        if self.screens.frontend {
+            self.tell(FromBackend::Screen(image), false)?;
+        }
+        Ok(())
     }
 
     fn tell(&self, message: FromBackend, is_answer: bool) -> Result<(), End> {

@@ -66,7 +66,7 @@ fn tiles_after_restart(patience: u32) -> usize {
     let seen = Arc::clone(&cast);
     let open = move |_: Setup| -> Result<Opened, String> {
         let slow = Slow { frame: 0, left: 0, patience, cast: Arc::clone(&cast) };
-        Ok((Box::new(slow), device()))
+        Ok(Opened::new(Box::new(slow), device()))
     };
     let mut link = threads::spawn(1, open).unwrap();
     let send = |link: &mut threads::ThreadLink, message| link.send(0, &message).unwrap();
@@ -100,7 +100,7 @@ fn a_busy_back_end_quits_within_a_tile() {
     let cast = Cast::default();
     let seen = Arc::clone(&cast);
     let open = move |_: Setup| -> Result<Opened, String> {
-        Ok((Box::new(Slow { frame: 0, left: 0, patience: 1, cast: Arc::clone(&cast) }), device()))
+        Ok(Opened::new(Box::new(Slow { frame: 0, left: 0, patience: 1, cast: Arc::clone(&cast) }), device()))
     };
     let mut link = threads::spawn(1, open).unwrap();
     link.send(0, &FromFrontend::Setup(Box::new(setups(1).remove(0)))).unwrap();

@@ -25,7 +25,7 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
         options: options(backend),
         volume: volume(),
         trace: None,
-        screens: Screens::Nowhere,
+        screens: Screens::default(),
     };
     (0..count).map(setup).collect()
 }

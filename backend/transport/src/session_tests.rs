@@ -54,7 +54,10 @@ const TILES: u64 = 1000;
 
 fn threads_with(mischief: fn() -> Result<(), String>) -> Box<ThreadLink> {
     let open = move |setup: Setup| -> Result<Opened, String> {
-        Ok((Box::new(Fake { backend: setup.options.backend, mischief, frame: 0, tiles: 0 }), device()))
+        Ok(Opened::new(
+            Box::new(Fake { backend: setup.options.backend, mischief, frame: 0, tiles: 0 }),
+            device(),
+        ))
     };
     Box::new(threads::spawn(3, open).unwrap())
 }
@@ -136,7 +139,9 @@ fn fate_of_pieces(pieces: u64, each: Duration) -> Option<String> {
             Ok(())
         }
     }
-    let open = move |_: Setup| -> Result<Opened, String> { Ok((Box::new(Slow(0, pieces, each)), device())) };
+    let open = move |_: Setup| -> Result<Opened, String> {
+        Ok(Opened::new(Box::new(Slow(0, pieces, each)), device()))
+    };
     let mut session = start(Box::new(threads::spawn(1, open).unwrap()), setups(1)).unwrap();
     session.render(&frame(0), &mut |_| {}).err().map(|error| error.to_string())
 }
@@ -167,8 +172,9 @@ fn a_run_that_is_stopped_leaves_its_frame_and_completes_what_is_written() {
     }
     let (is_written, stop) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
     let written = Arc::clone(&is_written);
-    let open =
-        move |_: Setup| -> Result<Opened, String> { Ok((Box::new(Writing(Arc::clone(&written))), device())) };
+    let open = move |_: Setup| -> Result<Opened, String> {
+        Ok(Opened::new(Box::new(Writing(Arc::clone(&written))), device()))
+    };
     let link = Box::new(threads::spawn(2, open).unwrap());
     let traced = |setup| Setup { trace: Some("a.trace".into()), ..setup };
     let setups = setups(2).into_iter().map(traced).collect();

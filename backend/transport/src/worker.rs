@@ -1,6 +1,6 @@
 //! The life of a back-end: one thread passes messages on, another draws. So messages reach a back-end that is busy.
 
-use super::beat::{ShowThread, Shown, now_us};
+use super::beat::{ShowThread, Told, now_us};
 use super::link::{LinkError, WorkerLink};
 use super::opened::Opened;
 use super::process;
@@ -138,10 +138,9 @@ impl Desk<'_> {
             recv(self.renderer.replies()) -> reply => {
                 return self.pass_on(reply.unwrap_or_else(|_| Reply::Failed(THREAD_ENDED.to_owned()))).map(|()| None);
             }
-            recv(self.screens.told()) -> shown => {
-                if let Ok(Shown { frame, at_us }) = shown {
-                    self.ordered = self.ordered.filter(|&ordered| ordered > frame);
-                    return self.say(FromBackend::Shown { frame, at_us }).map(|()| None);
+            recv(self.screens.told()) -> told => {
+                if let Ok(told) = told {
+                    return self.pass_on_from_screens(told).map(|()| None);
                 }
             }
             default(LOOK_INTERVAL) => {
@@ -162,6 +161,14 @@ impl Desk<'_> {
     fn pass_on(&mut self, reply: Reply) -> Result<(), WorkerError> {
         match reply {
             Reply::Failed(sentence) => self.fail(sentence),
+            Reply::Wall(wall) => {
+                self.screens.equip(wall);
+                Ok(())
+            }
+            Reply::Picture(image) => {
+                self.screens.draw(image);
+                Ok(())
+            }
             Reply::Message { message, answered } => {
                 self.answered = answered;
                 if let FromBackend::Drawn(report) = &message {
@@ -169,6 +176,18 @@ impl Desk<'_> {
                 }
                 self.say(message)
             }
+        }
+    }
+
+    /// What the screens have to say.
+    fn pass_on_from_screens(&mut self, told: Told) -> Result<(), WorkerError> {
+        match told {
+            Told::Shown { frame, at_us } => {
+                self.ordered = self.ordered.filter(|&ordered| ordered > frame);
+                self.say(FromBackend::Shown { frame, at_us })
+            }
+            Told::Said(sentence) => self.say(FromBackend::Said(sentence)),
+            Told::Failed(sentence) => self.fail(sentence),
         }
     }
 

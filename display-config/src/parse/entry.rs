@@ -1,5 +1,6 @@
 //! Projectors listed one by one.
 
+use super::output;
 use super::raw::RawProjector;
 use super::source::Source;
 use crate::raster::is_strictly_convex;
@@ -27,10 +28,7 @@ fn projector(source: &Source<'_>, entry: &Spanned<RawProjector>) -> Result<Proje
     let raw = entry.get_ref();
     let (width, height) = source.raster_size(&raw.width_px, &raw.height_px)?;
     let (key, span, screen_from_pixel) = placement(source, entry, DVec2::new(width.into(), height.into()))?;
-    let output = raw.output.as_ref().map(|output| {
-        let output = output.get_ref();
-        (output.name.clone(), output.x_px, output.y_px)
-    });
+    let output = raw.output.as_ref().map(|output| output::of_entry(source, output)).transpose()?;
     let raster = Raster { width, height, screen_from_pixel, output };
     if !raster.is_regular() {
         return Err(ConfigError::SingularRaster { place: source.place(key, span) });
@@ -111,29 +109,7 @@ fn check_against_earlier(
         let place = source.place("name", raw.name.span());
         return Err(ConfigError::DuplicateName { place, name: projector.name.clone() });
     }
-    let Some(entry) = &raw.output else { return Ok(()) };
-    match earlier.iter().find(|other| share_output_pixels(&other.raster, &projector.raster)) {
-        Some(other) => Err(ConfigError::OverlappingOutput {
-            place: source.place("output", entry.span()),
-            output: entry.get_ref().name.clone(),
-            other: other.name.clone(),
-        }),
-        None => Ok(()),
-    }
-}
-
-fn share_output_pixels(one: &Raster, other: &Raster) -> bool {
-    let (Some((name, x, y)), Some((other_name, other_x, other_y))) = (&one.output, &other.output) else {
-        return false;
-    };
-    name == other_name
-        && overlap((*x, one.width), (*other_x, other.width))
-        && overlap((*y, one.height), (*other_y, other.height))
-}
-
-/// Whether two stretches of pixels, as (first, count), share one.
-fn overlap((first, count): (u32, u32), (other_first, other_count): (u32, u32)) -> bool {
-    first < other_first.saturating_add(other_count) && other_first < first.saturating_add(count)
+    output::check_against_earlier(source, earlier, projector, raw)
 }
 
 fn check_backends(source: &Source<'_>, raw: &[Spanned<RawProjector>]) -> Result<(), ConfigError> {

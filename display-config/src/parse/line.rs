@@ -1,5 +1,6 @@
 //! Projectors generated on a line.
 
+use super::output;
 use super::raw::{Covers, RawLine};
 use super::source::Source;
 use crate::wiring::even_shares;
@@ -20,10 +21,11 @@ pub(super) fn projectors(
     let backend_of = backends(source, raw, count)?;
     let ends = (source.centre("from_m", &raw.from_m)?, source.centre("to_m", &raw.to_m)?);
     let raster = raster(source, raw, screen)?;
+    let outputs = output::of_line(source, raw, &backend_of)?;
     let digits = (count - 1).to_string().len();
     (0..count)
-        .zip(backend_of)
-        .map(|(index, backend)| {
+        .zip(backend_of.into_iter().zip(outputs))
+        .map(|(index, (backend, output))| {
             let centre_in_display = on_line(ends, index, count);
             if centre_in_display.z == 0.0 {
                 return Err(ConfigError::ProjectorInScreenPlane {
@@ -31,7 +33,7 @@ pub(super) fn projectors(
                 });
             }
             let name = format!("projector-{index:0digits$}");
-            Ok(Projector { name, centre_in_display, raster: raster.clone(), backend })
+            Ok(Projector { name, centre_in_display, raster: Raster { output, ..raster.clone() }, backend })
         })
         .collect()
 }

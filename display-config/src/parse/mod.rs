@@ -2,6 +2,7 @@
 
 mod entry;
 mod line;
+mod output;
 mod raw;
 mod source;
 

@@ -43,16 +43,21 @@ pub(super) struct RawProjector {
     /// The screen points of the raster's corners, clockwise from its top left.
     pub corners_m: Option<Spanned<ListOf<ListOf<f64, 2>, 4>>>,
     pub backend: Spanned<u32>,
-    /// Absent for an output of its own.
+    /// Absent where the projector is not to be driven.
     pub output: Option<Spanned<RawOutput>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawOutput {
-    pub name: String,
-    pub x_px: u32,
-    pub y_px: u32,
+    /// Absent for the whole desktop.
+    pub name: Option<Spanned<String>>,
+    pub x_px: Spanned<u32>,
+    pub y_px: Spanned<u32>,
+    #[serde(default)]
+    pub mirrored: bool,
+    /// Clockwise.
+    pub turn_deg: Option<Spanned<i64>>,
 }
 
 #[derive(Deserialize)]
@@ -65,6 +70,8 @@ pub(super) struct RawLine {
     pub height_px: Spanned<u32>,
     pub covers: Covers,
     pub backends: Spanned<u32>,
+    /// The connectors of each back-end, for its projectors in turn.
+    pub outputs: Option<Spanned<Vec<Spanned<String>>>>,
 }
 
 /// Where the rasters of a line of projectors fall.

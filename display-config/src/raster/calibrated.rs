@@ -1,7 +1,7 @@
 //! A projector's own raster: its pixels on the screen, as calibrated.
 
-use crate::Homography;
-use glam::DVec2;
+use crate::{Homography, Output};
+use glam::{DVec2, UVec2};
 use serde::{Deserialize, Serialize};
 
 /// A point this far outside the raster still counts as covered, pixels: the screen's own edge must not be lost to rounding.
@@ -19,14 +19,19 @@ pub struct Raster {
     pub height: u32,
     /// Pixel coordinates (x right, y down, pixel centres at integer + 0.5) to screen metres (x right, y up).
     pub screen_from_pixel: Homography,
-    /// The part of a video output this raster is, as (output name, x, y of its first pixel there); None = an output of its own.
-    pub output: Option<(String, u32, u32)>,
+    /// Where it is shown; None where the display file does not say.
+    pub output: Option<Output>,
 }
 
 impl Raster {
     /// Its size in pixels.
     pub fn size(&self) -> DVec2 {
         DVec2::new(f64::from(self.width), f64::from(self.height))
+    }
+
+    /// Its pixels along x and y.
+    pub fn pixels(&self) -> UVec2 {
+        UVec2::new(self.width, self.height)
     }
 
     /// The screen point of the centre of pixel (x, y), metres.

@@ -90,7 +90,7 @@ impl Backends {
         volume: &VolumeRef,
         display: &Display,
     ) -> Result<Drawing, FrontendError> {
-        let setups = self.setups(options, volume, display, Screens::Nowhere);
+        let setups = self.setups(options, volume, display, Screens::default());
         let stop = Arc::clone(&self.stop);
         let session = self.session(setups)?;
         let devices = session.devices().to_vec();

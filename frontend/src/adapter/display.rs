@@ -1,7 +1,7 @@
 //! Displays by their names.
 
 use crate::FrontendError;
-use display_config::Display;
+use display_config::{Display, Wiring};
 
 /// The displays that come with the program: name, and a line about each.
 pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
@@ -16,4 +16,10 @@ pub fn preset_displays() -> Result<Vec<(String, String)>, FrontendError> {
 /// A preset by its name, or the display in a file.
 pub fn load_display(name_or_path: &str) -> Result<Display, FrontendError> {
     Display::load(name_or_path).map_err(|e| FrontendError::Display(e.to_string()))
+}
+
+/// Whether every projector can be shown on an output by the back-end that drives it.
+pub fn check_outputs(display: &Display, wiring: &Wiring) -> Result<(), FrontendError> {
+    let checked = wiring.shares.iter().try_for_each(|share| display.check_outputs(share));
+    checked.map_err(|e| FrontendError::Display(e.to_string()))
 }

@@ -11,7 +11,7 @@ mod trace;
 mod volume;
 
 pub use backends::{BackendOptions, Backends, Drawing, Showing, dismiss_backends};
-pub use display::{load_display, preset_displays};
+pub use display::{check_outputs, load_display, preset_displays};
 pub use export::{ExportSummary, export};
 pub use import::{ImportRequest, ImportSummary, RawRequest, Skipped, import};
 pub use levels::LevelSummary;

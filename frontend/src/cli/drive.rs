@@ -27,8 +27,8 @@ pub struct DriveArgs {
     /// Where the pictures go.
     #[arg(long, value_enum, default_value = "desktop")]
     pub output: OutputArg,
-    /// The same as --output desktop.
-    #[arg(long, conflicts_with = "output")]
+    /// A window on this desktop as well, wherever else the pictures go. Alone it is the same as --output desktop.
+    #[arg(long)]
     pub desktop: bool,
     /// Frames per second instead of the display's.
     #[arg(long, value_name = "HZ", value_parser = rate, allow_hyphen_values = true)]
@@ -78,6 +78,8 @@ pub struct DriveArgs {
 pub enum OutputArg {
     /// All side by side into one window of this desktop, where mouse and keys handle the volume.
     Desktop,
+    /// Each projector's to the output that the display file names for it, in a window that covers the output.
+    Outputs,
     /// Nowhere: they are drawn and timed.
     None,
 }
@@ -92,6 +94,11 @@ pub enum ReconstructArg {
 }
 
 impl DriveArgs {
+    /// Whether there is a window on this desktop.
+    pub fn has_desktop(&self) -> bool {
+        self.desktop || self.output == OutputArg::Desktop
+    }
+
     /// How frames get their detail.
     pub fn pace(&self) -> Pace {
         live_pace(self.upload_mib, self.fade)

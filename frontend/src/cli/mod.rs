@@ -10,6 +10,7 @@ mod import;
 mod info;
 mod live;
 mod looks;
+mod outputs;
 mod parse;
 mod replay;
 mod simulate;
@@ -27,6 +28,7 @@ pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
 pub use live::LiveArgs;
 pub use looks::LooksArgs;
+pub use outputs::OutputsArgs;
 pub use replay::{DiskArg, FetchOrderArg, ReplayArgs};
 pub use simulate::SimulateArgs;
 pub use verify::VerifyArgs;
@@ -67,4 +69,6 @@ pub enum Command {
     Replay(ReplayArgs),
     /// List the displays that come with the program.
     Displays,
+    /// List the video outputs of this host, for the projectors of a display file.
+    Outputs(OutputsArgs),
 }

@@ -45,7 +45,7 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     // Where nothing is late, nothing needs to be missing.
     let pace = if args.stepped { Pace::Complete } else { args.pace() };
     let world = World::new(scene, facts, display, pace, looks).with_sub_frames(has_sub_frames);
-    if args.output == OutputArg::None {
+    if !args.has_desktop() {
         return play(args, world, None);
     }
     let sheet = Sheet::new(world.display());
@@ -67,6 +67,10 @@ fn play(args: &DriveArgs, mut world: World, view: Option<View>) -> Result<(), Fr
     let backends = Backends::connect(args.drawing.backends, &display)?;
     let wiring = backends.wiring.clone();
     wiring.warning().iter().for_each(|warning| warn(warning));
+    let onto_outputs = args.output == OutputArg::Outputs;
+    if onto_outputs {
+        adapter::check_outputs(&display, &wiring)?;
+    }
     let rate_hz = args.rate.unwrap_or(display.rate_hz);
     let time = if args.stepped { Time::stepped() } else { Time::Real };
     let (mut hands, mut desktop) = (None, None);
@@ -86,7 +90,7 @@ fn play(args: &DriveArgs, mut world: World, view: Option<View>) -> Result<(), Fr
     let showing = Showing {
         period: Duration::from_secs_f64(1.0 / rate_hz),
         time,
-        at: if screens.is_wanted() { protocol::Screens::Frontend } else { protocol::Screens::Nowhere },
+        at: protocol::Screens { frontend: screens.is_wanted(), outputs: onto_outputs },
     };
     let options = args.drawing.options(None);
     let mut driving = backends.drive(&options, &world.volume_ref(), &display, &showing)?;

@@ -9,6 +9,7 @@ mod import;
 mod info;
 mod look;
 mod looks;
+mod outputs;
 mod replay;
 mod say;
 mod simulate;
@@ -39,5 +40,6 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Accuracy(args) => accuracy::accuracy(args),
         Command::Replay(args) => replay::replay(args),
         Command::Displays => displays::displays(),
+        Command::Outputs(args) => outputs::outputs(args),
     }
 }

@@ -86,7 +86,7 @@ impl Hands {
 
 impl Input for Hands {
     fn poll(&mut self, _: Duration, changes: &mut Vec<Change>) {
-        changes.extend(self.acts.take().filter_map(|act| self.change(act)));
+        changes.extend(self.acts.take().into_iter().filter_map(|act| self.change(act)));
     }
 }
 

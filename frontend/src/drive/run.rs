@@ -169,6 +169,10 @@ impl Show<'_, '_> {
                 self.screens.ordered(frame, at, now)?;
             }
             Happening::Shown { backend, frame, at } => self.measures.shown(backend, frame, at),
+            Happening::Said { backend, sentence } => {
+                let name = self.drive.name(backend);
+                self.trouble(format!("{name}: {sentence}"));
+            }
             Happening::Lost { backend, why } => {
                 self.lost[backend] += 1;
                 self.screens.forget(backend);

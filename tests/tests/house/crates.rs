@@ -37,8 +37,12 @@ pub const CRATES: [(&str, &str, &[&str]); 17] = [
         ],
     ),
     ("transport", "backend/transport", &["display-config", "optics", "protocol"]),
-    ("screens", "backend/screens", &[]),
-    ("backend", "backend", &["bricks", "display-config", "optics", "protocol", "renderer", "transport"]),
+    ("screens", "backend/screens", &["display-config", "protocol"]),
+    (
+        "backend",
+        "backend",
+        &["bricks", "display-config", "optics", "protocol", "renderer", "screens", "transport"],
+    ),
     (
         "frontend",
         "frontend",

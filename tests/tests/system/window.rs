@@ -1,16 +1,12 @@
 //! A real window of a real window system, without a screen.
 
-use lightloom_tests::program::{LIMIT, Running, lightloom, run, small_display, start};
-use serde_json::Value;
-use std::io::Read;
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use crate::x_server::{XServer, complete_pictures, report};
+use lightloom_tests::program::{LIMIT, Running, lightloom, small_display, start};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, Keysym, Window};
+use x11rb::protocol::xproto::{ConnectionExt as _, Keysym};
 use x11rb::protocol::xtest::ConnectionExt as _;
-use x11rb::rust_connection::RustConnection;
 
 /// Sizes of the display `small4` and of its sheet: four pictures of 96 × 72 in a row, 2 pixels apart.
 const PICTURE: (usize, usize) = (96, 72);
@@ -22,56 +18,23 @@ const KEY_PRESS: u8 = 2;
 const BUTTON_PRESS: u8 = 4;
 const MOTION: u8 = 6;
 
-/// An X server without a screen, with a connection to it.
-struct Desktop {
-    server: Child,
-    name: String,
-    connection: RustConnection,
-    root: Window,
-}
+/// A desktop with a window.
+struct Desktop(XServer);
 
 impl Desktop {
-    /// None where there is no Xvfb, which is said aloud, and a failure with LIGHTLOOM_REQUIRE_WINDOWS=1.
     fn open() -> Option<Self> {
-        let mut command = Command::new("Xvfb");
-        command.args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"]);
-        let Ok(mut server) = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn() else {
-            println!("SKIPPED: there is no Xvfb on the path");
-            assert!(
-                std::env::var("LIGHTLOOM_REQUIRE_WINDOWS").as_deref() != Ok("1"),
-                "LIGHTLOOM_REQUIRE_WINDOWS=1, and there is no Xvfb"
-            );
-            return None;
-        };
-        let mut number = Vec::new();
-        let mut stdout = server.stdout.take().unwrap();
-        let mut byte = [0];
-        while stdout.read_exact(&mut byte).is_ok() && byte[0] != b'\n' {
-            number.push(byte[0]);
-        }
-        let name = format!(":{}", String::from_utf8(number).unwrap().trim());
-        let (connection, screen) = x11rb::connect(Some(&name)).unwrap();
-        let root = connection.setup().roots[screen].root;
-        Some(Self { server, name, connection, root })
+        XServer::desktop().map(Self)
     }
 
     fn start(&self, display: &str, more: &[&str]) -> Running {
         let fixed = ["drive", "procedural:shells@32", "--display", display, "--device", "cpu", "--desktop"];
         let steady = ["--fade", "0", "--rate", "30", "--json"];
-        let mut command = lightloom(&[&fixed[..], &steady, more].concat());
-        start(command.env("DISPLAY", &self.name).env_remove("WAYLAND_DISPLAY"))
+        start(&mut self.0.on(lightloom(&[&fixed[..], &steady, more].concat())))
     }
 
     /// The pixels of the sheet, 0x00RRGGBB; the window is at the top left of the screen.
     fn sheet(&self) -> Vec<u32> {
-        let image = self
-            .connection
-            .get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, SHEET.0, SHEET.1, u32::MAX)
-            .unwrap()
-            .reply()
-            .unwrap();
-        let pixels = image.data.chunks_exact(4);
-        pixels.map(|pixel| u32::from_le_bytes(pixel.try_into().unwrap()) & 0xff_ffff).collect()
+        self.0.pixels(0, 0, SHEET.0, SHEET.1)
     }
 
     /// The pixels of a projector's picture on the sheet.
@@ -85,15 +48,15 @@ impl Desktop {
     }
 
     fn send(&self, kind: u8, detail: u8, x: i16, y: i16) {
-        self.connection.xtest_fake_input(kind, detail, 0, self.root, x, y, 0).unwrap().check().unwrap();
-        self.connection.flush().unwrap();
+        self.0.connection.xtest_fake_input(kind, detail, 0, self.0.root, x, y, 0).unwrap().check().unwrap();
+        self.0.connection.flush().unwrap();
         sleep(Duration::from_millis(50));
     }
 
     fn press_key(&self, letter: char) {
-        let setup = self.connection.setup();
+        let setup = self.0.connection.setup();
         let (first, last) = (setup.min_keycode, setup.max_keycode);
-        let keys = self.connection.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
+        let keys = self.0.connection.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
         let per_code = usize::from(keys.keysyms_per_keycode);
         let has = |syms: &[Keysym]| syms.first() == Some(&(letter as u32));
         let place = keys.keysyms.chunks(per_code).position(has).expect("the keyboard has this letter");
@@ -109,50 +72,10 @@ impl Desktop {
         self.send(BUTTON_PRESS + 1, 1, to.0, to.1);
     }
 
-    /// Looks until the window shows what is wanted, and fails if it does not within a while.
     #[track_caller]
     fn wait_for(&self, what: &str, is_there: impl Fn(&Self) -> bool) {
-        let since = Instant::now();
-        while !is_there(self) {
-            assert!(since.elapsed() < Duration::from_secs(30), "the window does not show {what}");
-            sleep(Duration::from_millis(100));
-        }
+        self.0.wait_for(what, |_| is_there(self));
     }
-}
-
-impl Drop for Desktop {
-    fn drop(&mut self) {
-        let _ = self.server.kill();
-        let _ = self.server.wait();
-    }
-}
-
-/// What `simulate` draws of the same scene: the pixels of each projector.
-fn complete_pictures(display: &str, out: &Path) -> Vec<Vec<u32>> {
-    let folder = out.to_string_lossy();
-    let arguments = [
-        "simulate",
-        "procedural:shells@32",
-        "--display",
-        display,
-        "--device",
-        "cpu",
-        "--out",
-        &folder,
-        "--quiet",
-    ];
-    run(&mut lightloom(&arguments)).succeeded();
-    let picture = |projector: usize| {
-        let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
-        let pixels = image::open(path).unwrap().to_rgb8();
-        pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
-    };
-    (0..4).map(picture).collect()
-}
-
-fn report(running: Running) -> Value {
-    let ran = running.finish(LIMIT).succeeded();
-    serde_json::from_str(&ran.stdout).expect("the report is JSON")
 }
 
 #[test]
@@ -160,11 +83,7 @@ fn a_window_shows_the_complete_pictures_and_obeys_mouse_and_keys() {
     let Some(desktop) = Desktop::open() else { return };
     let folder = tempfile::tempdir().unwrap();
     let display = small_display(folder.path());
-    let complete = complete_pictures(&display, &folder.path().join("out"));
-    assert!(
-        complete.iter().all(|picture| picture.iter().any(|&pixel| pixel != 0)),
-        "something is to be seen"
-    );
+    let complete = complete_pictures(&display, &folder.path().join("out"), 4);
     let running = desktop.start(&display, &[]);
     let is_complete =
         |desktop: &Desktop| (0..4).all(|projector| desktop.picture(projector) == complete[projector]);
@@ -186,7 +105,7 @@ fn a_window_that_loses_its_desktop_ends_the_show_with_a_sentence() {
     let display = small_display(folder.path());
     let running = desktop.start(&display, &[]);
     desktop.wait_for("anything", |desktop| desktop.picture(0).iter().any(|&pixel| pixel != 0));
-    let _ = desktop.server.kill();
+    desktop.0.kill();
     let ran = running.finish(LIMIT);
     assert_ne!(ran.code, Some(0), "{ran:?}");
     assert!(!ran.stderr.contains("panicked"), "{ran:?}");

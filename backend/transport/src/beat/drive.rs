@@ -68,6 +68,13 @@ pub enum Happening {
         /// Since when, on the display's clock, as well as it is known.
         at: Duration,
     },
+    /// Something has happened at a back-end, and the show goes on.
+    Said {
+        /// The back-end.
+        backend: usize,
+        /// A sentence.
+        sentence: String,
+    },
     /// A back-end cannot go on; the others do, and it is started again.
     Lost {
         /// The back-end.
@@ -290,6 +297,7 @@ impl Drive {
                 Some(Happening::Drawn { backend, report })
             }
             (FromBackend::Screen(image), Presence::There) => Some(Happening::Screen { backend, image }),
+            (FromBackend::Said(sentence), _) => Some(Happening::Said { backend, sentence }),
             (FromBackend::Shown { frame, at_us }, Presence::There) => {
                 self.owes_show[backend] = self.owes_show[backend].filter(|&owed| owed > frame);
                 let at = match self.time.is_stepped() {

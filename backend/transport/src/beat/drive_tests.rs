@@ -45,16 +45,16 @@ impl Render for Fake {
     }
 }
 
+const TO_FRONTEND: Screens = Screens { frontend: true, outputs: false };
+
 fn driving(backends: u32, time: Time, behaves: Behaviour) -> Drive {
     let open = move |setup: Setup| -> Result<Opened, String> {
-        Ok((
-            Box::new(Fake { backend: setup.options.backend, frame: 0, behaves: Arc::clone(&behaves) }),
-            device(),
-        ))
+        let fake = Fake { backend: setup.options.backend, frame: 0, behaves: Arc::clone(&behaves) };
+        Ok(Opened::new(Box::new(fake), device()))
     };
     let link = Box::new(threads::spawn(backends as usize, open).unwrap());
     let setups: Vec<Setup> =
-        setups(backends).into_iter().map(|setup| Setup { screens: Screens::Frontend, ..setup }).collect();
+        setups(backends).into_iter().map(|setup| Setup { screens: TO_FRONTEND, ..setup }).collect();
     let session = Session::start(link, setups.clone(), Limits::default(), Arc::default()).unwrap();
     Drive::new(session, setups, PERIOD, time)
 }
@@ -97,7 +97,7 @@ fn note(seen: &mut Seen, happening: Happening) {
             let number = u32::from_le_bytes([image.rgb[0], image.rgb[1], image.rgb[2], 0]);
             seen.pictures.entry(backend).or_default().push(number);
         }
-        Happening::Drawn { .. } | Happening::Due { .. } | Happening::Stopped => {}
+        Happening::Said { .. } | Happening::Drawn { .. } | Happening::Due { .. } | Happening::Stopped => {}
     }
 }
 

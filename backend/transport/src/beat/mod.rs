@@ -8,5 +8,5 @@ mod stage;
 mod time;
 
 pub use drive::{Drive, Happening};
-pub(crate) use showing::{ShowThread, Shown, now_us};
+pub(crate) use showing::{ShowThread, Told, now_us};
 pub use time::Time;

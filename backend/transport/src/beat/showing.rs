@@ -2,12 +2,17 @@
 
 use super::stage::Stage;
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, unbounded};
+use protocol::{ScreenImage, Wall, WallError};
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// The clock of this process.
 static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+
+/// How often windows are looked after.
+const TEND_INTERVAL: Duration = Duration::from_millis(200);
 
 /// What the clock of this process says, microseconds.
 pub fn now_us() -> u64 {
@@ -16,23 +21,32 @@ pub fn now_us() -> u64 {
 
 /// What the messages' thread tells it.
 enum Cue {
+    Wall(Box<dyn Wall>),
+    Picture(ScreenImage),
     Drawn(u32),
     Show { frame: u32, at_us: u64 },
 }
 
-/// A frame, and since when it is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shown {
-    /// Its number.
-    pub frame: u32,
-    /// On this process's clock, microseconds.
-    pub at_us: u64,
+/// What it tells the messages' thread.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// A frame is shown.
+    Shown {
+        /// Its number.
+        frame: u32,
+        /// Since when, on this process's clock, microseconds.
+        at_us: u64,
+    },
+    /// Something has happened to the windows: a sentence.
+    Said(String),
+    /// Nothing can be shown any more: a sentence.
+    Failed(String),
 }
 
 /// The messages' thread's handle on it.
 pub struct ShowThread {
     cues: Option<Sender<Cue>>,
-    told: Receiver<Shown>,
+    told: Receiver<Told>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -48,6 +62,16 @@ impl ShowThread {
         Ok(Self { cues: Some(cues), told, thread: Some(thread) })
     }
 
+    /// Pictures are shown on this from now on.
+    pub fn equip(&self, wall: Box<dyn Wall>) {
+        self.cue(Cue::Wall(wall));
+    }
+
+    /// A picture of the frame that is being drawn.
+    pub fn draw(&self, image: ScreenImage) {
+        self.cue(Cue::Picture(image));
+    }
+
     /// A frame is drawn.
     pub fn drawn(&self, frame: u32) {
         self.cue(Cue::Drawn(frame));
@@ -58,8 +82,8 @@ impl ShowThread {
         self.cue(Cue::Show { frame, at_us: at_us.unwrap_or(0) });
     }
 
-    /// The frames that were shown, one after another.
-    pub fn told(&self) -> &Receiver<Shown> {
+    /// What it has to tell.
+    pub fn told(&self) -> &Receiver<Told> {
         &self.told
     }
 
@@ -76,26 +100,89 @@ impl Drop for ShowThread {
     }
 }
 
-fn run(inbox: &Receiver<Cue>, outbox: &Sender<Shown>) {
-    let mut stage = Stage::default();
+/// The windows, and the pictures on their way there.
+#[derive(Default)]
+struct Windows {
+    wall: Option<Box<dyn Wall>>,
+    /// Of the frame that is being drawn.
+    coming: Vec<ScreenImage>,
+    /// Of frames that wait to be shown.
+    drawn: BTreeMap<u32, Vec<ScreenImage>>,
+    ready: Option<u32>,
+}
+
+impl Windows {
+    fn drawn(&mut self, frame: u32) {
+        let images = std::mem::take(&mut self.coming);
+        if self.wall.is_some() {
+            self.drawn.insert(frame, images);
+        }
+    }
+
+    fn ready(&mut self, frame: u32) -> Result<(), WallError> {
+        if let (Some(wall), true) = (&mut self.wall, self.ready != Some(frame)) {
+            wall.ready(&self.drawn.remove(&frame).unwrap_or_default())?;
+            self.ready = Some(frame);
+        }
+        Ok(())
+    }
+
+    fn show(&mut self, frame: u32) -> Result<(), WallError> {
+        self.ready(frame)?;
+        self.drawn.retain(|&drawn, _| drawn > frame);
+        self.wall.as_mut().map_or(Ok(()), |wall| wall.show())
+    }
+}
+
+fn run(inbox: &Receiver<Cue>, outbox: &Sender<Told>) {
+    if let Err(WallError(sentence)) = serve(inbox, outbox) {
+        tell(outbox, Told::Failed(sentence));
+        // Until somebody ends this.
+        inbox.iter().for_each(drop);
+    }
+}
+
+/// Nobody may want to know any more.
+fn tell(outbox: &Sender<Told>, told: Told) {
+    let _ = outbox.send(told);
+}
+
+fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> {
+    let (mut stage, mut windows) = (Stage::default(), Windows::default());
+    let mut tended = Instant::now();
     loop {
-        let cue = match stage.due(now_us()) {
+        let mut wait = windows.wall.as_ref().map(|_| TEND_INTERVAL.saturating_sub(tended.elapsed()));
+        if let Some((frame, when)) = stage.due(now_us()) {
+            let left = Duration::from_micros(when.saturating_sub(now_us()));
+            if left.is_zero() {
+                windows.show(frame)?;
+                stage.shown(frame);
+                tell(outbox, Told::Shown { frame, at_us: now_us() });
+                continue;
+            }
+            wait = Some(wait.map_or(left, |wait| wait.min(left)));
+        }
+        if let Some(frame) = stage.next(now_us()) {
+            windows.ready(frame)?;
+        }
+        let cue = match wait {
+            Some(wait) => inbox.recv_timeout(wait),
             None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
-            Some((frame, when)) => match when.checked_sub(now_us()) {
-                None | Some(0) => {
-                    stage.shown(frame);
-                    // Nobody may want to know any more.
-                    let _ = outbox.send(Shown { frame, at_us: now_us() });
-                    continue;
-                }
-                Some(left_us) => inbox.recv_timeout(Duration::from_micros(left_us)),
-            },
         };
         match cue {
-            Ok(Cue::Drawn(frame)) => stage.drawn(frame),
+            Ok(Cue::Wall(wall)) => windows.wall = Some(wall),
+            Ok(Cue::Picture(image)) => windows.coming.push(image),
+            Ok(Cue::Drawn(frame)) => {
+                windows.drawn(frame);
+                stage.drawn(frame);
+            }
             Ok(Cue::Show { frame, at_us }) => stage.order(frame, at_us),
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return,
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+        }
+        if let (Some(wall), true) = (&mut windows.wall, tended.elapsed() >= TEND_INTERVAL) {
+            wall.tend()?.into_iter().for_each(|sentence| tell(outbox, Told::Said(sentence)));
+            tended = Instant::now();
         }
     }
 }
@@ -103,6 +190,11 @@ fn run(inbox: &Receiver<Cue>, outbox: &Sender<Shown>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::{Arc, Mutex};
+
+    fn next(thread: &ShowThread) -> Told {
+        thread.told().recv_timeout(Duration::from_secs(10)).unwrap()
+    }
 
     #[test]
     fn a_frame_is_never_shown_before_its_time() {
@@ -110,8 +202,51 @@ mod tests {
         let at_us = now_us() + 20_000;
         thread.drawn(7);
         thread.show(7, Some(at_us));
-        let shown = thread.told().recv_timeout(Duration::from_secs(10)).unwrap();
-        assert_eq!(shown.frame, 7);
-        assert!(shown.at_us >= at_us, "{shown:?}, due at {at_us}");
+        let Told::Shown { frame, at_us: shown_us } = next(&thread) else { panic!("it is shown") };
+        assert_eq!(frame, 7);
+        assert!(shown_us >= at_us, "{shown_us}, due at {at_us}");
+    }
+
+    /// What a wall was asked to do.
+    #[derive(Clone, Default)]
+    struct Fake(Arc<Mutex<Vec<String>>>);
+
+    impl Wall for Fake {
+        fn ready(&mut self, images: &[ScreenImage]) -> Result<(), WallError> {
+            let projectors: Vec<u32> = images.iter().map(|image| image.projector).collect();
+            self.0.lock().unwrap().push(format!("ready {projectors:?}"));
+            Ok(())
+        }
+
+        fn show(&mut self) -> Result<(), WallError> {
+            self.0.lock().unwrap().push("show".to_owned());
+            Ok(())
+        }
+
+        fn tend(&mut self) -> Result<Vec<String>, WallError> {
+            Err(WallError("the server is gone".to_owned()))
+        }
+    }
+
+    #[test]
+    fn pictures_are_readied_ahead_and_shown_with_their_frame() {
+        let (thread, wall) = (ShowThread::start().unwrap(), Fake::default());
+        thread.equip(Box::new(wall.clone()));
+        let image = |projector| ScreenImage { projector, width: 1, height: 1, rgb: vec![0; 3] };
+        for frame in 0..3 {
+            thread.draw(image(10 + frame));
+            thread.drawn(frame);
+        }
+        // Frame 1 is left out, because the order for frame 2 has come as well.
+        thread.show(0, None);
+        assert!(matches!(next(&thread), Told::Shown { frame: 0, .. }));
+        thread.show(2, None);
+        assert!(matches!(next(&thread), Told::Shown { frame: 2, .. }));
+        assert_eq!(
+            *wall.0.lock().unwrap(),
+            ["ready [10]", "show", "ready [11]", "ready [12]", "show"],
+            "frame 1 was readied, and gave its place to frame 2"
+        );
+        assert_eq!(next(&thread), Told::Failed("the server is gone".to_owned()));
     }
 }

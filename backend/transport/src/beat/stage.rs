@@ -36,6 +36,11 @@ impl Stage {
         has_come.or_else(|| ready.min_by_key(|&(_, at_us)| at_us))
     }
 
+    /// The frame to ready: the one to show next, or else the first that waits for an order.
+    pub fn next(&self, now_us: u64) -> Option<u32> {
+        self.due(now_us).map(|(frame, _)| frame).or_else(|| self.drawn.first().copied())
+    }
+
     /// A frame is shown; those before it never are.
     pub fn shown(&mut self, frame: u32) {
         self.drawn.retain(|&drawn| drawn > frame);

@@ -1,0 +1,164 @@
+//! A window on each output that a back-end's projectors are wired to.
+//!
+//! The windows take no input and belong to no window manager, so they need neither the main thread nor a desktop: a bare X
+//! server is enough.
+
+mod pane;
+mod pixels;
+
+use crate::{OutputInfo, ScreenError, outputs};
+use display_config::Display;
+use pane::{Pane, Part, Server};
+use pixels::Layout;
+use protocol::{ScreenImage, Wall, WallError};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::Event;
+use x11rb::protocol::randr::{ConnectionExt as _, NotifyMask};
+use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, ScreenSaver};
+use x11rb::rust_connection::RustConnection;
+
+/// How often the server is told that somebody looks, so that it does not blank its outputs: it does so after minutes.
+const WAKE_INTERVAL: Duration = Duration::from_secs(20);
+
+/// The windows of a back-end.
+pub struct OutputWall {
+    server: Server,
+    panes: Vec<Pane>,
+    /// What has happened and nobody was told.
+    news: Vec<String>,
+    woken: Instant,
+}
+
+impl OutputWall {
+    /// Opens black windows for these projectors of a display (indices into it), which have outputs. An output that is off or
+    /// not there gets its window when it is.
+    ///
+    /// # Errors
+    /// There is no X server that can show them, or none of the outputs is there.
+    pub fn open(display: &Display, projectors: &[u32]) -> Result<Self, ScreenError> {
+        let (connection, root) = outputs::connect()?;
+        let setup = connection.setup();
+        let screen = setup.roots.iter().find(|screen| screen.root == root).cloned();
+        let screen = screen.ok_or_else(|| ScreenError::NoServer("it has no screen".to_owned()))?;
+        let layout = Layout::of(setup, &screen)?;
+        let cursor = unseen_cursor(&connection, root)?;
+        let server = Server { connection, screen, layout, cursor };
+        let mut wall =
+            Self { server, panes: panes(display, projectors), news: Vec::new(), woken: Instant::now() };
+        if wall.has_connectors() {
+            let kinds = NotifyMask::SCREEN_CHANGE | NotifyMask::CRTC_CHANGE | NotifyMask::OUTPUT_CHANGE;
+            wall.server.connection.randr_select_input(root, kinds)?;
+        }
+        wall.follow()?;
+        if wall.panes.iter().all(|pane| !pane.is_open()) {
+            let wanted: Vec<String> = wall.panes.iter().filter_map(|pane| pane.connector.clone()).collect();
+            let server = std::env::var("DISPLAY").unwrap_or_default();
+            return Err(ScreenError::NoOutput { wanted: wanted.join(", "), server });
+        }
+        wall.sync()?;
+        Ok(wall)
+    }
+
+    fn has_connectors(&self) -> bool {
+        self.panes.iter().any(|pane| pane.connector.is_some())
+    }
+
+    /// Follows the outputs to where they are.
+    fn follow(&mut self) -> Result<(), ScreenError> {
+        let root = self.server.screen.root;
+        let size = self.server.connection.get_geometry(root)?.reply()?;
+        (self.server.screen.width_in_pixels, self.server.screen.height_in_pixels) = (size.width, size.height);
+        let outputs: Vec<OutputInfo> = match self.has_connectors() {
+            true => outputs::read(&self.server.connection, root)?,
+            false => Vec::new(),
+        };
+        for pane in &mut self.panes {
+            self.news.extend(pane.follow(&self.server, &outputs)?);
+        }
+        Ok(())
+    }
+
+    fn heed(&mut self) -> Result<(), ScreenError> {
+        let mut has_moved = false;
+        while let Some(event) = self.server.connection.poll_for_event()? {
+            match event {
+                Event::Expose(exposed) => {
+                    let pane = self.panes.iter().find(|pane| pane.has(exposed.window));
+                    pane.map_or(Ok(()), |pane| pane.repaint(&self.server))?;
+                }
+                Event::DestroyNotify(gone) => {
+                    // One that this wall has closed itself is no pane's any more.
+                    if let Some(pane) = self.panes.iter_mut().find(|pane| pane.has(gone.window)) {
+                        self.news.push(pane.reopen(&self.server)?);
+                    }
+                }
+                Event::RandrNotify(_) | Event::RandrScreenChangeNotify(_) => has_moved = true,
+                _ => {}
+            }
+        }
+        if has_moved {
+            self.follow()?;
+        }
+        if self.woken.elapsed() > WAKE_INTERVAL {
+            self.server.connection.force_screen_saver(ScreenSaver::RESET)?;
+            self.woken = Instant::now();
+        }
+        Ok(self.server.connection.flush()?)
+    }
+
+    /// Waits until the server has done all that it was asked to.
+    fn sync(&self) -> Result<(), ScreenError> {
+        self.server.connection.get_input_focus()?.reply()?;
+        Ok(())
+    }
+}
+
+impl Wall for OutputWall {
+    fn ready(&mut self, images: &[ScreenImage]) -> Result<(), WallError> {
+        self.panes.iter().try_for_each(|pane| pane.ready(&self.server, images))?;
+        // Pixels take a while on their way, and the moment to show them may be near.
+        Ok(self.sync()?)
+    }
+
+    fn show(&mut self) -> Result<(), WallError> {
+        self.panes.iter_mut().try_for_each(|pane| pane.show(&self.server))?;
+        Ok(self.sync()?)
+    }
+
+    fn tend(&mut self) -> Result<Vec<String>, WallError> {
+        self.heed()?;
+        Ok(std::mem::take(&mut self.news))
+    }
+}
+
+/// A pane for each connector, in the order of the projectors.
+fn panes(display: &Display, projectors: &[u32]) -> Vec<Pane> {
+    let mut groups: Vec<(Option<String>, Vec<Part>)> = Vec::new();
+    for &index in projectors {
+        let projector = &display.projectors[index as usize];
+        let Some(output) = projector.raster.output.clone() else { continue };
+        let (name, picture) = (projector.name.clone(), projector.raster.pixels());
+        let part = Part { projector: index, name, picture, output };
+        match groups.iter_mut().find(|(connector, _)| *connector == part.output.connector) {
+            Some((_, parts)) => parts.push(part),
+            None => groups.push((part.output.connector.clone(), vec![part])),
+        }
+    }
+    groups.into_iter().map(|(connector, parts)| Pane::new(connector, parts)).collect()
+}
+
+/// A cursor of one pixel that is not there.
+fn unseen_cursor(connection: &RustConnection, root: u32) -> Result<Cursor, ScreenError> {
+    let (shape, cursor) = (connection.generate_id()?, connection.generate_id()?);
+    connection.create_pixmap(1, shape, root, 1, 1)?;
+    let ink = connection.generate_id()?;
+    // Both the shape and its mask are cleared, so no pixel of it is drawn.
+    connection.create_gc(ink, shape, &x11rb::protocol::xproto::CreateGCAux::new().foreground(0))?;
+    let all = x11rb::protocol::xproto::Rectangle { x: 0, y: 0, width: 1, height: 1 };
+    connection.poly_fill_rectangle(shape, ink, &[all])?;
+    connection.create_cursor(cursor, shape, shape, 0, 0, 0, 0, 0, 0, 0, 0)?;
+    connection.free_gc(ink)?;
+    connection.free_pixmap(shape)?;
+    Ok(cursor)
+}

@@ -1,0 +1,81 @@
+//! Pixels as an X server takes them.
+
+use crate::ScreenError;
+use display_config::Turn;
+use glam::UVec2;
+use protocol::ScreenImage;
+use x11rb::protocol::xproto::{ImageOrder, Screen, Setup, VisualClass};
+
+/// How a server lays a pixel out: 32 bits, 8 for each colour. Every desktop of today has it so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Bits that count.
+    pub depth: u8,
+    /// Whether its bytes are blue, green, red; else they are the other way round, after one that is nothing.
+    is_blue_first: bool,
+}
+
+impl Layout {
+    /// That of a screen.
+    ///
+    /// # Errors
+    /// It has another one.
+    pub fn of(setup: &Setup, screen: &Screen) -> Result<Self, ScreenError> {
+        let depth = screen.root_depth;
+        let visuals = screen.allowed_depths.iter().flat_map(|allowed| &allowed.visuals);
+        let masks = |red, green, blue| (red, green, blue) == (0xff_0000, 0xff00, 0xff);
+        let is_plain = visuals.filter(|visual| visual.visual_id == screen.root_visual).any(|visual| {
+            visual.class == VisualClass::TRUE_COLOR
+                && masks(visual.red_mask, visual.green_mask, visual.blue_mask)
+        });
+        let has_words = setup.pixmap_formats.iter().any(|f| f.depth == depth && f.bits_per_pixel == 32);
+        match is_plain && has_words {
+            true => Ok(Self { depth, is_blue_first: setup.image_byte_order == ImageOrder::LSB_FIRST }),
+            false => Err(ScreenError::Server {
+                what: "screen of 8 bits for each colour",
+                advice: "start it with a depth of 24",
+            }),
+        }
+    }
+
+    /// A picture as it lies on its output: 4 bytes a pixel, by rows.
+    pub fn bytes(self, image: &ScreenImage, turn: Turn) -> Vec<u8> {
+        let picture = UVec2::new(image.width, image.height);
+        let size = turn.size(picture);
+        let mut bytes = Vec::with_capacity(4 * (size.x * size.y) as usize);
+        let index = |x, y| {
+            let from = turn.source(UVec2::new(x, y), picture);
+            3 * (from.y as isize * picture.x as isize + from.x as isize)
+        };
+        for y in 0..size.y {
+            // A row of the output is a row or a column of the picture, in one direction or the other.
+            let first = index(0, y);
+            let step = if size.x > 1 { index(1, y) - first } else { 0 };
+            bytes.extend((0..size.x as isize).flat_map(|x| {
+                let at = (first + x * step) as usize;
+                let [r, g, b] = [0, 1, 2].map(|c| image.rgb[at + c]);
+                if self.is_blue_first { [b, g, r, 0] } else { [0, r, g, b] }
+            }));
+        }
+        bytes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_as_the_server_orders_them() {
+        let image = ScreenImage { projector: 0, width: 2, height: 1, rgb: vec![1, 2, 3, 4, 5, 6] };
+        let upright = Turn::default();
+        let little = Layout { depth: 24, is_blue_first: true };
+        assert_eq!(little.bytes(&image, upright), [3, 2, 1, 0, 6, 5, 4, 0]);
+        assert_eq!(
+            Layout { is_blue_first: false, ..little }.bytes(&image, upright),
+            [0, 1, 2, 3, 0, 4, 5, 6]
+        );
+        let mirrored = Turn { is_mirrored: true, quarters: 0 };
+        assert_eq!(little.bytes(&image, mirrored), [6, 5, 4, 0, 3, 2, 1, 0]);
+    }
+}

@@ -1,0 +1,162 @@
+//! Windows on the named outputs of a real X server without a screen.
+
+use crate::x_server::{XServer, complete_pictures, report};
+use lightloom_tests::program::{LIMIT, Running, cluster, lightloom, run, start};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ConnectionExt as _, MapState};
+
+/// Four projectors of 96 × 72 pixels, an output each, each turned otherwise; two back-ends.
+const PLACES: [(i16, i16, u32, bool); 4] =
+    [(0, 0, 0, false), (17, 30, 90, false), (300, 400, 180, true), (568, 5, 270, true)];
+const SIZE: (usize, usize) = (96, 72);
+/// Where the outputs are on the desktop.
+const OUTPUTS: [(i16, i16); 4] = [(0, 0), (640, 0), (0, 480), (640, 480)];
+
+fn display(folder: &Path) -> String {
+    let head = "name = \"four\"\nscreen_width_m = 0.60\nscreen_height_m = 0.45\npixel_size_m = 0.00625\n\
+                angular_accuracy_deg = 9.0\nobserver_m = [0.0, 0.0, 1.2]\neta = 1.0\n";
+    let projector = |(index, (x, y, turn, mirrored)): (usize, (i16, i16, u32, bool))| {
+        format!(
+            "[[projector]]\nname = \"p{index}\"\ncentre_m = [{}, 0.0, -1.5]\nwidth_px = 96\nheight_px = 72\n\
+             screen_rect_m = [-0.3, -0.225, 0.6, 0.45]\nbackend = {}\n\
+             output = {{ name = \"DUMMY{index}\", x_px = {x}, y_px = {y}, turn_deg = {turn}, mirrored = {mirrored} }}\n",
+            -0.36 + 0.24 * index as f64,
+            index / 2
+        )
+    };
+    let path = folder.join("four.toml");
+    fs::write(&path, head.to_owned() + &PLACES.into_iter().enumerate().map(projector).collect::<String>())
+        .unwrap();
+    path.to_string_lossy().into_owned()
+}
+
+/// What is seen of a projector, turned back: rows of the picture from its top.
+fn picture(server: &XServer, projector: usize) -> Vec<u32> {
+    let ((x, y, turn, is_mirrored), (left, top)) = (PLACES[projector], OUTPUTS[projector]);
+    let (width, height) = if turn % 180 == 0 { SIZE } else { (SIZE.1, SIZE.0) };
+    let seen = server.pixels(left + x, top + y, width as u16, height as u16);
+    // The place of each of its pixels, found by walking the picture: to its right and down, as turned.
+    let at = |column: usize, row: usize| {
+        let column = if is_mirrored { SIZE.0 - 1 - column } else { column };
+        let (u, v) = match turn {
+            0 => (column, row),
+            90 => (width - 1 - row, column),
+            180 => (width - 1 - column, height - 1 - row),
+            _ => (row, height - 1 - column),
+        };
+        seen[v * width + u]
+    };
+    (0..SIZE.1).flat_map(|row| (0..SIZE.0).map(move |column| (column, row))).map(|(c, r)| at(c, r)).collect()
+}
+
+fn arguments<'a>(display: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let fixed = ["drive", "procedural:shells@32", "--display", display, "--device", "cpu", "--fade", "0"];
+    [&fixed[..], &["--output", "outputs", "--rate", "20", "--json"], more].concat()
+}
+
+fn ended(running: Running) -> String {
+    let process = running.process().to_string();
+    Command::new("kill").args(["-INT", &process]).status().unwrap();
+    running.finish(LIMIT).succeeded().stderr
+}
+
+#[test]
+fn four_outputs_show_the_complete_pictures_whoever_draws_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(server) = XServer::four_outputs(folder.path()) else { return };
+    let display = display(folder.path());
+    let complete = complete_pictures(&display, &folder.path().join("out"), 4);
+    let shows = |server: &XServer, projector: usize| picture(server, projector) == complete[projector];
+    let dump = folder.path().join("dump").to_string_lossy().into_owned();
+    let command = lightloom(&arguments(&display, &["--backends", "2", "--dump", &dump]));
+    let running = start(&mut server.on(command));
+    server.wait_for("the complete pictures, to the code", |server| (0..4).all(|p| shows(server, p)));
+    // Around them all is black.
+    let all = server.pixels(0, 0, 1280, 960);
+    let lit = |pixels: &[u32]| pixels.iter().filter(|&&pixel| pixel != 0).count();
+    assert_eq!(lit(&all), complete.iter().map(|picture| lit(picture)).sum::<usize>());
+    ended(running);
+    let shown = |projector: usize| {
+        let last = fs::read_dir(&dump).unwrap().map(|entry| entry.unwrap().path()).max().unwrap();
+        let pixels = image::open(last.join(format!("projector-{projector:02}.png"))).unwrap().to_rgb8();
+        let code = |p: &image::Rgb<u8>| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2]);
+        pixels.pixels().map(code).collect::<Vec<u32>>()
+    };
+    assert!((0..4).all(|projector| shown(projector) == complete[projector]), "the dump is what was seen");
+    if let Some(command) = cluster(&arguments(&display, &["--for", "6"]), 2) {
+        let running = start(&mut server.on(command));
+        server.wait_for("the same by two processes", |server| (0..4).all(|p| shows(server, p)));
+        assert_eq!(report(running)["end"], "planned");
+    }
+}
+
+#[test]
+fn outputs_that_change_and_windows_that_close_are_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(server) = XServer::four_outputs(folder.path()) else { return };
+    let display = display(folder.path());
+    let complete = complete_pictures(&display, &folder.path().join("out"), 4);
+    let running = start(&mut server.on(lightloom(&arguments(&display, &["--backends", "2"]))));
+    let shows = |projector: usize| {
+        let wanted = &complete[projector];
+        server.wait_for(&format!("projector {projector}"), |server| picture(server, projector) == *wanted);
+    };
+    (0..4).for_each(shows);
+    server.xrandr(&["--output", "DUMMY1", "--off"]);
+    server.wait_for("three windows", |server| windows(server).len() == 3);
+    [0, 2, 3].into_iter().for_each(shows);
+    server.xrandr(&["--output", "DUMMY1", "--mode", "640x480", "--pos", "640x0"]);
+    (0..4).for_each(shows);
+    server.xrandr(&["--output", "DUMMY3", "--mode", "640x400", "--pos", "640x480"]);
+    server.xrandr(&["--output", "DUMMY0", "--mode", "640x400", "--pos", "0x0"]);
+    (0..4).for_each(shows);
+    let first = windows(&server)[0];
+    server.connection.destroy_window(first).unwrap().check().unwrap();
+    server
+        .wait_for("another window", |server| windows(server).len() == 4 && !windows(server).contains(&first));
+    (0..4).for_each(shows);
+    let said = ended(running);
+    let lines = [
+        "output DUMMY1 is off",
+        "output DUMMY1 now shows 640 × 480",
+        "output DUMMY3 now shows 640 × 400",
+        "somebody closed the window",
+    ];
+    assert!(lines.iter().all(|line| said.contains(line)), "{said}");
+}
+
+/// The windows that are to be seen on the desktop.
+fn windows(server: &XServer) -> Vec<u32> {
+    let all = server.connection.query_tree(server.root).unwrap().reply().unwrap().children;
+    let is_seen = |&window: &u32| {
+        let attributes = server.connection.get_window_attributes(window).unwrap().reply();
+        attributes.is_ok_and(|attributes| attributes.map_state == MapState::VIEWABLE)
+    };
+    server.connection.flush().unwrap();
+    all.into_iter().filter(is_seen).collect()
+}
+
+#[test]
+fn what_outputs_cannot_show_is_refused_in_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let display = display(folder.path());
+    let bare = |display: &str, more: &[&str]| {
+        let mut command = lightloom(&arguments(display, more));
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+        command
+    };
+    run(&mut bare(&display, &[])).refused(&["no X server can be reached", "DISPLAY"]);
+    run(&mut bare("desk8", &[])).refused(&["projector `projector-0` has no output", "lightloom outputs"]);
+    run(lightloom(&["outputs"]).env_remove("DISPLAY")).refused(&["no X server can be reached"]);
+    let Some(server) = XServer::four_outputs(folder.path()) else { return };
+    let listed = run(&mut server.on(lightloom(&["outputs"]))).succeeded().stdout;
+    assert!(listed.contains("DUMMY2   shows 640 × 480 at 59.9"), "{listed}");
+    assert!(listed.contains("output = { name = \"DUMMY3\", x_px = 0, y_px = 0 }    # 640 × 480"), "{listed}");
+    let other = fs::read_to_string(&display).unwrap().replace("DUMMY", "HDMI-");
+    fs::write(&display, other).unwrap();
+    run(&mut server.on(lightloom(&arguments(&display, &[]))))
+        .refused(&["none of the outputs HDMI-0, HDMI-1, HDMI-2, HDMI-3 is connected"]);
+}

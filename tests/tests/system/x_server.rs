@@ -1,0 +1,165 @@
+//! X servers without a screen: one desktop, or several named outputs.
+
+use lightloom_tests::program::{LIMIT, Running, lightloom, run};
+use serde_json::Value;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, Window};
+use x11rb::rust_connection::RustConnection;
+
+/// What Xorg's driver without hardware needs to know. The modes are those that it has anyway.
+const DUMMY: &str = r#"
+Section "ServerFlags"
+  Option "AutoAddDevices" "false"
+EndSection
+Section "Device"
+  Identifier "dummy"
+  Driver "dummy"
+  VideoRam 64000
+EndSection
+Section "Screen"
+  Identifier "screen"
+  Device "dummy"
+  DefaultDepth 24
+  SubSection "Display"
+    Depth 24
+    Modes "640x480"
+    Virtual 2560 1920
+  EndSubSection
+EndSection
+"#;
+
+/// A server, with a connection to it.
+pub struct XServer {
+    server: Child,
+    pub name: String,
+    pub connection: RustConnection,
+    pub root: Window,
+}
+
+/// Said aloud, and a failure with LIGHTLOOM_REQUIRE_WINDOWS=1.
+fn lacks(what: &str) {
+    println!("SKIPPED: {what}");
+    let is_required = std::env::var("LIGHTLOOM_REQUIRE_WINDOWS").as_deref() == Ok("1");
+    assert!(!is_required, "LIGHTLOOM_REQUIRE_WINDOWS=1, and {what}");
+}
+
+impl XServer {
+    /// One desktop of 800 × 600; None where there is no Xvfb.
+    pub fn desktop() -> Option<Self> {
+        let mut command = Command::new("Xvfb");
+        command.args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"]);
+        Self::start(command)
+    }
+
+    /// Outputs DUMMY0 to DUMMY3 of 640 × 480 in two rows of two; None where there is no Xorg with a driver for none.
+    pub fn four_outputs(folder: &Path) -> Option<Self> {
+        let (settings, log) = (folder.join("xorg.conf"), folder.join("xorg.log"));
+        fs::write(&settings, DUMMY).unwrap();
+        let mut command = Command::new("Xorg");
+        command.args(["-displayfd", "1", "-noreset", "-novtswitch", "-sharevts", "-nolisten", "tcp"]);
+        command.arg("-config").arg(settings).arg("-logfile").arg(log);
+        let server = Self::start(command)?;
+        for (output, place) in ["0x0", "640x0", "0x480", "640x480"].iter().enumerate() {
+            let output = format!("DUMMY{output}");
+            server.xrandr(&["--addmode", &output, "640x480"]);
+            server.xrandr(&["--addmode", &output, "640x400"]);
+            server.xrandr(&["--output", &output, "--mode", "640x480", "--pos", place]);
+        }
+        Some(server)
+    }
+
+    fn start(mut command: Command) -> Option<Self> {
+        let program = command.get_program().to_string_lossy().into_owned();
+        let Ok(mut server) = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn() else {
+            lacks(&format!("there is no {program} on the path"));
+            return None;
+        };
+        // It writes its number once it takes connections.
+        let mut number = Vec::new();
+        let mut stdout = server.stdout.take().unwrap();
+        let mut byte = [0];
+        while stdout.read_exact(&mut byte).is_ok() && byte[0] != b'\n' {
+            number.push(byte[0]);
+        }
+        if number.is_empty() {
+            lacks(&format!("{program} does not start: {:?}", server.wait()));
+            return None;
+        }
+        let name = format!(":{}", String::from_utf8(number).unwrap().trim());
+        let (connection, screen) = x11rb::connect(Some(&name)).unwrap();
+        let root = connection.setup().roots[screen].root;
+        Some(Self { server, name, connection, root })
+    }
+
+    /// A program on this server.
+    pub fn on(&self, mut command: Command) -> Command {
+        command.env("DISPLAY", &self.name).env_remove("WAYLAND_DISPLAY");
+        command
+    }
+
+    pub fn xrandr(&self, arguments: &[&str]) {
+        let mut command = Command::new("xrandr");
+        command.args(arguments);
+        let done = self.on(command).status();
+        assert!(done.is_ok_and(|status| status.success()), "xrandr {arguments:?}");
+    }
+
+    /// What is to be seen in a rectangle of the desktop: 0x00RRGGBB, by rows.
+    pub fn pixels(&self, x: i16, y: i16, width: u16, height: u16) -> Vec<u32> {
+        let format = ImageFormat::Z_PIXMAP;
+        let image = self.connection.get_image(format, self.root, x, y, width, height, u32::MAX);
+        let image = image.unwrap().reply().unwrap();
+        let pixels = image.data.chunks_exact(4);
+        pixels.map(|pixel| u32::from_le_bytes(pixel.try_into().unwrap()) & 0xff_ffff).collect()
+    }
+
+    /// Looks until what is wanted is to be seen, and fails if it is not within a while.
+    #[track_caller]
+    pub fn wait_for(&self, what: &str, is_there: impl Fn(&Self) -> bool) {
+        let since = Instant::now();
+        while !is_there(self) {
+            assert!(since.elapsed() < Duration::from_secs(60), "there is no sign of {what}");
+            sleep(Duration::from_millis(100));
+        }
+    }
+
+    pub fn kill(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+impl Drop for XServer {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+/// What `simulate` draws of shells: the pixels of each of so many projectors, 0x00RRGGBB.
+pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Vec<u32>> {
+    let folder = out.to_string_lossy();
+    let fixed = ["simulate", "procedural:shells@32", "--display", display, "--device", "cpu"];
+    run(&mut lightloom(&[&fixed[..], &["--out", &folder, "--quiet"]].concat())).succeeded();
+    let picture = |projector: usize| {
+        // As many digits as the last projector has, two at least.
+        let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
+        let pixels = image::open(path).unwrap().to_rgb8();
+        pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
+    };
+    let pictures: Vec<Vec<u32>> = (0..projectors).map(picture).collect();
+    let is_lit = |picture: &Vec<u32>| picture.iter().any(|&pixel| pixel != 0);
+    assert!(pictures.iter().all(is_lit), "something is to be seen");
+    pictures
+}
+
+/// The report of a show that ended well.
+pub fn report(running: Running) -> Value {
+    let ran = running.finish(LIMIT).succeeded();
+    serde_json::from_str(&ran.stdout).expect("the report is JSON")
+}
