@@ -120,7 +120,7 @@ fn outputs_that_change_and_windows_that_close_are_followed() {
     (0..4).for_each(shows);
     let said = ended(running);
     let lines = [
-        "output DUMMY1 is off",
+        "output DUMMY1 has nothing connected to it",
         "output DUMMY1 now shows 640 × 480",
         "output DUMMY3 now shows 640 × 400",
         "somebody closed the window",
@@ -153,7 +153,7 @@ fn what_outputs_cannot_show_is_refused_in_a_sentence() {
     run(lightloom(&["outputs"]).env_remove("DISPLAY")).refused(&["no X server can be reached"]);
     let Some(server) = XServer::four_outputs(folder.path()) else { return };
     let listed = run(&mut server.on(lightloom(&["outputs"]))).succeeded().stdout;
-    assert!(listed.contains("DUMMY2   shows 640 × 480 at 59.9"), "{listed}");
+    assert!(listed.contains("DUMMY2   shows 640 × 480 at "), "{listed}");
     assert!(listed.contains("output = { name = \"DUMMY3\", x_px = 0, y_px = 0 }    # 640 × 480"), "{listed}");
     let other = fs::read_to_string(&display).unwrap().replace("DUMMY", "HDMI-");
     fs::write(&display, other).unwrap();
