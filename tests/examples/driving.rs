@@ -4,6 +4,7 @@
 
 use lightloom_tests::program::{cluster, lightloom, run};
 use lightloom_tests::results::{Program, Results};
+use lightloom_tests::x_server::{XServer, display_on_outputs};
 use serde_json::Value;
 use std::process::Command;
 
@@ -50,13 +51,14 @@ fn main() -> Result<(), String> {
         (Some("--seconds"), Some(seconds)) => seconds.parse().map_err(|_| "give a number of seconds")?,
         _ => return Err("give nothing, or --seconds N".to_owned()),
     };
-    let fixed =
-        ["--device", "cpu", "--output", "none", "--json", "--for", &seconds.to_string()].map(str::to_owned);
+    let fixed = ["--device", "cpu", "--json", "--for", &seconds.to_string()].map(str::to_owned);
     let mut results = Results::new(Program::Study("driving"), "driving", "rates");
     results.line("| display | scene | options | rays by | frames a second | from a frame to the next, ms | from input to screen, ms |");
     results.line("| --- | --- | --- | --- | ---: | ---: | ---: |");
     for (display, scene, options) in SHOWS {
-        let words = ["drive", scene, "--display", display].into_iter().chain(options.iter().copied());
+        let words = ["drive", scene, "--display", display, "--output", "none"]
+            .into_iter()
+            .chain(options.iter().copied());
         let words: Vec<String> = words.map(str::to_owned).chain(fixed.clone()).collect();
         let report = report(&mut lightloom(&words))?;
         let beat = &report["beat"];
@@ -77,21 +79,31 @@ fn main() -> Result<(), String> {
 /// Four processes that draw little.
 fn latency(fixed: &[String]) -> Result<(), String> {
     let mut results = Results::new(Program::Study("driving"), "driving", "latency");
-    results.line("| rate asked for | frames | from a frame to the next, ms | from input to screen, ms | skew, ms | late |");
-    results.line("| --- | ---: | ---: | ---: | ---: | ---: |");
+    results.line("| rate asked for | onto | frames | from a frame to the next, ms | from input to screen, ms | skew, ms | late |");
+    results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-    let display = lightloom_tests::program::small_display(folder.path());
-    for rate in RATES_HZ {
-        let words =
-            ["drive", "procedural:shells@16", "--display", &display, "--quality", "draft", "--rate", rate];
-        let words: Vec<String> = words.into_iter().map(str::to_owned).chain(fixed.iter().cloned()).collect();
-        let Some(mut command) = cluster(&words, 4) else { return Ok(()) };
+    let small = lightloom_tests::program::small_display(folder.path());
+    let place = |backend| (backend, "x_px = 0, y_px = 0".to_owned());
+    let on_outputs = display_on_outputs(folder.path(), &[0, 1, 2, 3].map(place));
+    let server = XServer::four_outputs(folder.path());
+    let nothing = ("nothing", "none", &small, None);
+    let outputs = server.as_ref().map(|server| ("four outputs", "outputs", &on_outputs, Some(server)));
+    let shows = [nothing].into_iter().chain(outputs);
+    for ((onto, output, display, server), rate) in shows.flat_map(|s| RATES_HZ.map(|rate| (s, rate))) {
+        let words = ["drive", "procedural:shells@16", "--display", display, "--output", output];
+        let words = words.into_iter().chain(["--quality", "draft", "--rate", rate]);
+        let words: Vec<String> = words.map(str::to_owned).chain(fixed.iter().cloned()).collect();
+        let Some(command) = cluster(&words, 4) else { return Ok(()) };
+        let mut command = match server {
+            Some(server) => server.on(command),
+            None => command,
+        };
         let report = report(&mut command)?;
         let beat = &report["beat"];
         let late: f64 =
             beat["backends"].as_array().into_iter().flatten().map(|one| number(&one["late"])).sum();
         results.line(format!(
-            "| {rate} a second | {} | {} | {} | {} | {late} |",
+            "| {rate} a second | {onto} | {} | {} | {} | {} | {late} |",
             beat["frames"],
             quantiles(&beat["interval_ms"]),
             quantiles(&beat["input_to_shown_ms"]),

@@ -29,3 +29,5 @@ pub mod scanned_head;
 pub mod scenes;
 pub mod techniques;
 pub mod twin_scene;
+#[cfg(unix)]
+pub mod x_server;

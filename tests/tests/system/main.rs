@@ -25,4 +25,3 @@ mod store_commands;
 mod whole_store;
 mod window;
 mod wiring;
-mod x_server;

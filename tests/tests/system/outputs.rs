@@ -1,7 +1,7 @@
 //! Windows on the named outputs of a real X server without a screen.
 
-use crate::x_server::{XServer, complete_pictures, report};
 use lightloom_tests::program::{LIMIT, Running, cluster, lightloom, run, start};
+use lightloom_tests::x_server::{XServer, complete_pictures, display_on_outputs, report};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -16,21 +16,11 @@ const SIZE: (usize, usize) = (96, 72);
 const OUTPUTS: [(i16, i16); 4] = [(0, 0), (640, 0), (0, 480), (640, 480)];
 
 fn display(folder: &Path) -> String {
-    let head = "name = \"four\"\nscreen_width_m = 0.60\nscreen_height_m = 0.45\npixel_size_m = 0.00625\n\
-                angular_accuracy_deg = 9.0\nobserver_m = [0.0, 0.0, 1.2]\neta = 1.0\n";
-    let projector = |(index, (x, y, turn, mirrored)): (usize, (i16, i16, u32, bool))| {
-        format!(
-            "[[projector]]\nname = \"p{index}\"\ncentre_m = [{}, 0.0, -1.5]\nwidth_px = 96\nheight_px = 72\n\
-             screen_rect_m = [-0.3, -0.225, 0.6, 0.45]\nbackend = {}\n\
-             output = {{ name = \"DUMMY{index}\", x_px = {x}, y_px = {y}, turn_deg = {turn}, mirrored = {mirrored} }}\n",
-            -0.36 + 0.24 * index as f64,
-            index / 2
-        )
+    let place = |(index, (x, y, turn, mirrored)): (usize, (i16, i16, u32, bool))| {
+        let backend = index / 2;
+        (backend, format!("x_px = {x}, y_px = {y}, turn_deg = {turn}, mirrored = {mirrored}"))
     };
-    let path = folder.join("four.toml");
-    fs::write(&path, head.to_owned() + &PLACES.into_iter().enumerate().map(projector).collect::<String>())
-        .unwrap();
-    path.to_string_lossy().into_owned()
+    display_on_outputs(folder, &PLACES.into_iter().enumerate().map(place).collect::<Vec<_>>())
 }
 
 /// What is seen of a projector, turned back: rows of the picture from its top.

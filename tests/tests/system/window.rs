@@ -1,7 +1,7 @@
 //! A real window of a real window system, without a screen.
 
-use crate::x_server::{XServer, complete_pictures, report};
 use lightloom_tests::program::{LIMIT, Running, lightloom, small_display, start};
+use lightloom_tests::x_server::{XServer, complete_pictures, report};
 use std::thread::sleep;
 use std::time::Duration;
 use x11rb::connection::Connection;

@@ -6,6 +6,8 @@
 //! that. A sub-frame takes one frame's time, so it is shown one frame after the instant that it was cast for; a full picture
 //! takes four, and is shown for four.
 
+mod eyes;
+
 use display_config::Display;
 use glam::{DAffine3, DQuat, DVec3};
 use lightloom_tests::compare::{Errors, errors_between};
@@ -50,20 +52,19 @@ fn turned(frame: &FrameState, deg: f64) -> FrameState {
     FrameState { display_from_volume: turn * frame.display_from_volume, ..frame.clone() }
 }
 
+/// The pictures of each instant.
+type Shown = Vec<Vec<ProjectorImage>>;
+
 /// The full pictures of each instant.
-fn truths(display: &Display, scene: &TestScene, motion: &Motion) -> Vec<Vec<ProjectorImage>> {
-    let mut renderer = draw::renderer(display, &scene.source, &PROJECTORS, With::device(DeviceChoice::Cpu)).0;
+fn truths(display: &Display, scene: &TestScene, motion: &Motion, projectors: &[u32]) -> Shown {
+    let mut renderer = draw::renderer(display, &scene.source, projectors, With::device(DeviceChoice::Cpu)).0;
     let instant = |i: usize| (i as f64 - RESTING as f64).max(0.0) / RATE_HZ;
     let frames = (0..RESTING + FRAMES).map(|i| (motion.1)(&scene.frame, instant(i)));
     frames.map(|frame| draw::draw_with(&mut renderer, &frame).0).collect()
 }
 
 /// What is shown at each instant, from the one on at which all contenders have something to show.
-fn shown_of_sub_frames(
-    truths: &[Vec<ProjectorImage>],
-    thresholds: Thresholds,
-    has_rows: bool,
-) -> Vec<Vec<ProjectorImage>> {
+fn shown_of_sub_frames(truths: &Shown, thresholds: Thresholds, has_rows: bool) -> Shown {
     let mut shown = truths[0].clone();
     let mut all = vec![shown.clone()];
     let mut known = Classes::default();
@@ -83,12 +84,12 @@ fn shown_of_sub_frames(
 }
 
 /// Full pictures that take `frames` frames each.
-fn shown_of_full(truths: &[Vec<ProjectorImage>], frames: usize) -> Vec<Vec<ProjectorImage>> {
+fn shown_of_full(truths: &Shown, frames: usize) -> Shown {
     (0..truths.len()).map(|i| truths[(i / frames * frames).saturating_sub(frames)].clone()).collect()
 }
 
 /// The errors over all instants of motion, and the worst instant.
-fn judge(shown: &[Vec<ProjectorImage>], truths: &[Vec<ProjectorImage>]) -> (Errors, usize) {
+fn judge(shown: &Shown, truths: &Shown) -> (Errors, usize) {
     let moving = RESTING..truths.len();
     let of = |range: std::ops::Range<usize>| {
         errors_between(&shown[range.clone()].concat(), &truths[range].concat())
@@ -117,13 +118,16 @@ fn main() -> Result<(), String> {
     let moved: Vec<_> = all
         .iter()
         .flat_map(|scene| MOTIONS.iter().map(move |motion| (scene, motion)))
-        .map(|(scene, motion)| (format!("{}, {}", scene.name, motion.0), truths(&display, scene, motion)))
+        .map(|(scene, motion)| {
+            (format!("{}, {}", scene.name, motion.0), truths(&display, scene, motion, &PROJECTORS))
+        })
         .collect();
     compare(&moved, worst.as_deref())?;
+    eyes::compare(&display, &all, worst.as_deref())?;
     sweep(&moved)
 }
 
-fn compare(moved: &[(String, Vec<Vec<ProjectorImage>>)], worst: Option<&Path>) -> Result<(), String> {
+fn compare(moved: &[(String, Shown)], worst: Option<&Path>) -> Result<(), String> {
     let mut results = Results::new(Program::Study("reconstruction"), "reconstruction", "comparison");
     results.line("| scene and motion | full pictures at 15 a second | quincunx at 60 | RMS ratio | rows at 30, full at 30 | rows |");
     results.line("| --- | ---: | ---: | ---: | ---: | ---: |");
@@ -155,7 +159,7 @@ fn compare(moved: &[(String, Vec<Vec<ProjectorImage>>)], worst: Option<&Path>) -
     results.finish()
 }
 
-fn sweep(moved: &[(String, Vec<Vec<ProjectorImage>>)]) -> Result<(), String> {
+fn sweep(moved: &[(String, Shown)]) -> Result<(), String> {
     let mut results = Results::new(Program::Study("reconstruction"), "reconstruction", "thresholds");
     let heads: String = SWEEP.iter().map(|(low, high)| format!(" {low} to {high} |")).collect();
     results.line(format!("| scene and motion |{heads}"));

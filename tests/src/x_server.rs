@@ -1,6 +1,6 @@
 //! X servers without a screen: one desktop, or several named outputs.
 
-use lightloom_tests::program::{LIMIT, Running, lightloom, run};
+use crate::program::{LIMIT, Running, lightloom, run};
 use serde_json::Value;
 use std::fs;
 use std::io::Read;
@@ -43,8 +43,11 @@ EndSection
 /// A server, with a connection to it.
 pub struct XServer {
     server: Child,
+    /// What DISPLAY calls it.
     pub name: String,
+    /// A connection to it.
     pub connection: RustConnection,
+    /// The root of its screen.
     pub root: Window,
 }
 
@@ -66,7 +69,7 @@ impl XServer {
     /// Outputs DUMMY0 to DUMMY3 of 640 × 480 in two rows of two; None where there is no Xorg with a driver for none.
     pub fn four_outputs(folder: &Path) -> Option<Self> {
         let (settings, log) = (folder.join("xorg.conf"), folder.join("xorg.log"));
-        fs::write(&settings, DUMMY).unwrap();
+        fs::write(&settings, DUMMY).expect("a temporary folder can be written");
         let mut command = Command::new("Xorg");
         command.args(["-displayfd", "1", "-noreset", "-novtswitch", "-sharevts", "-nolisten", "tcp"]);
         command.arg("-config").arg(settings).arg("-logfile").arg(log);
@@ -88,7 +91,7 @@ impl XServer {
         };
         // It writes its number once it takes connections.
         let mut number = Vec::new();
-        let mut stdout = server.stdout.take().unwrap();
+        let mut stdout = server.stdout.take().expect("it is piped");
         let mut byte = [0];
         while stdout.read_exact(&mut byte).is_ok() && byte[0] != b'\n' {
             number.push(byte[0]);
@@ -97,8 +100,8 @@ impl XServer {
             lacks(&format!("{program} does not start: {:?}", server.wait()));
             return None;
         }
-        let name = format!(":{}", String::from_utf8(number).unwrap().trim());
-        let (connection, screen) = x11rb::connect(Some(&name)).unwrap();
+        let name = format!(":{}", String::from_utf8(number).expect("a number is text").trim());
+        let (connection, screen) = x11rb::connect(Some(&name)).expect("it takes connections");
         let root = connection.setup().roots[screen].root;
         Some(Self { server, name, connection, root })
     }
@@ -109,6 +112,7 @@ impl XServer {
         command
     }
 
+    /// Changes its outputs.
     pub fn xrandr(&self, arguments: &[&str]) {
         let mut command = Command::new("xrandr");
         command.args(arguments);
@@ -120,9 +124,9 @@ impl XServer {
     pub fn pixels(&self, x: i16, y: i16, width: u16, height: u16) -> Vec<u32> {
         let format = ImageFormat::Z_PIXMAP;
         let image = self.connection.get_image(format, self.root, x, y, width, height, u32::MAX);
-        let image = image.unwrap().reply().unwrap();
+        let image = image.expect("the server answers").reply().expect("the rectangle is on the screen");
         let pixels = image.data.chunks_exact(4);
-        pixels.map(|pixel| u32::from_le_bytes(pixel.try_into().unwrap()) & 0xff_ffff).collect()
+        pixels.map(|pixel| u32::from_le_bytes(pixel.try_into().expect("four bytes")) & 0xff_ffff).collect()
     }
 
     /// Looks until what is wanted is to be seen, and fails if it is not within a while.
@@ -135,6 +139,7 @@ impl XServer {
         }
     }
 
+    /// Ends it at once.
     pub fn kill(&mut self) {
         let _ = self.server.kill();
         let _ = self.server.wait();
@@ -147,6 +152,25 @@ impl Drop for XServer {
     }
 }
 
+/// Writes a display into a folder whose projectors, of 96 × 72 pixels, are each on an output of [`XServer::four_outputs`]:
+/// each with its back-end, and the keys of its place.
+pub fn display_on_outputs(folder: &Path, places: &[(usize, String)]) -> String {
+    let head = "name = \"outputs\"\nscreen_width_m = 0.60\nscreen_height_m = 0.45\npixel_size_m = 0.00625\n\
+                angular_accuracy_deg = 9.0\nobserver_m = [0.0, 0.0, 1.2]\neta = 1.0\n";
+    let projector = |(index, (backend, place)): (usize, &(usize, String))| {
+        format!(
+            "[[projector]]\nname = \"p{index}\"\ncentre_m = [{}, 0.0, -1.5]\nwidth_px = 96\nheight_px = 72\n\
+             screen_rect_m = [-0.3, -0.225, 0.6, 0.45]\nbackend = {backend}\n\
+             output = {{ name = \"DUMMY{index}\", {place} }}\n",
+            -0.36 + 0.24 * index as f64,
+        )
+    };
+    let path = folder.join("outputs.toml");
+    let text = head.to_owned() + &places.iter().enumerate().map(projector).collect::<String>();
+    fs::write(&path, text).expect("a temporary folder can be written");
+    path.to_string_lossy().into_owned()
+}
+
 /// What `simulate` draws of shells: the pixels of each of so many projectors, 0x00RRGGBB.
 pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Vec<u32>> {
     let folder = out.to_string_lossy();
@@ -155,7 +179,7 @@ pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Ve
     let picture = |projector: usize| {
         // As many digits as the last projector has, two at least.
         let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
-        let pixels = image::open(path).unwrap().to_rgb8();
+        let pixels = image::open(path).expect("it was written").to_rgb8();
         pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
     };
     let pictures: Vec<Vec<u32>> = (0..projectors).map(picture).collect();
