@@ -102,6 +102,8 @@ pub struct FrameState {
     /// The pixels that it casts, if it is live: the others are reconstructed from these and from the frames before. None
     /// casts them all, as a complete frame does.
     pub sub_frame: Option<SubFrame>,
+    /// Whether row planes are welcome for a display of any size, where nobody chose the caster.
+    pub welcomes_planes: bool,
     /// What is shown of the working set instead of the pictures.
     pub debug: Option<DebugView>,
 }
@@ -123,6 +125,7 @@ impl FrameState {
             tool: None,
             pace: Pace::Complete,
             sub_frame: None,
+            welcomes_planes: false,
             debug: None,
         }
     }

@@ -56,6 +56,7 @@ prop_compose! {
             quality: Quality::default(),
             tool: tool.map(|p| Tool { kind: ToolKind::Light, tip_in_display: p, axis_in_display: at }),
             sub_frame: SubFrame::ORDER.get(index as usize % 5).copied(),
+            welcomes_planes: index % 3 == 0,
             pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },
             debug: DebugView::ALL.get(index as usize % 5).copied(),
         }))

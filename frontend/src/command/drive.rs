@@ -6,7 +6,7 @@ use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
 use crate::cli::{DriveArgs, OutputArg, ReconstructArg};
 use crate::drive::{
-    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, World, run,
+    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, Trial, World, run,
 };
 use crate::report::BackendSummary;
 use crate::scene::Scene;
@@ -95,7 +95,9 @@ fn play(args: &DriveArgs, mut world: World, view: Option<View>) -> Result<(), Fr
     let options = args.drawing.options(None);
     let mut driving = backends.drive(&options, &world.volume_ref(), &display, &showing)?;
     let mut inputs: Vec<&mut dyn Input> = hands.iter_mut().map(|hands| hands as &mut dyn Input).collect();
-    let plan = Plan { frames: args.frames, time: args.time };
+    // Where frames must be the same whenever they are drawn, nothing may depend on how long they take.
+    let trial = if args.stepped { None } else { Trial::new(options.caster, showing.period) };
+    let plan = Plan { frames: args.frames, time: args.time, trial };
     let is_talking = !args.quiet && !args.json;
     let mut status = Status::new(is_talking && std::io::stderr().is_terminal());
     let mut tell = |sentence: &str| warn(sentence);

@@ -5,6 +5,7 @@
 //! | `world` | what has happened to the scene since it was loaded |
 //! | `change`, `input` | what can happen to it, and where that comes from |
 //! | `run` | the loop: inputs, world, frames, screens |
+//! | `trial` | which caster is faster |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
 //! | `histogram`, `measures`, `plot`, `status`, `report` | how well the beat is kept |
 
@@ -20,6 +21,7 @@ mod run;
 mod screens;
 mod sheet;
 mod status;
+mod trial;
 mod world;
 
 pub use change::Change;
@@ -33,4 +35,5 @@ pub use run::{End, Plan, Played, run};
 pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
+pub use trial::Trial;
 pub use world::{Looks, World};

@@ -2,19 +2,21 @@
 
 use super::measures::Measures;
 use super::plot::plot_of_beat;
-use super::{BeatSummary, Change, Input, KEYS, Screens, Status, World};
+use super::{BeatSummary, Change, Input, KEYS, Screens, Status, Trial, World};
 use crate::FrontendError;
 use serde::Serialize;
 use std::time::Duration;
 use transport::beat::{Drive, Happening};
 
-/// When a show ends, besides by somebody who ends it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// When a show ends, besides by somebody who ends it, and what it finds out.
+#[derive(Clone, Debug, Default)]
 pub struct Plan {
     /// After so many frames.
     pub frames: Option<u32>,
     /// After so long.
     pub time: Option<Duration>,
+    /// Finds the faster caster, where back-ends may choose it.
+    pub trial: Option<Trial>,
 }
 
 /// Why a show ended.
@@ -62,6 +64,7 @@ struct Show<'a, 'b> {
     inputs: &'a mut [&'b mut dyn Input],
     screens: &'a mut Screens<'b>,
     measures: Measures,
+    trial: Option<Trial>,
     lost: Vec<u64>,
     troubles: Vec<String>,
     /// Of each back-end's latest frame.
@@ -90,6 +93,7 @@ pub fn run<'b>(
         inputs,
         screens,
         measures: Measures::default(),
+        trial: plan.trial.clone(),
         lost: vec![0; backends],
         troubles: Vec::new(),
         latest: vec![Default::default(); backends],
@@ -144,13 +148,19 @@ impl Show<'_, '_> {
             match change {
                 Change::Quit => return Ok(Some(End::Left)),
                 Change::Help => (self.tell)(KEYS),
-                change => self.world.apply(change),
+                change => {
+                    if let (Change::NextLook, Some(trial)) = (change, &mut self.trial) {
+                        trial.restart();
+                    }
+                    self.world.apply(change);
+                }
             }
         }
         if self.world.is_over() {
             return Ok(Some(End::Script));
         }
-        let state = self.world.frame(frame, seen_at)?;
+        let mut state = self.world.frame(frame, seen_at)?;
+        state.welcomes_planes = self.trial.as_mut().is_some_and(|trial| trial.begin(frame));
         self.measures.began(frame, now);
         self.drive.draw(&state)?;
         Ok(None)
@@ -161,6 +171,9 @@ impl Show<'_, '_> {
             Happening::Screen { backend, image } => self.screens.take(backend, image),
             Happening::Drawn { backend, report } => {
                 self.measures.drawn(backend, report.frame, report.total_ms);
+                if let Some(trial) = &mut self.trial {
+                    trial.drawn(report.frame, &report.caster, report.total_ms, now);
+                }
                 self.screens.drawn(backend, report.frame, now)?;
                 self.latest[backend] = (report.caster.to_string(), report.shortfall);
             }

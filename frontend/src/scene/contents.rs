@@ -110,6 +110,7 @@ impl Scene {
             tool: self.tool_at(time_s),
             pace: Pace::Complete,
             sub_frame: None,
+            welcomes_planes: false,
             debug: None,
         })
     }

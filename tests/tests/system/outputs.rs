@@ -44,7 +44,7 @@ fn picture(server: &XServer, projector: usize) -> Vec<u32> {
 
 fn arguments<'a>(display: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let fixed = ["drive", "procedural:shells@32", "--display", display, "--device", "cpu", "--fade", "0"];
-    [&fixed[..], &["--output", "outputs", "--rate", "20", "--json"], more].concat()
+    [&fixed[..], &["--output", "outputs", "--rate", "20", "--caster", "rays", "--json"], more].concat()
 }
 
 fn ended(running: Running) -> String {

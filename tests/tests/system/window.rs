@@ -28,7 +28,7 @@ impl Desktop {
 
     fn start(&self, display: &str, more: &[&str]) -> Running {
         let fixed = ["drive", "procedural:shells@32", "--display", display, "--device", "cpu", "--desktop"];
-        let steady = ["--fade", "0", "--rate", "30", "--json"];
+        let steady = ["--fade", "0", "--rate", "30", "--caster", "rays", "--json"];
         start(&mut self.0.on(lightloom(&[&fixed[..], &steady, more].concat())))
     }
 

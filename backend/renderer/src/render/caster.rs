@@ -8,7 +8,7 @@ use planes::{Fan, Planes};
 use protocol::{Caster, CasterChoice, FrameState};
 use twin::ProjectorRays;
 
-/// Where a display has fewer views, sampling planes for them takes as long as casting their rays.
+/// Where a display has fewer views, sampling planes for them takes about as long as casting their rays.
 const FEWEST_VIEWS: usize = 24;
 const TOO_FEW_VIEWS: &str = "the display has fewer than 24 projectors, too few for row planes to save time";
 
@@ -35,7 +35,7 @@ impl CasterOfFrame {
         let because = |why: &str| Self { caster: Caster::RaysBecause(why.to_owned()), fan: None };
         match asked {
             CasterChoice::Rays => return Ok(Self { caster: Caster::Rays, fan: None }),
-            CasterChoice::Auto if all.len() < FEWEST_VIEWS => {
+            CasterChoice::Auto if all.len() < FEWEST_VIEWS && !frame.welcomes_planes => {
                 return Ok(because(TOO_FEW_VIEWS));
             }
             CasterChoice::Auto | CasterChoice::Planes => {}
