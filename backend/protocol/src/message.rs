@@ -4,7 +4,7 @@ use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, ScreenIm
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 9;
+pub const PROTOCOL_VERSION: u32 = 10;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,6 +75,8 @@ pub enum FromBackend {
     Finished,
     /// It cannot go on: one sentence.
     Failed(String),
+    /// From its keeper: it has ended, how in a sentence, and is started again. It says hello as it did at first.
+    Lost(String),
     /// At work, with nothing new to say.
     Alive,
 }

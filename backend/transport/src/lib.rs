@@ -7,7 +7,10 @@
 //! | `worker` | a back-end's side: the thread that passes messages on |
 //! | `render_loop` | a back-end's thread that draws |
 //! | `threads` | back-ends as threads of this process |
-//! | `cluster` | back-ends as ranks of an MPI job |
+//! | `cluster` | back-ends as ranks of an MPI job: the front-end's end |
+//! | `rank` | a back-end's end, in its rank |
+//! | `introduction` | the first message between two ranks |
+//! | `keeping` | a rank that keeps a renderer as its child, and starts it again |
 //! | `mpi` | bytes between ranks, the only file that calls MPI |
 //! | `roster`, `watchdog`, `process` | who takes part, and who is still there |
 //! | `launch` | how this process was started, and how it ends when a run cannot go on |
@@ -15,6 +18,10 @@
 pub mod beat;
 #[cfg(feature = "mpi")]
 pub mod cluster;
+#[cfg(feature = "mpi")]
+mod introduction;
+#[cfg(feature = "mpi")]
+pub mod keeping;
 pub mod launch;
 mod limits;
 mod link;
@@ -24,6 +31,8 @@ mod opened;
 #[cfg(feature = "mpi")]
 mod pause;
 mod process;
+#[cfg(feature = "mpi")]
+pub mod rank;
 mod render_loop;
 #[cfg(test)]
 mod restart_tests;

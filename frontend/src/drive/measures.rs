@@ -29,6 +29,7 @@ pub struct Measures {
     pub(super) skew: Histogram,
     pub(super) latency: Histogram,
     pub(super) drawing: BTreeMap<usize, Histogram>,
+    away: BTreeMap<usize, Histogram>,
     /// Frames that were shown by all, or by all that were in time.
     pub(super) shown: u64,
 }
@@ -57,6 +58,8 @@ pub struct BackendBeat {
     pub late: u64,
     /// How often it was lost and started again.
     pub lost: u64,
+    /// From each loss to the next frame that it showed.
+    pub away_ms: Quantiles,
 }
 
 impl Measures {
@@ -100,6 +103,11 @@ impl Measures {
         frames.into_iter().for_each(|frame| self.close(frame));
     }
 
+    /// A back-end that was lost shows a frame again, after so long.
+    pub fn came_back(&mut self, backend: usize, away: Duration) {
+        self.away.entry(backend).or_default().add(away);
+    }
+
     /// Counts a frame that all show that were in time.
     fn close(&mut self, frame: u32) {
         let Some(open) = self.open.get(&frame) else { return };
@@ -120,7 +128,9 @@ impl Measures {
 
     /// What is known by now; `late` and `lost` of each back-end.
     pub fn summary(&self, late: &[u64], lost: &[u64]) -> BeatSummary {
-        let drawing = |backend| self.drawing.get(&backend).map(Histogram::quantiles).unwrap_or_default();
+        let of = |times: &BTreeMap<usize, Histogram>, backend: usize| {
+            times.get(&backend).map(Histogram::quantiles).unwrap_or_default()
+        };
         let backends = late.iter().zip(lost).enumerate();
         BeatSummary {
             frames: self.shown,
@@ -128,7 +138,12 @@ impl Measures {
             skew_ms: self.skew.quantiles(),
             input_to_shown_ms: self.latency.quantiles(),
             backends: backends
-                .map(|(backend, (&late, &lost))| BackendBeat { drawing_ms: drawing(backend), late, lost })
+                .map(|(backend, (&late, &lost))| BackendBeat {
+                    drawing_ms: of(&self.drawing, backend),
+                    late,
+                    lost,
+                    away_ms: of(&self.away, backend),
+                })
                 .collect(),
         }
     }
