@@ -247,7 +247,6 @@ fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
 
 pub fn be_worker() -> ExitCode {
     note(&format!("worker {}", process::id()), []);
-    let silence =
-        if case() == "front-end silent" { Duration::from_secs(2) } else { rank::FRONTEND_SILENCE };
+    let silence = if case() == "front-end silent" { Duration::from_secs(2) } else { rank::FRONTEND_SILENCE };
     rank::work(open, silence)
 }

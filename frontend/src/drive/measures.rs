@@ -119,8 +119,10 @@ impl Measures {
         let last = times.iter().max().copied().unwrap_or_default();
         self.skew.add(last - first);
         self.latency.add(last.saturating_sub(open.began));
-        if let Some(before) = self.last_shown.replace(first) {
-            self.interval.add(first.saturating_sub(before));
+        // A frame that one never said it shows is counted once that one is lost, after those that came later.
+        if self.last_shown.is_none_or(|before| first > before) {
+            let before = self.last_shown.replace(first);
+            before.iter().for_each(|&before| self.interval.add(first - before));
         }
         self.shown += 1;
         self.open.remove(&frame);
@@ -172,6 +174,27 @@ mod tests {
         assert_eq!((frames, interval_ms.max, skew_ms.max, input_to_shown_ms.max), (2, 20.0, 1.0, 17.0));
         assert_eq!(backends.iter().map(|b| b.drawing_ms.max).collect::<Vec<_>>(), [4.0, 8.0, 30.0]);
         assert_eq!(backends[2].late, 2);
+    }
+
+    #[test]
+    fn a_frame_that_waits_for_one_that_is_lost_makes_no_interval_between_others() {
+        let (mut measures, ms) = (Measures::default(), Duration::from_millis);
+        for frame in 0..10 {
+            let start = 20 * u64::from(frame);
+            measures.began(frame, ms(start));
+            measures.drawn(0, frame, 4.0);
+            if frame == 2 {
+                measures.drawn(1, frame, 4.0);
+            }
+            measures.ordered(frame);
+            measures.shown(0, frame, ms(start + 16));
+        }
+        measures.lost(1);
+        measures.came_back(1, ms(250));
+        let summary = measures.summary(&[0, 8], &[0, 1]);
+        assert_eq!((summary.frames, summary.interval_ms.max), (10, 40.0));
+        let away: Vec<f64> = summary.backends.iter().map(|backend| backend.away_ms.max).collect();
+        assert_eq!(away, [0.0, 250.0]);
     }
 
     #[test]

@@ -127,6 +127,17 @@ impl DriveReport {
         };
         let rows: Vec<_> =
             self.played.beat.backends.iter().zip(&self.backends).enumerate().map(row).collect();
-        table(&["back-end", "draws a frame in, ms", "99 %", "largest", "late", "lost", "away, s: median / largest"], &rows)
+        table(
+            &[
+                "back-end",
+                "draws a frame in, ms",
+                "99 %",
+                "largest",
+                "late",
+                "lost",
+                "away, s: median / largest",
+            ],
+            &rows,
+        )
     }
 }

@@ -174,7 +174,9 @@ impl Show<'_, '_> {
                     self.measures.came_back(backend, away);
                     let (name, count) = (self.drive.name(backend), self.lost[backend]);
                     let seconds = away.as_secs_f64();
-                    self.trouble(format!("{name} shows again, {seconds:.2} s after it was lost (loss {count} of this show)"));
+                    self.trouble(format!(
+                        "{name} shows again, {seconds:.2} s after it was lost (loss {count} of this show)"
+                    ));
                 }
             }
             Happening::Lost { backend, why } => {

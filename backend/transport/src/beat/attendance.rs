@@ -31,6 +31,8 @@ pub struct Attendance {
     is_noted: bool,
     /// The latest frame that it was asked for out of turn.
     caught_up_with: Option<u32>,
+    /// Whether it ever drew a frame.
+    has_drawn: bool,
 }
 
 impl Attendance {
@@ -44,8 +46,9 @@ impl Attendance {
 
     /// It is lost, and comes back by way of `presence`.
     pub fn lose(&mut self, presence: Presence, now: Instant) {
-        let (lost_at, caught_up_with) = (self.lost_at.or(Some(now)), self.caught_up_with);
-        *self = Self { presence, lost_at, caught_up_with, ..Self::default() };
+        let Self { caught_up_with, has_drawn, .. } = *self;
+        let lost_at = self.lost_at.or(Some(now));
+        *self = Self { presence, lost_at, caught_up_with, has_drawn, ..Self::default() };
     }
 
     /// It has come so far on its way back.
@@ -66,6 +69,12 @@ impl Attendance {
     /// It has drawn a frame, and owes another or not.
     pub fn drew(&mut self, owes_more: bool, now: Instant) {
         self.at_work_since = owes_more.then_some(now);
+        self.has_drawn = true;
+    }
+
+    /// Whether it ever drew a frame: what fails before is no accident, and would fail again.
+    pub fn has_drawn(&self) -> bool {
+        self.has_drawn
     }
 
     /// It shows a frame: how long it was away, if this is the first one since then.

@@ -8,15 +8,16 @@ use super::time::Time;
 use crate::link::{Link, LinkError};
 use crate::session::Session;
 use crate::session_error::SessionError;
-use protocol::{
-    DeviceInfo, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION, Setup,
-};
+use protocol::{DeviceInfo, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION, Setup};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long to listen before anything else is looked after.
 const TICK: Duration = Duration::from_millis(50);
+
+/// What the run is doing, for sentences.
+const ACTIVITY: &str = "driving the display";
 
 /// How often back-ends are asked for their clocks.
 const ASK_INTERVAL: Duration = Duration::from_millis(200);
@@ -232,6 +233,10 @@ impl Drive {
             Err(SessionError::Misfit { name: drive.link.name(backend), what: what.to_owned() })
         };
         Ok(match (message, self.attendance[backend].presence()) {
+            (FromBackend::Failed(sentence), _) if !self.attendance[backend].has_drawn() => {
+                let (name, activity) = (self.link.name(backend), ACTIVITY.to_owned());
+                return Err(SessionError::Failed { name, activity, sentence });
+            }
             (FromBackend::Failed(why), _) => {
                 self.tell(backend, &FromFrontend::Quit)?;
                 Some(self.lose(backend, Presence::Leaving, why))
@@ -287,6 +292,11 @@ impl Drive {
         self.attendance[backend].comes(Presence::There);
         self.clocks[backend] = OtherClock::default();
         self.beat.returned(backend);
+        if !self.time.is_stepped() {
+            // Without it nobody knows when anything is for a process that has just begun.
+            let asked_us = self.time.now().as_micros() as u64;
+            self.tell(backend, &FromFrontend::Clock { asked_us })?;
+        }
         let Some(frame) = self.latest.clone() else { return Ok(()) };
         let index = frame.index;
         if !self.attendance[backend].may_catch_up_with(index) {
@@ -340,7 +350,7 @@ impl Drive {
     }
 
     fn explain(&self, error: LinkError) -> SessionError {
-        SessionError::of_link(error, "driving the display".to_owned(), |backend| self.link.name(backend))
+        SessionError::of_link(error, ACTIVITY.to_owned(), |backend| self.link.name(backend))
     }
 }
 

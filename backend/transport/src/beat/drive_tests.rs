@@ -99,7 +99,10 @@ fn note(seen: &mut Seen, happening: Happening) {
             let number = u32::from_le_bytes([image.rgb[0], image.rgb[1], image.rgb[2], 0]);
             seen.pictures.entry(backend).or_default().push(number);
         }
-        Happening::Drawn { .. } | Happening::Standstill { .. } | Happening::Due { .. } | Happening::Stopped => {}
+        Happening::Drawn { .. }
+        | Happening::Standstill { .. }
+        | Happening::Due { .. }
+        | Happening::Stopped => {}
     }
 }
 
@@ -199,4 +202,17 @@ fn a_frame_that_ends_the_only_back_end_each_time_is_left_out() {
         let frames: Vec<u32> = seen.shown[&0].iter().map(|shown| shown.0).collect();
         assert_eq!(frames, [0, 1, 2, 4, 5, 6, 7]);
     }
+}
+
+#[test]
+fn one_that_fails_in_its_first_frame_ends_the_show() {
+    let mut drive = driving(2, Time::Real, Arc::new(|_, _| Err("it cannot be drawn".to_owned())));
+    let error = loop {
+        match drive.await_next() {
+            Ok(Happening::Due { frame: index, .. }) => drive.draw(&frame(index)).unwrap(),
+            Ok(other) => assert!(!matches!(other, Happening::Lost { .. })),
+            Err(error) => break error.to_string(),
+        }
+    };
+    assert!(error.contains("failed while driving the display: it cannot be drawn"), "{error}");
 }

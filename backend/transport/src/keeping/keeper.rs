@@ -9,6 +9,7 @@ use super::restarts::Restarts;
 use protocol::wire::{WireError, decode, encode, has_picture};
 use protocol::{FromBackend, FromFrontend, Setup};
 use std::io;
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -27,6 +28,9 @@ const PARTING: Duration = Duration::from_secs(4);
 
 /// The question that is the keeper's own: no clock says so much.
 const OWN_QUESTION: FromFrontend = FromFrontend::Clock { asked_us: u64::MAX };
+
+/// The program that runs, whatever has become of its file.
+const IN_MEMORY: &str = "/proc/self/exe";
 
 /// What a message of the front-end was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,14 +69,16 @@ pub struct Keeper {
     state: State,
     /// The setup for the first renderer, until that has greeted.
     setup: Option<Vec<u8>>,
-    /// Whether any was ever ready to draw.
-    was_ready: bool,
+    /// Whether any ever drew a frame: what ends the first one before is no accident, and would end all.
+    has_drawn: bool,
     restarts: Restarts,
 }
 
-/// This program, as a kept renderer.
+/// This program, as a kept renderer: also where another has taken its place on the disk, which may speak another protocol.
 fn this_program() -> io::Result<Command> {
-    let mut command = Command::new(std::env::current_exe()?);
+    let path = std::env::current_exe()?;
+    let is_there = path.exists() || !Path::new(IN_MEMORY).exists();
+    let mut command = Command::new(if is_there { &path } else { Path::new(IN_MEMORY) });
     command.arg(KEPT_BY).arg(std::process::id().to_string());
     Ok(command)
 }
@@ -89,7 +95,7 @@ impl Keeper {
     fn with(command: Box<dyn Fn() -> io::Result<Command>>, setup: Box<Setup>) -> Result<Self, WireError> {
         let setup = Some(encode(&FromFrontend::Setup(setup))?);
         let state = State::Waiting(Instant::now());
-        Ok(Self { command, state, setup, was_ready: false, restarts: Restarts::default() })
+        Ok(Self { command, state, setup, has_drawn: false, restarts: Restarts::default() })
     }
 
     /// Takes a message of the front-end.
@@ -157,11 +163,14 @@ impl Keeper {
                 child.renderer.send(&setup);
             }
             Ok(FromBackend::Ready(_)) => {
-                self.was_ready = true;
                 self.restarts.ready(Instant::now());
                 return Some(bytes);
             }
-            Ok(FromBackend::Failed(_)) if !self.was_ready => {
+            Ok(FromBackend::Drawn(_)) => {
+                self.has_drawn = true;
+                return Some(bytes);
+            }
+            Ok(FromBackend::Failed(_)) if !self.has_drawn => {
                 self.state = State::Over;
                 return Some(bytes);
             }
@@ -198,12 +207,12 @@ impl Keeper {
         };
     }
 
-    /// There is no renderer any more: what to tell the front-end. Before any was ready that ends the run, as anything that
-    /// is wrong at its beginning.
+    /// There is no renderer any more: what to tell the front-end. Before any frame was drawn that ends the run, as anything
+    /// that is wrong at its beginning.
     fn lose(&mut self, why: String) -> Option<Vec<u8>> {
         let now = Instant::now();
         let wait = self.restarts.ended(now);
-        let (state, message) = match self.was_ready {
+        let (state, message) = match self.has_drawn {
             true => {
                 let note = self.restarts.note().unwrap_or_default();
                 (State::Waiting(now + wait), FromBackend::Lost(why + &note))

@@ -70,6 +70,10 @@ fn this_test() -> io::Result<Command> {
     Ok(command)
 }
 
+fn setup() -> Setup {
+    Setup { screens: Screens::Frontend, ..setups(1).remove(0) }
+}
+
 /// A front-end with a keeper.
 struct Bench {
     keeper: Keeper,
@@ -79,9 +83,7 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
-        let mut setup = setups(1).remove(0);
-        setup.screens = Screens::Frontend;
-        Self::with(this_test, setup)
+        Self::with(this_test, setup())
     }
 
     fn with(command: fn() -> io::Result<Command>, setup: Setup) -> Self {
@@ -89,8 +91,11 @@ impl Bench {
         Self { keeper, processes: Vec::new() }
     }
 
+    /// Once it has drawn a frame.
     fn ready(mut self) -> Self {
         assert_eq!(self.next(), FromBackend::Ready(device()));
+        self.beat(0);
+        self.draws(0);
         self
     }
 
@@ -141,18 +146,16 @@ impl Bench {
         assert!(!self.processes.contains(&hello.process));
         self.processes.push(hello.process);
         self.beat(501);
-        self.say(&FromFrontend::Setup(Box::new(setups(1).remove(0))));
+        self.say(&FromFrontend::Setup(Box::new(setup())));
         assert_eq!(self.next(), FromBackend::Ready(device()));
         self.beat(600);
-        self.draws(600, false);
+        self.draws(600);
         why
     }
 
-    fn draws(&mut self, index: u32, has_picture: bool) {
-        if has_picture {
-            let FromBackend::Screen(image) = self.next() else { panic!("no picture") };
-            assert!(image.rgb.len() == 3 * 800 * 600 && image.rgb.iter().all(|&code| code == index as u8));
-        }
+    fn draws(&mut self, index: u32) {
+        let FromBackend::Screen(image) = self.next() else { panic!("no picture") };
+        assert!(image.rgb.len() == 3 * 800 * 600 && image.rgb.iter().all(|&code| code == index as u8));
         assert_eq!(self.next(), FromBackend::Drawn(Box::new(report(index, 0))));
     }
 }
@@ -162,7 +165,7 @@ fn messages_and_pictures_pass_both_ways() {
     let mut bench = Bench::new().ready();
     for index in 0..20 {
         bench.beat(index);
-        bench.draws(index, true);
+        bench.draws(index);
     }
     bench.say(&FromFrontend::Clock { asked_us: 7 });
     let FromBackend::Clock { asked_us: 7, .. } = bench.next() else { panic!("no answer") };
@@ -214,19 +217,23 @@ fn one_that_hangs_is_killed_and_comes_back_and_one_that_is_idle_is_not() {
 
 #[test]
 fn one_that_cannot_begin_says_why_and_is_not_started_again() {
-    let mut setup = setups(1).remove(0);
-    setup.options.cache_bytes = 0;
-    let mut bench = Bench::with(this_test, setup);
+    let mut broken = setup();
+    broken.options.cache_bytes = 0;
+    let mut bench = Bench::with(this_test, broken);
     assert_eq!(bench.next(), FromBackend::Failed("there is no such volume".to_owned()));
     assert_eq!(bench.keeper.next(Duration::from_millis(200)), None);
     let [nowhere, dies]: [fn() -> io::Result<Command>; 2] =
         [|| Ok(Command::new("/nowhere/lightloom-backend")), || Ok(Command::new("false"))];
-    let mut bench = Bench::with(nowhere, setups(1).remove(0));
+    let mut bench = Bench::with(nowhere, setup());
     let FromBackend::Failed(why) = bench.next() else { panic!("it started") };
     assert!(why.contains("could not be started"), "{why}");
-    let mut bench = Bench::with(dies, setups(1).remove(0));
+    let mut bench = Bench::with(dies, setup());
     let FromBackend::Failed(why) = bench.next() else { panic!("it started") };
     assert!(why.contains("ended with exit code 1"), "{why}");
+    let mut bench = Bench::with(this_test, setup());
+    assert_eq!(bench.next(), FromBackend::Ready(device()));
+    bench.beat(FAILS);
+    assert_eq!(bench.next(), FromBackend::Failed("the fake device is lost".to_owned()));
 }
 
 #[test]
