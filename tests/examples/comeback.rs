@@ -27,7 +27,7 @@ const SEED: u64 = 2026;
 const LONGEST_REST_MS: u64 = 2000;
 
 /// What a kill takes of the show's time, at most on average; a hang takes longer.
-const SECONDS_PER_KILL: u32 = 4;
+const SECONDS_PER_KILL: u32 = 3;
 
 /// The show's own beginning and end, seconds.
 const MARGIN: u32 = 15;
