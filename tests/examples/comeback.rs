@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p lightloom-tests --example comeback -- [--kills N | --for SECONDS]`
 
-use lightloom_tests::comeback::{BACKENDS, Comeback, RATE_HZ, Show};
+use lightloom_tests::comeback::{BACKENDS, COMES_BACK_WITHIN, Comeback, RATE_HZ, Show};
 use lightloom_tests::processes::{children, open_files, resident_mib};
 use lightloom_tests::program::LIMIT;
 use lightloom_tests::random::Random;
@@ -29,8 +29,8 @@ const LONGEST_REST_MS: u64 = 2000;
 /// What a kill takes of the show's time, at most on average; a hang takes longer.
 const SECONDS_PER_KILL: u32 = 3;
 
-/// The show's own beginning and end, seconds.
-const MARGIN: u32 = 15;
+/// The show's own beginning, and its end, after the last comeback that is waited for, seconds.
+const MARGIN: u32 = 30;
 
 /// What the machine has to hold for a show.
 struct Held {
@@ -88,7 +88,8 @@ fn main() -> Result<(), String> {
     };
     let Some(show) = Show::begin(seconds) else { return Ok(()) };
     let before = Held::of(&show).row("at the beginning");
-    let last_kill = Duration::from_secs(u64::from(seconds.saturating_sub(MARGIN * 2 / 3)));
+    let last_kill =
+        Duration::from_secs(seconds.into()).saturating_sub(COMES_BACK_WITHIN + Duration::from_secs(4));
     let (comebacks, missing, began) = end_one_after_another(&show, kills, last_kill);
     let after = Held::of(&show).row("at the end");
     let ran = show.finish(Duration::from_secs(seconds.into()) + LIMIT);
@@ -115,7 +116,10 @@ fn end_one_after_another(show: &Show, kills: u32, last_kill: Duration) -> (Comeb
         let victim = show.renderers().into_iter().find(|kept| kept.backend == backend);
         match victim.and_then(|victim| show.end(victim, SIGNALS[signal].0, newest)) {
             Some(comeback) => comebacks.push((signal, comeback)),
-            None => missing += 1,
+            None => {
+                eprintln!("back-end {backend} has not come back from SIG{}: {victim:?}", SIGNALS[signal].0);
+                missing += 1;
+            }
         }
     }
     (comebacks, missing, since.elapsed())

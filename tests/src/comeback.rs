@@ -16,8 +16,11 @@ pub const RATE_HZ: f64 = 20.0;
 
 const SCENE: &str = "procedural:shells@64";
 
-/// A show comes to rest within this, and a back-end back, or never.
+/// A show comes to rest within this.
 const LIMIT: Duration = Duration::from_secs(60);
+
+/// A back-end comes back within this, or never.
+pub const COMES_BACK_WITHIN: Duration = Duration::from_secs(20);
 
 const LOOK_INTERVAL: Duration = Duration::from_millis(3);
 /// That reads what the system tells of every process, and a renderer takes longer to begin.
@@ -145,18 +148,19 @@ impl Show {
         let before = self.newest(newest).unwrap_or(newest);
         signal(process, signal_name);
         if signal_name == "SEGV" {
-            // Rust looks at the first for a stack that is full; a fault would come again by itself.
+            // Rust looks at the first for a stack that is full, and goes on; a fault would come again by itself.
+            sleep(LOOK_FOR_PROCESS);
             signal(process, signal_name);
         }
         let since = Instant::now();
         let has_another = || children(keeper).iter().any(|&child| child != process);
-        while !has_another() && since.elapsed() < LIMIT {
+        while !has_another() && since.elapsed() < COMES_BACK_WITHIN {
             sleep(LOOK_FOR_PROCESS);
         }
         // What was drawn before its end may still be shown; a new renderer does not get that far in no time.
         let mut newest = self.newest(before).unwrap_or(before);
         let (first, mut shown) = (newest + 1, None);
-        while since.elapsed() < LIMIT {
+        while since.elapsed() < COMES_BACK_WITHIN {
             newest = self.newest(newest).unwrap_or(newest);
             let has_shown = (first..=newest).any(|frame| self.picture(frame, backend).exists());
             shown = shown.or_else(|| has_shown.then(|| since.elapsed()));

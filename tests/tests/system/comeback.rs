@@ -9,7 +9,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// A machine that does other things as well takes a few times as long as it should.
-const COMES_BACK_WITHIN: Duration = Duration::from_secs(8);
+const BACK_WITHIN: Duration = Duration::from_secs(8);
 
 /// All that a launcher started, from the ranks down.
 fn descendants(launcher: u32) -> Vec<u32> {
@@ -35,7 +35,7 @@ fn a_killed_and_a_stopped_renderer_come_back_to_the_complete_picture() {
         let kept = show.renderers();
         assert_eq!(kept.len(), BACKENDS as usize, "{kept:?}");
         let comeback = show.end(kept[backend], name, newest).expect("it comes back");
-        assert!(comeback.right < COMES_BACK_WITHIN, "{name}: {comeback:?}");
+        assert!(comeback.right < BACK_WITHIN, "{name}: {comeback:?}");
         newest = show.newest(newest).unwrap();
         // The others have been there all the time; one may be late for a frame.
         let is_right = |other: u32| (newest - 5..newest).any(|frame| show.is_right(frame, other));
