@@ -1,6 +1,6 @@
 //! A show on a cluster whose renderers are ended from outside, and what is seen of it meanwhile.
 
-use crate::processes::{children, command_line, signal, variable};
+use crate::processes::{children, command_line, is_there, signal, variable};
 use crate::program::{Ran, Running, SMALL_DISPLAY, cluster, lightloom, pictures, run, start};
 use std::collections::BTreeMap;
 use std::fs;
@@ -147,15 +147,14 @@ impl Show {
         let Kept { backend, keeper, process } = victim;
         let before = self.newest(newest).unwrap_or(newest);
         signal(process, signal_name);
-        if signal_name == "SEGV" {
-            // Rust looks at the first for a stack that is full, and goes on; a fault would come again by itself.
-            sleep(LOOK_FOR_PROCESS);
-            signal(process, signal_name);
-        }
         let since = Instant::now();
         let has_another = || children(keeper).iter().any(|&child| child != process);
         while !has_another() && since.elapsed() < COMES_BACK_WITHIN {
             sleep(LOOK_FOR_PROCESS);
+            if signal_name == "SEGV" && is_there(process) {
+                // Rust looks at the first for a stack that is full, and goes on; a fault would come again by itself.
+                signal(process, signal_name);
+            }
         }
         // What was drawn before its end may still be shown; a new renderer does not get that far in no time.
         let mut newest = self.newest(before).unwrap_or(before);

@@ -65,7 +65,7 @@ fn a_show_ends_well_while_a_renderer_is_away() {
     let processes = descendants(show.launcher());
     let ends_at = Duration::from_secs(12);
     sleep((ends_at.saturating_sub(show.age())).saturating_sub(Duration::from_secs(1)));
-    signal(show.renderers()[3].process, "STOP");
+    assert!(signal(show.renderers()[3].process, "STOP"));
     show.finish(LIMIT).succeeded();
     are_gone(&processes);
 }
@@ -73,9 +73,9 @@ fn a_show_ends_well_while_a_renderer_is_away() {
 #[test]
 fn a_launcher_that_is_asked_to_end_takes_renderers_along_also_stopped_ones() {
     let Some(show) = Show::begin(60) else { return };
-    signal(show.renderers()[0].process, "STOP");
+    assert!(signal(show.renderers()[0].process, "STOP"));
     let processes = descendants(show.launcher());
-    signal(show.launcher(), "TERM");
+    assert!(signal(show.launcher(), "TERM"));
     let limit = show.age() + Duration::from_secs(15);
     let ran = show.finish(limit);
     assert_ne!(ran.code, Some(0));
@@ -89,7 +89,7 @@ fn a_keeper_that_dies_ends_the_show_with_a_sentence() {
     let Some(show) = Show::begin(60) else { return };
     let processes = descendants(show.launcher());
     let victim = show.renderers()[1];
-    signal(victim.keeper, "KILL");
+    assert!(signal(victim.keeper, "KILL"));
     let limit = show.age() + Duration::from_secs(15);
     let ran = show.finish(limit);
     assert!(ran.code.is_some_and(|code| code != 0), "{ran:?}");
