@@ -4,6 +4,8 @@ pub mod blending_scenes;
 pub mod borders;
 pub mod closure_volume;
 pub mod cold_start;
+#[cfg(unix)]
+pub mod comeback;
 pub mod compare;
 pub mod data;
 pub mod draw;
@@ -17,6 +19,8 @@ pub mod octaves;
 pub mod phantoms;
 pub mod picture_difference;
 pub mod presented;
+#[cfg(unix)]
+pub mod processes;
 #[cfg(unix)]
 pub mod program;
 #[cfg(test)]

@@ -77,6 +77,8 @@ pub enum FromBackend {
     Finished,
     /// It cannot go on: one sentence.
     Failed(String),
+    /// From its keeper: it has ended, how in a sentence, and is started again. It says hello as it did at first.
+    Lost(String),
     /// At work, with nothing new to say.
     Alive,
 }

@@ -127,6 +127,8 @@ pub struct Setup {
     pub trace: Option<PathBuf>,
     /// Where the pictures of its beat go.
     pub screens: Screens,
+    /// Whether its rank keeps it as a process of its own, which is started again when it ends. Threads are anyway.
+    pub is_kept: bool,
 }
 
 /// What a back-end says of itself when it starts.

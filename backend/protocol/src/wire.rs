@@ -160,9 +160,8 @@ pub fn encode<M: WireMessage>(message: &M) -> Result<Vec<u8>, WireError> {
 /// [`BODY_LIMIT_BYTES`] and a small multiple of their own length.
 pub fn decode<M: WireMessage>(bytes: &[u8]) -> Result<M, WireError> {
     within(bytes.len(), MESSAGE_LIMIT_BYTES)?;
-    let word =
-        |at| bytes.get(at..at + size_of::<u32>()).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
-    let (Some(MAGIC), Some(theirs), Some(body_bytes)) = (word(0), word(VERSION_AT), word(BODY_LENGTH_AT))
+    let (Some(MAGIC), Some(theirs), Some(body_bytes)) =
+        (word(bytes, 0), word(bytes, VERSION_AT), word(bytes, BODY_LENGTH_AT))
     else {
         return Err(WireError::Foreign(bytes.len()));
     };
@@ -176,6 +175,16 @@ pub fn decode<M: WireMessage>(bytes: &[u8]) -> Result<M, WireError> {
     let mut message: M = decode_body(body)?;
     message.join(pixels)?;
     Ok(message)
+}
+
+/// Whether these bytes carry the numbers of a picture: who only passes messages on has no reason to decode those.
+pub fn has_picture(bytes: &[u8]) -> bool {
+    word(bytes, BODY_LENGTH_AT).is_some_and(|body_bytes| bytes.len() - BODY_AT > body_bytes as usize)
+}
+
+/// The number at a place of the header; None where the bytes end before it does.
+fn word(bytes: &[u8], at: usize) -> Option<u32> {
+    bytes.get(at..at + size_of::<u32>()).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes)
 }
 
 /// Fixed-width integers, so that the limit counts exactly the bytes that are read.

@@ -90,6 +90,7 @@ prop_compose! {
         };
         FromFrontend::Setup(Box::new(Setup {
             options, volume, screens: Screens { frontend: n % 2 == 0, outputs: n % 3 == 1 }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
+            is_kept: n % 7 == 0,
         }))
     }
 }
@@ -157,6 +158,7 @@ fn from_backend() -> impl Strategy<Value = FromBackend> {
         (any::<u32>(), any::<u64>()).prop_map(|(frame, at_us)| FromBackend::Shown { frame, at_us }),
         (any::<u64>(), any::<u64>()).prop_map(|(asked_us, here_us)| FromBackend::Clock { asked_us, here_us }),
         ".*".prop_map(FromBackend::Failed),
+        ".*".prop_map(FromBackend::Lost),
     ]
 }
 
@@ -168,13 +170,22 @@ proptest! {
 
     #[test]
     fn what_a_back_end_says_arrives(message in from_backend()) {
-        prop_assert_eq!(decode::<FromBackend>(&encode(&message).unwrap()).unwrap(), message);
+        let bytes = encode(&message).unwrap();
+        // A picture of no pixels has no numbers either.
+        let has_numbers = match &message {
+            FromBackend::Image(image) => !image.rgba.is_empty(),
+            FromBackend::Screen(image) => !image.rgb.is_empty(),
+            _ => false,
+        };
+        prop_assert_eq!(has_picture(&bytes), has_numbers);
+        prop_assert_eq!(decode::<FromBackend>(&bytes).unwrap(), message);
     }
 
     #[test]
     fn random_bytes_are_an_error_and_no_panic(bytes in vec(any::<u8>(), 0..300)) {
         prop_assert!(decode::<FromBackend>(&bytes).is_err());
         prop_assert!(decode::<FromFrontend>(&bytes).is_err());
+        let _ = has_picture(&bytes);
     }
 
     #[test]

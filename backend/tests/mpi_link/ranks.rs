@@ -167,6 +167,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         volume: volume(),
         trace: None,
         screens: Screens::default(),
+        is_kept: false,
     };
     (0..count as u32).map(setup).collect()
 }
@@ -244,7 +245,6 @@ fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
 
 pub fn be_worker() -> ExitCode {
     note(&format!("worker {}", process::id()), []);
-    let silence =
-        if case() == "front-end silent" { Duration::from_secs(2) } else { cluster::FRONTEND_SILENCE };
-    cluster::work(open, silence)
+    let silence = if case() == "front-end silent" { Duration::from_secs(2) } else { rank::FRONTEND_SILENCE };
+    rank::work(open, silence)
 }

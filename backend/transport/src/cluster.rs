@@ -1,41 +1,23 @@
-//! Back-ends as ranks of an MPI job: rank 0 is the front-end, rank i + 1 is back-end i.
-//!
-//! The first message between two ranks is an introduction: role (1 byte), process number (4 bytes, little-endian),
-//! host name (the rest). It says which rank claims to be what before anything waits, and whose process to look
-//! for later.
+//! The front-end's end of back-ends that are ranks of an MPI job: rank 0 is the front-end, rank i + 1 is back-end i.
 
-use super::launch::{HOW_TO_LAUNCH, fail};
-use super::link::{Link, LinkError, WorkerLink};
+use super::introduction::{FRONTEND_RANK, IS_BACKEND, IS_FRONTEND, await_introduction, introduction};
+use super::launch::HOW_TO_LAUNCH;
+use super::link::{Link, LinkError};
 use super::mpi::Messenger;
-use super::opened::Opened;
 use super::pause::Pause;
-use super::roster::{Peer, Roster, WHAT_TO_DO};
-use super::worker::{WorkerError, serve};
-use super::{process, watchdog};
+use super::roster::{Roster, WHAT_TO_DO};
+use super::watchdog;
 use protocol::wire::{decode, encode};
-use protocol::{FromBackend, FromFrontend, Setup};
-use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use protocol::{FromBackend, FromFrontend};
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-
-const FRONTEND_RANK: usize = 0;
-const IS_FRONTEND: u8 = 1;
-const IS_BACKEND: u8 = 2;
-
-/// How long the introductions may take; the launcher may start the ranks one after another.
-const INTRODUCTIONS: Duration = Duration::from_secs(60);
 
 /// How often to check that back-ends' processes run.
 const LOOK_INTERVAL: Duration = Duration::from_millis(200);
 
 /// How long messages of a dead back-end may still arrive before it counts as lost.
 const LAST_MESSAGES: Duration = Duration::from_millis(300);
-
-/// How long a back-end goes on without hearing from the front-end. Two minutes, because a front-end may be busy with
-/// pictures between two frames; in longer work it calls [`super::Session::keep_alive`]. A front-end that dies on the
-/// same host is noticed in a second whatever this says.
-pub const FRONTEND_SILENCE: Duration = Duration::from_secs(120);
 
 /// The front-end's end of back-ends that are ranks.
 pub struct ClusterLink {
@@ -87,39 +69,6 @@ fn second_frontend(messenger: &mut Messenger, rank: usize) -> LinkError {
         std::thread::sleep(Duration::from_millis(10));
     }
     LinkError::Launch(two_frontends(rank))
-}
-
-fn introduction(role: u8) -> Arc<[u8]> {
-    let mut bytes = vec![role];
-    bytes.extend(std::process::id().to_le_bytes());
-    bytes.extend(process::host().as_bytes());
-    bytes.into()
-}
-
-fn await_introduction(messenger: &mut Messenger, rank: usize) -> Result<(u8, Peer), LinkError> {
-    let since = Instant::now();
-    let mut pause = Pause::default();
-    while since.elapsed() < INTRODUCTIONS {
-        if let Some(bytes) = messenger.poll(rank).map_err(LinkError::Launch)? {
-            return read_introduction(rank, &bytes).ok_or_else(|| {
-                LinkError::Launch(format!(
-                    "rank {rank} does not run lightloom; start the job with `{HOW_TO_LAUNCH}`"
-                ))
-            });
-        }
-        pause.wait(messenger.is_moving());
-    }
-    let seconds = INTRODUCTIONS.as_secs();
-    Err(LinkError::Launch(format!(
-        "rank {rank} has not introduced itself in {seconds} s; see whether it started"
-    )))
-}
-
-fn read_introduction(rank: usize, bytes: &[u8]) -> Option<(u8, Peer)> {
-    let (&role, rest) = bytes.split_first()?;
-    let (process, host) = rest.split_first_chunk()?;
-    let host = std::str::from_utf8(host).ok()?.to_owned();
-    Some((role, Peer::new(rank, host, u32::from_le_bytes(*process))))
 }
 
 impl ClusterLink {
@@ -202,7 +151,7 @@ impl Link for ClusterLink {
         self.roster().activity = activity.to_owned();
     }
 
-    /// A launcher ends the job when a rank ends.
+    /// A launcher ends the job when a rank ends; the renderers of a show are not ranks.
     fn revive(&mut self, _: usize) -> Result<bool, LinkError> {
         Ok(false)
     }
@@ -217,105 +166,5 @@ impl Link for ClusterLink {
         // Losing a back-end no longer matters from here on.
         *self.roster() = Roster { activity: "working on what was drawn".to_owned(), ..Roster::default() };
         Ok(())
-    }
-}
-
-/// A back-end's end, in its own rank.
-struct RankLink {
-    messenger: Messenger,
-    silence: Duration,
-    is_parting: Arc<AtomicBool>,
-    /// True once the launcher ends the job.
-    is_ended: Arc<AtomicBool>,
-}
-
-impl RankLink {
-    /// Joins the job as a back-end.
-    fn connect(silence: Duration, is_ended: Arc<AtomicBool>) -> Result<Self, LinkError> {
-        let mut messenger = Messenger::start().map_err(LinkError::Launch)?;
-        if messenger.rank() == FRONTEND_RANK {
-            return Err(LinkError::Launch(format!(
-                "rank 0 must be the front-end; start with `{HOW_TO_LAUNCH}`"
-            )));
-        }
-        messenger.post(FRONTEND_RANK, introduction(IS_BACKEND)).map_err(LinkError::FrontendEnded)?;
-        let (_, frontend) = await_introduction(&mut messenger, FRONTEND_RANK)?;
-        let is_parting = Arc::new(AtomicBool::new(false));
-        watchdog::guard_backend(frontend, Arc::clone(&is_parting), Arc::clone(&is_ended))
-            .map_err(LinkError::Launch)?;
-        Ok(Self { messenger, silence, is_parting, is_ended })
-    }
-
-    fn check_end(&self) -> Result<(), LinkError> {
-        match self.is_ended.load(Ordering::SeqCst) {
-            true => Err(LinkError::FrontendEnded("the launcher ended the run".to_owned())),
-            false => Ok(()),
-        }
-    }
-
-    fn finish(mut self) -> Result<(), LinkError> {
-        self.is_parting.store(true, Ordering::SeqCst);
-        let has_parted = watchdog::guard_parting("lightloom-backend").map_err(LinkError::Launch)?;
-        self.messenger.end();
-        has_parted.store(true, Ordering::SeqCst);
-        Ok(())
-    }
-}
-
-impl WorkerLink for RankLink {
-    fn send(&mut self, message: FromBackend) -> Result<(), LinkError> {
-        self.messenger.post(FRONTEND_RANK, encode(&message)?.into()).map_err(LinkError::FrontendEnded)?;
-        let since = Instant::now();
-        let mut pause = Pause::default();
-        while self.messenger.is_sending().map_err(LinkError::FrontendEnded)? {
-            self.check_end()?;
-            if since.elapsed() > self.silence {
-                return Err(LinkError::FrontendEnded("it takes no messages any more".to_owned()));
-            }
-            pause.wait(true);
-        }
-        Ok(())
-    }
-
-    fn receive(&mut self, timeout: Duration) -> Result<FromFrontend, LinkError> {
-        let since = Instant::now();
-        let mut pause = Pause::default();
-        loop {
-            self.check_end()?;
-            if let Some(bytes) = self.messenger.poll(FRONTEND_RANK).map_err(LinkError::FrontendEnded)? {
-                return Ok(decode(&bytes)?);
-            }
-            if since.elapsed() >= timeout {
-                return Err(LinkError::Silent);
-            }
-            pause.wait(self.messenger.is_moving());
-        }
-    }
-
-    fn frontend_silence(&self) -> Duration {
-        self.silence
-    }
-}
-
-/// The whole life of a back-end process: joins the job, serves the front-end, leaves. The front-end shows the
-/// renderer's errors; this prints only what the front-end cannot know.
-pub fn work<M>(make: M, frontend_silence: Duration) -> ExitCode
-where
-    M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
-{
-    let is_ended = Arc::new(AtomicBool::new(false));
-    let link = RankLink::connect(frontend_silence, Arc::clone(&is_ended)).map_err(WorkerError::from);
-    let ended = link.and_then(|mut link| {
-        serve(&mut link, make)?;
-        Ok(link.finish()?)
-    });
-    if is_ended.load(Ordering::SeqCst) {
-        // What the renderer writes is complete; the watchdog ends this process, as the launcher asked.
-        std::thread::sleep(2 * watchdog::STAY);
-    }
-    match ended {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(WorkerError::Failed(_)) => ExitCode::FAILURE,
-        Err(error) => fail("lightloom-backend", &error.to_string()),
     }
 }

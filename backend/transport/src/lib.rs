@@ -7,7 +7,11 @@
 //! | `worker` | a back-end's side: the thread that passes messages on |
 //! | `render_loop` | a back-end's thread that draws |
 //! | `threads` | back-ends as threads of this process |
-//! | `cluster` | back-ends as ranks of an MPI job |
+//! | `cluster` | back-ends as ranks of an MPI job: the front-end's end |
+//! | `rank` | a back-end's end, in its rank |
+//! | `introduction` | the first message between two ranks |
+//! | `restarts` | how long to wait before a renderer is started again |
+//! | `keeping` | a rank that keeps a renderer as its child, and starts it again |
 //! | `mpi` | bytes between ranks, the only file that calls MPI |
 //! | `roster`, `watchdog`, `process` | who takes part, and who is still there |
 //! | `launch` | how this process was started, and how it ends when a run cannot go on |
@@ -15,6 +19,10 @@
 pub mod beat;
 #[cfg(feature = "mpi")]
 pub mod cluster;
+#[cfg(feature = "mpi")]
+mod introduction;
+#[cfg(feature = "mpi")]
+pub mod keeping;
 pub mod launch;
 mod limits;
 mod link;
@@ -24,9 +32,12 @@ mod opened;
 #[cfg(feature = "mpi")]
 mod pause;
 mod process;
+#[cfg(feature = "mpi")]
+pub mod rank;
 mod render_loop;
 #[cfg(test)]
 mod restart_tests;
+mod restarts;
 #[cfg(feature = "mpi")]
 mod roster;
 pub mod session;

@@ -17,13 +17,20 @@ pub struct Pause {
 impl Pause {
     /// Waits; `is_moving` keeps the wait short, because a transfer advances only while both ends poll it.
     pub fn wait(&mut self, is_moving: bool) {
+        match self.length(is_moving) {
+            Duration::ZERO => std::thread::yield_now(),
+            length => std::thread::sleep(length),
+        }
+    }
+
+    /// How long to wait this time, for who has something else to wait for; zero is to let others run.
+    pub fn length(&mut self, is_moving: bool) -> Duration {
         if self.yields < YIELDS {
             self.yields += 1;
-            std::thread::yield_now();
-            return;
+            return Duration::ZERO;
         }
         let longest = if is_moving { SHORTEST } else { LONGEST };
         self.next = (self.next * 2).clamp(SHORTEST, longest);
-        std::thread::sleep(self.next);
+        self.next
     }
 }

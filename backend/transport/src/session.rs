@@ -236,7 +236,7 @@ impl Session {
     ) -> Result<(), SessionError> {
         let taken = match message {
             FromBackend::Alive => Answer::Pending,
-            FromBackend::Failed(sentence) => {
+            FromBackend::Failed(sentence) | FromBackend::Lost(sentence) => {
                 let (name, activity) = (self.link.name(backend), self.activity.clone());
                 return Err(SessionError::Failed { name, activity, sentence });
             }

@@ -26,6 +26,7 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
         volume: volume(),
         trace: None,
         screens: Screens::default(),
+        is_kept: false,
     };
     (0..count).map(setup).collect()
 }

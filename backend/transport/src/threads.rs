@@ -3,6 +3,7 @@
 use super::link::{Link, LinkError, WorkerLink};
 use super::opened::Opened;
 use super::render_loop::panic_sentence;
+use super::restarts::Restarts;
 use super::worker::serve;
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, never, unbounded};
 use protocol::{FromBackend, FromFrontend, Setup};
@@ -27,6 +28,7 @@ pub struct ThreadLink {
     outboxes: Vec<Sender<FromFrontend>>,
     inbox: Receiver<(usize, Parcel)>,
     threads: Vec<JoinHandle<()>>,
+    restarts: Vec<Restarts>,
     /// Starts a back-end, with a link of its own.
     start: Box<dyn Fn(ThreadWorkerLink) -> std::io::Result<JoinHandle<()>> + Send>,
     /// Where what they say goes.
@@ -37,6 +39,10 @@ struct ThreadWorkerLink {
     backend: usize,
     inbox: Receiver<FromFrontend>,
     outbox: Sender<(usize, Parcel)>,
+    /// Those before it ended soon after their start, so it waits before it begins.
+    wait: Duration,
+    /// What came while it waited.
+    came: Option<FromFrontend>,
 }
 
 /// Starts `count` back-ends; each opens its renderer with `make`. When the link is dropped they end by themselves.
@@ -54,11 +60,13 @@ where
         outboxes: Vec::new(),
         inbox,
         threads: Vec::new(),
+        restarts: Vec::new(),
         start: Box::new(start),
         outbox: Some(outbox),
     };
     for backend in 0..count {
-        let (to_worker, thread) = link.start(backend)?;
+        let (to_worker, thread) = link.start(backend, Duration::ZERO)?;
+        link.restarts.push(Restarts::default());
         link.outboxes.push(to_worker);
         link.threads.push(thread);
     }
@@ -66,11 +74,15 @@ where
 }
 
 impl ThreadLink {
-    fn start(&self, backend: usize) -> Result<(Sender<FromFrontend>, JoinHandle<()>), LinkError> {
+    fn start(
+        &self,
+        backend: usize,
+        wait: Duration,
+    ) -> Result<(Sender<FromFrontend>, JoinHandle<()>), LinkError> {
         let failed = |how: String| LinkError::Ended { backend, how };
         let outbox = self.outbox.clone().ok_or_else(|| failed("the run is over".to_owned()))?;
         let (to_worker, inbox) = unbounded();
-        let thread = (self.start)(ThreadWorkerLink { backend, inbox, outbox });
+        let thread = (self.start)(ThreadWorkerLink { backend, inbox, outbox, wait, came: None });
         let thread = thread.map_err(|error| failed(format!("no thread could be started: {error}")))?;
         Ok((to_worker, thread))
     }
@@ -80,6 +92,7 @@ fn run<M>(mut link: ThreadWorkerLink, make: Arc<M>)
 where
     M: Fn(Setup) -> Result<Opened, String> + Send + Sync + 'static,
 {
+    link.hold_off();
     let how = match catch_unwind(AssertUnwindSafe(|| serve(&mut link, move |setup| make(setup)))) {
         Ok(Ok(())) => "its thread ended".to_owned(),
         Ok(Err(error)) => error.to_string(),
@@ -110,7 +123,12 @@ impl Link for ThreadLink {
 
     fn receive(&mut self, timeout: Duration) -> Result<(usize, FromBackend), LinkError> {
         match self.inbox.recv_timeout(timeout) {
-            Ok((backend, Parcel::Message(message))) => Ok((backend, message)),
+            Ok((backend, Parcel::Message(message))) => {
+                if let FromBackend::Ready(_) = message {
+                    self.restarts[backend].ready(Instant::now());
+                }
+                Ok((backend, message))
+            }
             Ok((backend, Parcel::Ended(how))) => Err(LinkError::Ended { backend, how }),
             Err(RecvTimeoutError::Timeout) => Err(LinkError::Silent),
             Err(RecvTimeoutError::Disconnected) => {
@@ -122,7 +140,8 @@ impl Link for ThreadLink {
     fn set_activity(&mut self, _: &str) {}
 
     fn revive(&mut self, backend: usize) -> Result<bool, LinkError> {
-        let (outbox, thread) = self.start(backend)?;
+        let wait = self.restarts[backend].ended(Instant::now());
+        let (outbox, thread) = self.start(backend, wait)?;
         (self.outboxes[backend], self.threads[backend]) = (outbox, thread);
         Ok(true)
     }
@@ -148,12 +167,24 @@ impl Link for ThreadLink {
     }
 }
 
+impl ThreadWorkerLink {
+    /// Waits as it was told to; the end of the run cuts it short.
+    fn hold_off(&mut self) {
+        if !self.wait.is_zero() {
+            self.came = self.inbox.recv_timeout(self.wait).ok();
+        }
+    }
+}
+
 impl WorkerLink for ThreadWorkerLink {
     fn send(&mut self, message: FromBackend) -> Result<(), LinkError> {
         self.outbox.send((self.backend, Parcel::Message(message))).map_err(|_| frontend_dropped())
     }
 
     fn receive(&mut self, timeout: Duration) -> Result<FromFrontend, LinkError> {
+        if let Some(message) = self.came.take() {
+            return Ok(message);
+        }
         self.inbox.recv_timeout(timeout).map_err(|error| match error {
             RecvTimeoutError::Timeout => LinkError::Silent,
             RecvTimeoutError::Disconnected => frontend_dropped(),

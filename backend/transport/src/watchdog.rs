@@ -88,6 +88,15 @@ pub fn guard_backend(
     })
 }
 
+/// In a kept renderer: stays a moment when the launcher ends the job, so that its keeper, which is told too, does not take
+/// it for lost.
+pub fn guard_kept() -> Result<(), String> {
+    on_termination(|| {
+        sleep(STAY);
+        exit(TERMINATED);
+    })
+}
+
 /// Ends the process when finalising MPI does not return, because a rank was lost on the way out. What it returns
 /// cancels this.
 pub fn guard_parting(program: &'static str) -> Result<Arc<AtomicBool>, String> {

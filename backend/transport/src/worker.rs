@@ -41,11 +41,21 @@ pub fn serve<M>(link: &mut dyn WorkerLink, make: M) -> Result<(), WorkerError>
 where
     M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
 {
-    link.send(FromBackend::Hello(Hello {
-        protocol: PROTOCOL_VERSION,
-        host: process::host(),
-        process: std::process::id(),
-    }))?;
+    greet(link)?;
+    attend(link, make)
+}
+
+/// Says hello.
+pub(super) fn greet(link: &mut dyn WorkerLink) -> Result<(), LinkError> {
+    let (host, process) = (process::host(), std::process::id());
+    link.send(FromBackend::Hello(Hello { protocol: PROTOCOL_VERSION, host, process }))
+}
+
+/// Serves a front-end that was greeted.
+pub(super) fn attend<M>(link: &mut dyn WorkerLink, make: M) -> Result<(), WorkerError>
+where
+    M: FnOnce(Setup) -> Result<Opened, String> + Send + 'static,
+{
     let renderer = match RenderThread::start(make) {
         Ok(renderer) => renderer,
         Err(error) => {

@@ -90,7 +90,7 @@ impl Backends {
         volume: &VolumeRef,
         display: &Display,
     ) -> Result<Drawing, FrontendError> {
-        let setups = self.setups(options, volume, display, Screens::default());
+        let setups = self.setups(options, volume, display, None);
         let stop = Arc::clone(&self.stop);
         let session = self.session(setups)?;
         let devices = session.devices().to_vec();
@@ -105,17 +105,18 @@ impl Backends {
         display: &Display,
         showing: &Showing,
     ) -> Result<Drive, FrontendError> {
-        let setups = self.setups(options, volume, display, showing.at);
+        let setups = self.setups(options, volume, display, Some(showing.at));
         let session = self.session(setups.clone())?;
         Ok(Drive::new(session, setups, showing.period, showing.time))
     }
 
+    /// What each is set up with; `shown_at` says where the pictures of a show go, and is None where there is none.
     fn setups(
         &self,
         options: &BackendOptions,
         volume: &VolumeRef,
         display: &Display,
-        screens: Screens,
+        shown_at: Option<Screens>,
     ) -> Vec<Setup> {
         let setups = self.wiring.shares.iter().zip(0..).map(|(share, backend)| Setup {
             options: RendererOptions {
@@ -130,7 +131,8 @@ impl Backends {
             },
             volume: volume.clone(),
             trace: options.traces.as_deref().map(|folder| trace::path(folder, backend)),
-            screens,
+            screens: shown_at.unwrap_or_default(),
+            is_kept: shown_at.is_some(),
         });
         setups.collect()
     }

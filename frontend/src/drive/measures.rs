@@ -29,6 +29,7 @@ pub struct Measures {
     pub(super) skew: Histogram,
     pub(super) latency: Histogram,
     pub(super) drawing: BTreeMap<usize, Histogram>,
+    away: BTreeMap<usize, Histogram>,
     /// Frames that were shown by all, or by all that were in time.
     pub(super) shown: u64,
 }
@@ -57,6 +58,8 @@ pub struct BackendBeat {
     pub late: u64,
     /// How often it was lost and started again.
     pub lost: u64,
+    /// From each loss to the next frame that it showed.
+    pub away_ms: Quantiles,
 }
 
 impl Measures {
@@ -100,6 +103,11 @@ impl Measures {
         frames.into_iter().for_each(|frame| self.close(frame));
     }
 
+    /// A back-end that was lost shows a frame again, after so long.
+    pub fn came_back(&mut self, backend: usize, away: Duration) {
+        self.away.entry(backend).or_default().add(away);
+    }
+
     /// Counts a frame that all show that were in time.
     fn close(&mut self, frame: u32) {
         let Some(open) = self.open.get(&frame) else { return };
@@ -111,8 +119,10 @@ impl Measures {
         let last = times.iter().max().copied().unwrap_or_default();
         self.skew.add(last - first);
         self.latency.add(last.saturating_sub(open.began));
-        if let Some(before) = self.last_shown.replace(first) {
-            self.interval.add(first.saturating_sub(before));
+        // A frame that one never said it shows is counted once that one is lost, after those that came later.
+        if self.last_shown.is_none_or(|before| first > before) {
+            let before = self.last_shown.replace(first);
+            before.iter().for_each(|&before| self.interval.add(first - before));
         }
         self.shown += 1;
         self.open.remove(&frame);
@@ -120,7 +130,9 @@ impl Measures {
 
     /// What is known by now; `late` and `lost` of each back-end.
     pub fn summary(&self, late: &[u64], lost: &[u64]) -> BeatSummary {
-        let drawing = |backend| self.drawing.get(&backend).map(Histogram::quantiles).unwrap_or_default();
+        let of = |times: &BTreeMap<usize, Histogram>, backend: usize| {
+            times.get(&backend).map(Histogram::quantiles).unwrap_or_default()
+        };
         let backends = late.iter().zip(lost).enumerate();
         BeatSummary {
             frames: self.shown,
@@ -128,7 +140,12 @@ impl Measures {
             skew_ms: self.skew.quantiles(),
             input_to_shown_ms: self.latency.quantiles(),
             backends: backends
-                .map(|(backend, (&late, &lost))| BackendBeat { drawing_ms: drawing(backend), late, lost })
+                .map(|(backend, (&late, &lost))| BackendBeat {
+                    drawing_ms: of(&self.drawing, backend),
+                    late,
+                    lost,
+                    away_ms: of(&self.away, backend),
+                })
                 .collect(),
         }
     }
@@ -157,6 +174,27 @@ mod tests {
         assert_eq!((frames, interval_ms.max, skew_ms.max, input_to_shown_ms.max), (2, 20.0, 1.0, 17.0));
         assert_eq!(backends.iter().map(|b| b.drawing_ms.max).collect::<Vec<_>>(), [4.0, 8.0, 30.0]);
         assert_eq!(backends[2].late, 2);
+    }
+
+    #[test]
+    fn a_frame_that_waits_for_one_that_is_lost_makes_no_interval_between_others() {
+        let (mut measures, ms) = (Measures::default(), Duration::from_millis);
+        for frame in 0..10 {
+            let start = 20 * u64::from(frame);
+            measures.began(frame, ms(start));
+            measures.drawn(0, frame, 4.0);
+            if frame == 2 {
+                measures.drawn(1, frame, 4.0);
+            }
+            measures.ordered(frame);
+            measures.shown(0, frame, ms(start + 16));
+        }
+        measures.lost(1);
+        measures.came_back(1, ms(250));
+        let summary = measures.summary(&[0, 8], &[0, 1]);
+        assert_eq!((summary.frames, summary.interval_ms.max), (10, 40.0));
+        let away: Vec<f64> = summary.backends.iter().map(|backend| backend.away_ms.max).collect();
+        assert_eq!(away, [0.0, 250.0]);
     }
 
     #[test]

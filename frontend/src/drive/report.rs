@@ -118,11 +118,26 @@ impl DriveReport {
         let row = |(number, (beat, backend)): (usize, (&super::BackendBeat, &BackendSummary))| {
             let Quantiles { p50, p99, max, .. } = beat.drawing_ms;
             let times = [p50, p99, max].map(|ms| format!("{ms:.1}"));
-            let counts = [beat.late.to_string(), beat.lost.to_string()];
+            let away = match beat.away_ms.count {
+                0 => String::new(),
+                _ => format!("{:.2} / {:.2}", beat.away_ms.p50 / 1e3, beat.away_ms.max / 1e3),
+            };
+            let counts = [beat.late.to_string(), beat.lost.to_string(), away];
             [vec![format!("{number}: {}", backend.device.adapter)], times.to_vec(), counts.to_vec()].concat()
         };
         let rows: Vec<_> =
             self.played.beat.backends.iter().zip(&self.backends).enumerate().map(row).collect();
-        table(&["back-end", "draws a frame in, ms", "99 %", "largest", "late", "lost"], &rows)
+        table(
+            &[
+                "back-end",
+                "draws a frame in, ms",
+                "99 %",
+                "largest",
+                "late",
+                "lost",
+                "away, s: median / largest",
+            ],
+            &rows,
+        )
     }
 }

@@ -181,7 +181,17 @@ impl Show<'_, '_> {
                 self.measures.ordered(frame);
                 self.screens.ordered(frame, at, now)?;
             }
-            Happening::Shown { backend, frame, at } => self.measures.shown(backend, frame, at),
+            Happening::Shown { backend, frame, at, away } => {
+                self.measures.shown(backend, frame, at);
+                if let Some(away) = away {
+                    self.measures.came_back(backend, away);
+                    let (name, count) = (self.drive.name(backend), self.lost[backend]);
+                    let seconds = away.as_secs_f64();
+                    self.trouble(format!(
+                        "{name} shows again, {seconds:.2} s after it was lost (loss {count} of this show)"
+                    ));
+                }
+            }
             Happening::Said { backend, sentence } => {
                 let name = self.drive.name(backend);
                 self.trouble(format!("{name}: {sentence}"));
@@ -193,9 +203,12 @@ impl Show<'_, '_> {
                 let name = self.drive.name(backend);
                 self.trouble(format!("{name} is lost, and is started again: {why}"));
             }
-            Happening::Returned { backend } => {
-                let name = self.drive.name(backend);
-                self.trouble(format!("{name} draws again"));
+            Happening::Standstill { backend, time } => {
+                let (name, seconds) = (self.drive.name(backend), time.as_secs());
+                self.trouble(format!(
+                    "{name} has drawn nothing for {seconds} s; a frame is that much work for it, or its graphics driver \
+                     or the disk with the volume is stuck"
+                ));
             }
             Happening::Due { .. } | Happening::Stopped => {}
         }

@@ -1,7 +1,7 @@
 //! A back-end process that dies ends the run with a sentence that names it, within seconds.
 
+use lightloom_tests::processes::{children, command_line, is_there, ticks};
 use lightloom_tests::program::{cluster, files, run, start};
-use std::fs;
 use std::process::Command;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -14,32 +14,11 @@ const DRAWING_WITHIN: Duration = Duration::from_secs(60);
 
 const BACKENDS: u32 = 3;
 
-/// The processes whose command line holds a word, by their numbers.
-fn processes(is_wanted: impl Fn(&str) -> bool) -> Vec<u32> {
-    let numbers = fs::read_dir("/proc").into_iter().flatten().flatten();
-    let numbers = numbers.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
-    numbers
-        .filter(|n| fs::read_to_string(format!("/proc/{n}/cmdline")).is_ok_and(|c| is_wanted(&c)))
-        .collect()
-}
-
 /// The back-ends of this job: by the launcher that started them.
 fn backends_of(launcher: u32) -> Vec<u32> {
-    let mut backends = processes(|line| line.contains("lightloom-backend"));
-    backends.retain(|process| parent(*process) == Some(launcher));
+    let mut backends = children(launcher);
+    backends.retain(|&process| command_line(process).contains("lightloom-backend"));
     backends
-}
-
-fn parent(process: u32) -> Option<u32> {
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    stat.rsplit_once(") ")?.1.split(' ').nth(1)?.parse().ok()
-}
-
-/// Processor time a process has used, in ticks of the clock.
-fn ticks(process: u32) -> u64 {
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
-    let fields = stat.rsplit_once(") ").map_or("", |(_, fields)| fields);
-    fields.split(' ').skip(11).take(2).filter_map(|field| field.parse::<u64>().ok()).sum()
 }
 
 /// Waits until every back-end has worked for a while.
@@ -54,11 +33,6 @@ fn await_drawing(launcher: u32) -> Vec<u32> {
         assert!(since.elapsed() < DRAWING_WITHIN, "the back-ends {backends:?} do not draw");
         sleep(Duration::from_millis(50));
     }
-}
-
-fn is_there(process: u32) -> bool {
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
-    stat.rsplit_once(") ").is_some_and(|(_, fields)| !fields.starts_with(['Z', 'X']))
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod accuracy;
 mod bad_input;
 mod bad_volumes;
 mod careless;
+mod comeback;
 mod drive;
 mod export;
 mod idle_backends;

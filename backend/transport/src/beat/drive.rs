@@ -1,14 +1,14 @@
 //! The front-end's side of a driven display: frames on the beat, over a link.
 
+use super::attendance::{Attendance, Presence};
 use super::clocks::OtherClock;
+use super::happening::Happening;
 use super::rhythm::{Beat, Rhythm, Step};
 use super::time::Time;
 use crate::link::{Link, LinkError};
 use crate::session::Session;
 use crate::session_error::SessionError;
-use protocol::{
-    DeviceInfo, FrameReport, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION, ScreenImage, Setup,
-};
+use protocol::{DeviceInfo, FrameState, FromBackend, FromFrontend, PROTOCOL_VERSION, Setup};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -16,8 +16,14 @@ use std::time::{Duration, Instant};
 /// How long to listen before anything else is looked after.
 const TICK: Duration = Duration::from_millis(50);
 
+/// What the run is doing, for sentences.
+const ACTIVITY: &str = "driving the display";
+
 /// How often back-ends are asked for their clocks.
 const ASK_INTERVAL: Duration = Duration::from_millis(200);
+
+/// How often back-ends hear that the front-end is alive, where it has no questions.
+const ALIVE_INTERVAL: Duration = Duration::from_secs(1);
 
 /// How long to wait for the next word of what is under way when the show is over.
 const LONGEST_SETTLING: Duration = Duration::from_secs(5);
@@ -28,81 +34,6 @@ const LEAD: Duration = Duration::from_millis(3);
 /// Enough for every back-end of a machine to show its pictures before any of them draws again.
 const BREATH: Duration = Duration::from_millis(1);
 
-/// What happens while a display is driven.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
-    /// A frame is due: hand it over with [`Drive::draw`].
-    Due {
-        /// Its number.
-        frame: u32,
-        /// When it will be seen, on the display's clock.
-        seen_at: Duration,
-    },
-    /// What screens will show of the frame that the back-end draws.
-    Screen {
-        /// The back-end.
-        backend: usize,
-        /// The picture.
-        image: ScreenImage,
-    },
-    /// A back-end has drawn a frame.
-    Drawn {
-        /// The back-end.
-        backend: usize,
-        /// Its account.
-        report: Box<FrameReport>,
-    },
-    /// All are told to show a frame.
-    Ordered {
-        /// Its number.
-        frame: u32,
-        /// When, on the display's clock.
-        at: Duration,
-    },
-    /// A back-end shows a frame.
-    Shown {
-        /// The back-end.
-        backend: usize,
-        /// Its number.
-        frame: u32,
-        /// Since when, on the display's clock, as well as it is known.
-        at: Duration,
-    },
-    /// Something has happened at a back-end, and the show goes on.
-    Said {
-        /// The back-end.
-        backend: usize,
-        /// A sentence.
-        sentence: String,
-    },
-    /// A back-end cannot go on; the others do, and it is started again.
-    Lost {
-        /// The back-end.
-        backend: usize,
-        /// A sentence.
-        why: String,
-    },
-    /// A back-end that was lost draws again.
-    Returned {
-        /// The back-end.
-        backend: usize,
-    },
-    /// Somebody asked the run to end.
-    Stopped,
-}
-
-/// Where a back-end is between being lost and drawing again.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Presence {
-    There,
-    /// It failed and was let go.
-    Leaving,
-    /// It was started again and has not said hello.
-    Greeting,
-    /// It opens its volume and device.
-    Opening,
-}
-
 /// A display that is driven.
 pub struct Drive {
     link: Box<dyn Link>,
@@ -112,10 +43,15 @@ pub struct Drive {
     beat: Beat,
     time: Time,
     clocks: Vec<OtherClock>,
-    presence: Vec<Presence>,
+    attendance: Vec<Attendance>,
     /// The latest frame that each was told to show and has drawn, until it says that it shows it.
     owes_show: Vec<Option<u32>>,
     asked_clocks_at: Option<Duration>,
+    /// The latest frame that was asked for.
+    latest: Option<FrameState>,
+    /// The latest frame that all were told to show.
+    ordered: Option<u32>,
+    said_alive_at: Instant,
 }
 
 impl Drive {
@@ -133,9 +69,12 @@ impl Drive {
             beat: Beat::new(Rhythm { period, lead, breath }, backends, time.now()),
             time,
             clocks: vec![OtherClock::default(); backends],
-            presence: vec![Presence::There; backends],
+            attendance: vec![Attendance::default(); backends],
             owes_show: vec![None; backends],
             asked_clocks_at: None,
+            latest: None,
+            ordered: None,
+            said_alive_at: Instant::now(),
         }
     }
 
@@ -166,6 +105,10 @@ impl Drive {
     pub fn draw(&mut self, frame: &FrameState) -> Result<(), SessionError> {
         self.tell_all(&FromFrontend::Beat(Box::new(frame.clone())))?;
         self.beat.begin(self.time.now());
+        for backend in self.there() {
+            self.attendance[backend].asked(Instant::now());
+        }
+        self.latest = Some(frame.clone());
         Ok(())
     }
 
@@ -187,6 +130,9 @@ impl Drive {
     /// The same, but it waits no longer than a moment; None where nothing happened.
     fn poll(&mut self) -> Result<Option<Happening>, SessionError> {
         self.ask_clocks()?;
+        if let Some(standstill) = self.look_for_standstill() {
+            return Ok(Some(standstill));
+        }
         let now = self.time.now();
         let until = match self.beat.step(now) {
             Step::Begin { .. } if self.time.is_stepped() && self.is_anything_under_way() => None,
@@ -235,8 +181,8 @@ impl Drive {
     /// Whether a back-end is drawing, or about to show what it has drawn.
     fn is_anything_under_way(&self) -> bool {
         self.beat.owing().next().is_some()
-            || (0..self.presence.len()).any(|backend| {
-                self.presence[backend] != Presence::There
+            || (0..self.attendance.len()).any(|backend| {
+                !self.attendance[backend].is_there()
                     || self.owes_show[backend]
                         .is_some_and(|frame| self.beat.latest_of(backend) >= Some(frame))
             })
@@ -245,6 +191,7 @@ impl Drive {
     /// Tells all to show a frame.
     fn show(&mut self, frame: u32, at: Duration) -> Result<Happening, SessionError> {
         let at_us = at.as_micros() as u64;
+        self.ordered = Some(frame);
         for backend in self.there() {
             let there_us = (!self.time.is_stepped()).then(|| self.clocks[backend].there(at_us));
             self.tell(backend, &FromFrontend::Show { frame, at_us: there_us })?;
@@ -253,10 +200,24 @@ impl Drive {
         Ok(Happening::Ordered { frame, at })
     }
 
+    /// A back-end that has drawn nothing for long, if that is not known yet.
+    fn look_for_standstill(&mut self) -> Option<Happening> {
+        let now = Instant::now();
+        let mut each = self.attendance.iter_mut().enumerate();
+        each.find_map(|(backend, one)| Some(Happening::Standstill { backend, time: one.standstill(now)? }))
+    }
+
+    /// Asks for clocks, now and then; where time only steps it just says that somebody is there.
     fn ask_clocks(&mut self) -> Result<(), SessionError> {
+        if self.time.is_stepped() {
+            if self.said_alive_at.elapsed() < ALIVE_INTERVAL {
+                return Ok(());
+            }
+            self.said_alive_at = Instant::now();
+            return self.tell_all(&FromFrontend::Alive);
+        }
         let now = self.time.now();
-        let is_early = self.asked_clocks_at.is_some_and(|before| now < before + ASK_INTERVAL);
-        if self.time.is_stepped() || is_early {
+        if self.asked_clocks_at.is_some_and(|before| now < before + ASK_INTERVAL) {
             return Ok(());
         }
         self.asked_clocks_at = Some(now);
@@ -271,29 +232,34 @@ impl Drive {
         let misfit = |drive: &Self, what: &str| {
             Err(SessionError::Misfit { name: drive.link.name(backend), what: what.to_owned() })
         };
-        Ok(match (message, self.presence[backend]) {
+        Ok(match (message, self.attendance[backend].presence()) {
+            (FromBackend::Failed(sentence), _) if !self.attendance[backend].has_drawn() => {
+                let (name, activity) = (self.link.name(backend), ACTIVITY.to_owned());
+                return Err(SessionError::Failed { name, activity, sentence });
+            }
             (FromBackend::Failed(why), _) => {
                 self.tell(backend, &FromFrontend::Quit)?;
-                Some(self.lose(backend, why))
+                Some(self.lose(backend, Presence::Leaving, why))
             }
+            (FromBackend::Lost(why), _) => Some(self.lose(backend, Presence::Greeting, why)),
             (FromBackend::Hello(hello), Presence::Greeting) if hello.protocol == PROTOCOL_VERSION => {
-                self.presence[backend] = Presence::Opening;
+                self.attendance[backend].comes(Presence::Opening);
                 let setup = self.setups[backend].clone();
                 self.tell(backend, &FromFrontend::Setup(Box::new(setup)))?;
                 None
             }
             (FromBackend::Ready(info), Presence::Opening) => {
                 self.devices[backend] = info;
-                self.presence[backend] = Presence::There;
-                self.clocks[backend] = OtherClock::default();
-                self.beat.returned(backend);
-                Some(Happening::Returned { backend })
+                self.welcome(backend)?;
+                None
             }
             (FromBackend::Alive | FromBackend::Progress { .. }, _) => None,
             // What is left of one that was let go.
             (_, Presence::Leaving) => None,
             (FromBackend::Drawn(report), Presence::There) => {
                 self.beat.drawn(backend, report.frame, now);
+                let owes_more = self.beat.owing().any(|owing| owing == backend);
+                self.attendance[backend].drew(owes_more, Instant::now());
                 Some(Happening::Drawn { backend, report })
             }
             (FromBackend::Screen(image), Presence::There) => Some(Happening::Screen { backend, image }),
@@ -304,7 +270,8 @@ impl Drive {
                     true => now,
                     false => Duration::from_micros(self.clocks[backend].here(at_us)),
                 };
-                Some(Happening::Shown { backend, frame, at })
+                let away = self.attendance[backend].shows(Instant::now());
+                Some(Happening::Shown { backend, frame, at, away })
             }
             (FromBackend::Clock { asked_us, here_us }, Presence::There) => {
                 self.clocks[backend].learn(asked_us, here_us, now.as_micros() as u64);
@@ -314,21 +281,45 @@ impl Drive {
         })
     }
 
-    fn lose(&mut self, backend: usize, why: String) -> Happening {
-        self.presence[backend] = Presence::Leaving;
+    fn lose(&mut self, backend: usize, presence: Presence, why: String) -> Happening {
+        self.attendance[backend].lose(presence, Instant::now());
         self.owes_show[backend] = None;
         self.beat.lost(backend);
         Happening::Lost { backend, why }
     }
 
+    /// A back-end that was lost takes part again: it draws the present frame, however far the next one is.
+    fn welcome(&mut self, backend: usize) -> Result<(), SessionError> {
+        self.attendance[backend].comes(Presence::There);
+        self.clocks[backend] = OtherClock::default();
+        self.beat.returned(backend);
+        if !self.time.is_stepped() {
+            // Without it nobody knows when anything is for a process that has just begun.
+            let asked_us = self.time.now().as_micros() as u64;
+            self.tell(backend, &FromFrontend::Clock { asked_us })?;
+        }
+        let Some(frame) = self.latest.clone() else { return Ok(()) };
+        let index = frame.index;
+        if !self.attendance[backend].may_catch_up_with(index) {
+            return Ok(());
+        }
+        self.tell(backend, &FromFrontend::Beat(Box::new(frame)))?;
+        if self.ordered >= Some(index) {
+            self.tell(backend, &FromFrontend::Show { frame: index, at_us: None })?;
+            self.owes_show[backend] = Some(index);
+        }
+        self.beat.asked(backend, index, self.time.now());
+        self.attendance[backend].asked(Instant::now());
+        Ok(())
+    }
+
     /// A back-end has ended: starts it again.
     fn revive(&mut self, backend: usize, how: String) -> Result<Option<Happening>, SessionError> {
-        let was_known = self.presence[backend] == Presence::Leaving;
+        let was_known = self.attendance[backend].presence() == Presence::Leaving;
         if !self.link.revive(backend).map_err(|error| self.explain(error))? {
             return Err(self.explain(LinkError::Ended { backend, how }));
         }
-        let lost = self.lose(backend, how);
-        self.presence[backend] = Presence::Greeting;
+        let lost = self.lose(backend, Presence::Greeting, how);
         Ok((!was_known).then_some(lost))
     }
 
@@ -337,17 +328,18 @@ impl Drive {
     /// # Errors
     /// They cannot be reached any more.
     pub fn finish(&mut self) -> Result<(), SessionError> {
-        self.tell_all(&FromFrontend::Quit)?;
+        // Also to those that are away: their keepers are there.
+        self.link.broadcast(&FromFrontend::Quit).map_err(|error| self.explain(error))?;
         self.link.finish().map_err(|error| self.explain(error))
     }
 
     fn there(&self) -> Vec<usize> {
-        (0..self.presence.len()).filter(|&backend| self.presence[backend] == Presence::There).collect()
+        (0..self.attendance.len()).filter(|&backend| self.attendance[backend].is_there()).collect()
     }
 
     fn tell_all(&mut self, message: &FromFrontend) -> Result<(), SessionError> {
         let there = self.there();
-        let told = match there.len() == self.presence.len() {
+        let told = match there.len() == self.attendance.len() {
             true => self.link.broadcast(message),
             false => there.into_iter().try_for_each(|backend| self.link.send(backend, message)),
         };
@@ -359,7 +351,7 @@ impl Drive {
     }
 
     fn explain(&self, error: LinkError) -> SessionError {
-        SessionError::of_link(error, "driving the display".to_owned(), |backend| self.link.name(backend))
+        SessionError::of_link(error, ACTIVITY.to_owned(), |backend| self.link.name(backend))
     }
 }
 

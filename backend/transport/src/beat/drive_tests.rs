@@ -3,7 +3,7 @@
 use super::*;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::{Limits, Opened, threads};
-use protocol::{Advance, DrawError, ProjectorImage, Render, Screens, StopAsked};
+use protocol::{Advance, DrawError, ProjectorImage, Render, ScreenImage, Screens, StopAsked};
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU32;
 
@@ -89,15 +89,21 @@ fn play(drive: &mut Drive, frames: u32) -> Seen {
 
 fn note(seen: &mut Seen, happening: Happening) {
     match happening {
-        Happening::Shown { backend, frame, at } => seen.shown.entry(backend).or_default().push((frame, at)),
+        Happening::Shown { backend, frame, at, away } => {
+            seen.returned += usize::from(away.is_some());
+            seen.shown.entry(backend).or_default().push((frame, at));
+        }
         Happening::Ordered { frame, at } => drop(seen.ordered.insert(frame, at)),
         Happening::Lost { why, .. } => seen.lost.push(why),
-        Happening::Returned { .. } => seen.returned += 1,
         Happening::Screen { backend, image } => {
             let number = u32::from_le_bytes([image.rgb[0], image.rgb[1], image.rgb[2], 0]);
             seen.pictures.entry(backend).or_default().push(number);
         }
-        Happening::Said { .. } | Happening::Drawn { .. } | Happening::Due { .. } | Happening::Stopped => {}
+        Happening::Drawn { .. }
+        | Happening::Said { .. }
+        | Happening::Standstill { .. }
+        | Happening::Due { .. }
+        | Happening::Stopped => {}
     }
 }
 
@@ -156,11 +162,12 @@ fn one_that_hangs_is_late_and_the_others_go_on() {
 
 #[test]
 fn those_that_fail_or_panic_come_back_while_the_others_go_on() {
-    // Each frame fails once only: who comes back is not asked for it again, but counts begin anew with a thread.
     let failures = Arc::new(AtomicU32::new(0));
     let counted = Arc::clone(&failures);
+    let failed = AtomicU32::new(0);
     let fails = move |backend, frame| {
-        if backend == 1 && frame % 8 == 5 {
+        // Each frame fails once: who comes back may be asked for it again.
+        if backend == 1 && frame % 8 == 5 && failed.swap(frame, Ordering::SeqCst) != frame {
             match counted.fetch_add(1, Ordering::SeqCst) % 2 {
                 0 => return Err("the volume went away".to_owned()),
                 _ => panic!("a fault"),
@@ -181,4 +188,32 @@ fn those_that_fail_or_panic_come_back_while_the_others_go_on() {
         assert!(shown as f64 >= LEAST_SHARE * 200.0, "{backend} shows {shown}");
     }
     assert!(seen.shown[&1].len() > 50);
+}
+
+#[test]
+fn a_frame_that_ends_the_only_back_end_each_time_is_left_out() {
+    let fails = |_, frame| match frame {
+        3 => Err("it is too much".to_owned()),
+        _ => Ok(Duration::from_millis(1)),
+    };
+    for time in [Time::Real, Time::stepped()] {
+        let mut drive = driving(1, time, Arc::new(fails));
+        let seen = play(&mut drive, 8);
+        assert_eq!(seen.lost.len(), 2, "it may try twice");
+        let frames: Vec<u32> = seen.shown[&0].iter().map(|shown| shown.0).collect();
+        assert_eq!(frames, [0, 1, 2, 4, 5, 6, 7]);
+    }
+}
+
+#[test]
+fn one_that_fails_in_its_first_frame_ends_the_show() {
+    let mut drive = driving(2, Time::Real, Arc::new(|_, _| Err("it cannot be drawn".to_owned())));
+    let error = loop {
+        match drive.await_next() {
+            Ok(Happening::Due { frame: index, .. }) => drive.draw(&frame(index)).unwrap(),
+            Ok(other) => assert!(!matches!(other, Happening::Lost { .. })),
+            Err(error) => break error.to_string(),
+        }
+    };
+    assert!(error.contains("failed while driving the display: it cannot be drawn"), "{error}");
 }

@@ -117,6 +117,10 @@ impl Beat {
         let is_missing = |member: &&Member| member.is_expected && !member.is_lost && !has_drawn(member);
         let is_any_there = self.members.iter().any(has_drawn);
         let is_over = current.deadline.is_some_and(|deadline| now >= deadline);
+        if !is_any_there && self.is_given_up(current.frame) {
+            (self.current, self.next_begin) = (None, now);
+            return Step::Wait { until: Some(now) };
+        }
         let is_whole = !self.members.iter().any(|member| is_missing(&member));
         if !is_any_there || !(is_whole || is_over) {
             return Step::Wait { until: current.deadline.filter(|_| is_any_there) };
@@ -133,6 +137,12 @@ impl Beat {
         let next = (self.next_begin + self.rhythm.period).as_nanos() / period * period;
         self.next_begin = now.max(nanoseconds(next) + self.rhythm.breath);
         Step::Show { frame: current.frame, at }
+    }
+
+    /// Whether those that were asked for a frame are lost, and one is there that was not.
+    fn is_given_up(&self, frame: u32) -> bool {
+        let mut there = self.members.iter().filter(|member| !member.is_lost).peekable();
+        there.peek().is_some() && there.all(|member| member.asked.is_none_or(|asked| asked.0 != frame))
     }
 
     /// A frame that is due has been sent to all back-ends that are there.
@@ -167,9 +177,16 @@ impl Beat {
             Member { is_lost: true, late: self.members[backend].late, ..Member::default() };
     }
 
-    /// A back-end that was gone is there again, and takes part from the next frame on.
+    /// A back-end that was gone is there again. It takes part from the next frame on, and is behind until it has drawn one:
+    /// its volume is not loaded yet.
     pub fn returned(&mut self, backend: usize) {
-        self.members[backend].is_lost = false;
+        let member = &mut self.members[backend];
+        (member.is_lost, member.is_behind) = (false, true);
+    }
+
+    /// A back-end was asked for a frame out of turn.
+    pub fn asked(&mut self, backend: usize, frame: u32, now: Duration) {
+        self.members[backend].asked = Some((frame, now));
     }
 
     /// Frames that were shown without each back-end.
@@ -195,7 +212,7 @@ impl Beat {
     /// A back-end takes as long as the slower of the middle ones: of two, the faster.
     fn typical(&self) -> Option<Duration> {
         let there = self.members.iter().filter(|member| !member.is_lost);
-        let mut times: Vec<f64> = there.map(|member| member.typical_s).collect::<Option<_>>()?;
+        let mut times: Vec<f64> = there.filter_map(|member| member.typical_s).collect();
         times.sort_by(f64::total_cmp);
         times.get(times.len().checked_sub(1)? / 2).map(|&s| Duration::from_secs_f64(s))
     }

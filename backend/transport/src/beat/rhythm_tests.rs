@@ -245,6 +245,46 @@ fn one_that_is_lost_is_not_waited_for_and_comes_back() {
     assert_eq!(beat.late(), [0, 1], "it has missed one");
 }
 
+#[test]
+fn a_frame_that_ends_all_who_draw_it_is_given_up() {
+    let (mut beat, ms) = (Beat::new(RHYTHM, 1, Duration::ZERO), Duration::from_millis);
+    beat.begin(ms(0));
+    beat.lost(0);
+    assert_eq!(beat.step(ms(5)), Step::Wait { until: None });
+    beat.returned(0);
+    beat.asked(0, 0, ms(50));
+    assert_eq!(beat.step(ms(51)), Step::Wait { until: None }, "it tries again");
+    beat.lost(0);
+    beat.returned(0);
+    assert_eq!(beat.step(ms(90)), Step::Wait { until: Some(ms(90)) });
+    assert!(matches!(beat.step(ms(90)), Step::Begin { frame: 1, .. }));
+    beat.begin(ms(90));
+    beat.drawn(0, 1, ms(95));
+    assert!(matches!(beat.step(ms(95)), Step::Show { frame: 1, .. }));
+}
+
+#[test]
+fn nobody_waits_for_one_that_comes_back_and_takes_long_to_draw_its_first_frame() {
+    let (mut beat, ms) = (Beat::new(RHYTHM, 2, Duration::ZERO), Duration::from_millis);
+    beat.begin(ms(0));
+    beat.drawn(0, 0, ms(5));
+    beat.drawn(1, 0, ms(5));
+    assert!(matches!(beat.step(ms(5)), Step::Show { frame: 0, .. }));
+    beat.lost(1);
+    beat.returned(1);
+    beat.begin(ms(17));
+    beat.drawn(0, 1, ms(22));
+    assert!(matches!(beat.step(ms(22)), Step::Show { frame: 1, .. }));
+    beat.begin(ms(34));
+    beat.drawn(1, 1, ms(36));
+    beat.drawn(1, 2, ms(40));
+    beat.drawn(0, 2, ms(40));
+    assert!(matches!(beat.step(ms(40)), Step::Show { frame: 2, .. }));
+    beat.begin(ms(51));
+    beat.drawn(0, 3, ms(55));
+    assert!(matches!(beat.step(ms(56)), Step::Wait { .. }), "it is one of them again");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     /// However long anything takes: every back-end shows rising frames, every frame is ordered once and in order, and all
