@@ -1,5 +1,6 @@
 //! Projectors generated on a line.
 
+use super::finish::finish;
 use super::raw::{Covers, RawLine};
 use super::source::Source;
 use crate::wiring::even_shares;
@@ -20,6 +21,7 @@ pub(super) fn projectors(
     let backend_of = backends(source, raw, count)?;
     let ends = (source.centre("from_m", &raw.from_m)?, source.centre("to_m", &raw.to_m)?);
     let raster = raster(source, raw, screen)?;
+    let finish = finish(source, raw.finish.as_ref())?;
     let digits = (count - 1).to_string().len();
     (0..count)
         .zip(backend_of)
@@ -31,7 +33,8 @@ pub(super) fn projectors(
                 });
             }
             let name = format!("projector-{index:0digits$}");
-            Ok(Projector { name, centre_in_display, raster: raster.clone(), backend })
+            let (raster, finish) = (raster.clone(), finish.clone());
+            Ok(Projector { name, centre_in_display, raster, backend, finish })
         })
         .collect()
 }
