@@ -34,7 +34,7 @@ fn shells(display: &Display) -> Result<TestScene, String> {
         &vec![(0.15, 0.0), (0.35, 0.03), (0.5, 0.0), (0.6, 0.0), (0.75, 0.15), (0.9, 0.02), (1.0, 0.3)],
         &vec![(0.2, [0.9, 0.35, 0.1]), (0.6, [0.1, 0.6, 0.9]), (1.0, [1.0, 0.95, 0.8])],
     );
-    let place = placed(&*source, 0.8 * display.height_m, DQuat::from_rotation_y(0.4));
+    let place = placed(&*source, 1.6 * display.height_m, DQuat::from_rotation_y(0.4));
     Ok(TestScene { name: "shells", frame: frame(display, place, optics, None), source })
 }
 

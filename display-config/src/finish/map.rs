@@ -1,11 +1,8 @@
 //! A picture of numbers from 0 to 1, for the pixels of a raster.
 
-use super::MapFault;
+use super::{MOST_MAP_PIXELS, MapFault};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Pixels of a map, at most: 4096 × 4096, more than any projector has.
-pub const MOST_MAP_PIXELS: u32 = 1 << 24;
 
 /// Shares of light over a raster, linear: 65535 is 1. It lies over the raster edge to edge, whatever its own size. Messages
 /// carry its numbers apart.

@@ -1,13 +1,11 @@
 //! A mesh: where the pixels of a projector fall on the screen, measured at the points of a grid.
 
-use super::MapFault;
+use super::{MOST_MESH_ALONG, MapFault};
 use crate::raster::is_strictly_convex;
 use glam::{DVec2, Vec2};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Points along an edge of a mesh, at most.
-pub const MOST_MESH_ALONG: u32 = 1025;
 /// Nothing of a display is farther away, metres.
 const FARTHEST_M: f32 = 1e6;
 

@@ -4,13 +4,15 @@
 //! curve, dither.
 
 mod fault;
+mod limits;
 mod map;
 mod mesh;
 mod transfer;
 
 pub use fault::MapFault;
-pub use map::{LightMap, MOST_MAP_PIXELS};
-pub use mesh::{MOST_MESH_ALONG, Mesh};
+pub use limits::{MOST_MAP_PIXELS, MOST_MESH_ALONG};
+pub use map::LightMap;
+pub use mesh::Mesh;
 pub use transfer::{Response, Transfer};
 
 use serde::{Deserialize, Serialize};

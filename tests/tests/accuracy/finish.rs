@@ -3,8 +3,7 @@
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use display_config::{CanonicalRaster, Display, EyeModel};
-use glam::UVec3;
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DAffine3, DQuat, DVec2, DVec3, UVec3};
 use lightloom_tests::calibrated::{self, LENS, MIRRORED_LENS};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::picture_difference::ImageDifference;
@@ -26,10 +25,12 @@ fn shells(display: &Display) -> TestScene {
     let source: Arc<dyn BrickSource> = Arc::new(volume);
     let optics = optics(
         (0.0, 1.0),
-        &vec![(0.15, 0.0), (0.35, 0.03), (0.5, 0.0), (0.6, 0.0), (0.75, 0.15), (1.0, 0.3)],
+        &vec![(0.15, 0.0), (0.35, 0.1), (0.5, 0.0), (0.6, 0.0), (0.75, 0.3), (1.0, 0.5)],
         &vec![(0.2, [0.9, 0.35, 0.1]), (0.6, [0.1, 0.6, 0.9]), (1.0, [1.0, 0.95, 0.8])],
     );
-    let place = placed(&*source, 0.8 * display.height_m, DQuat::from_rotation_y(0.4));
+    // Large, and set off the middle: what is mirrored shows.
+    let aside = DAffine3::from_translation(DVec3::new(0.05, 0.03, 0.0));
+    let place = aside * placed(&*source, 1.6 * display.height_m, DQuat::from_rotation_y(0.4));
     TestScene { name: "shells", frame: frame(display, place, optics, None), source }
 }
 

@@ -2,12 +2,14 @@
 
 mod map;
 mod mesh;
+mod number;
 mod transfer;
 
 use super::raw::RawFinish;
 use super::source::Source;
 use crate::finish::{BlackLevel, Finish, LightMap, MapFault, Transfer};
 use crate::{ConfigError, text::brief_text};
+use number::number;
 use std::path::{Path, PathBuf};
 use toml::{Spanned, Value};
 
@@ -66,15 +68,6 @@ fn black(source: &Source<'_>, value: &Spanned<Value>) -> Result<BlackLevel, Conf
         Some(&wrong) if wrong.is_finite() => Err(source.out_of_range(key, value.span(), wrong, A_LEVEL)),
         Some(_) => Err(ConfigError::NotFinite { place: source.place(key, value.span()) }),
         None => Ok(BlackLevel::Level(std::array::from_fn(|channel| numbers[channel] as f32))),
-    }
-}
-
-/// What is a number in TOML.
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Float(number) => Some(*number),
-        Value::Integer(number) => Some(*number as f64),
-        _ => None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The transfer curve of a projector, as its key gives it.
 
-use super::number;
+use super::number::number;
 use crate::ConfigError;
 use crate::finish::{Response, Transfer};
 use crate::parse::source::Source;

@@ -71,7 +71,7 @@ fn measured(knots: &[(f64, u8)], code: f64) -> f64 {
     match (beyond.checked_sub(1).map(|before| knots[before]), knots.get(beyond)) {
         (_, Some(&(light, known))) if f64::from(known) == code => light,
         (Some((low, from)), Some(&(high, to))) => {
-            low + (high - low) * (code - f64::from(from)) / f64::from(to - from)
+            low + (high - low) * (code - f64::from(from)) / (f64::from(to) - f64::from(from))
         }
         (None, _) => f64::NEG_INFINITY,
         (_, None) => f64::INFINITY,
