@@ -1,6 +1,6 @@
 //! A display: screen, observer, projectors.
 
-use crate::{BeamLaw, CanonicalRaster, Projector, RayError, Resolution};
+use crate::{BeamLaw, CanonicalRaster, Finish, Projector, RayError, Resolution};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,18 @@ pub struct Display {
 }
 
 impl Display {
+    /// The same display, with the finish of these projectors alone: no other is of use to who draws these.
+    #[must_use]
+    pub fn with_finishes_of(&self, projectors: &[u32]) -> Self {
+        let mut display = self.clone();
+        for (projector, index) in display.projectors.iter_mut().zip(0..) {
+            if !projectors.contains(&index) {
+                projector.finish = Finish::default();
+            }
+        }
+        display
+    }
+
     /// What it resolves, by depth.
     pub fn resolution(&self) -> Resolution {
         Resolution { pixel_size_m: self.pixel_size_m, angular_accuracy: self.angular_accuracy }

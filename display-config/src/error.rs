@@ -1,5 +1,6 @@
 //! What can be wrong with a display.
 
+use crate::finish::MapFault;
 use crate::raster::MOST_PIXELS;
 use crate::text::brief_number;
 use std::fmt;
@@ -124,6 +125,9 @@ pub enum ConfigError {
         "{place} has {count} of the keys screen_rect_m, homography and corners_m; give exactly one of them"
     )]
     Placement { place: Place, count: usize },
+    /// A file of a calibration that is none.
+    #[error("{place} names {}, {fault}", path.display())]
+    Map { place: Place, path: PathBuf, fault: MapFault },
     /// A raster that falls on a line, on a point, or across the horizon.
     #[error("{place} is singular: the raster has no area on the screen; measure it again")]
     SingularRaster { place: Place },

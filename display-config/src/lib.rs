@@ -4,6 +4,7 @@ mod beams;
 mod display;
 mod error;
 mod eye;
+mod finish;
 #[cfg(test)]
 mod fixed_seed;
 mod homography;
@@ -21,6 +22,7 @@ mod zone;
 pub use display::{Display, RATES_HZ};
 pub use error::{Clip, ConfigError, Place, RayError};
 pub use eye::EyeModel;
+pub use finish::{BlackLevel, Finish, LightMap, MapFault, Mesh, Response, Transfer};
 pub use homography::Homography;
 pub use output::{Output, Turn};
 pub use preset::presets;

@@ -1,6 +1,6 @@
 //! One projector of a display.
 
-use crate::{CanonicalRaster, Raster, Warp};
+use crate::{CanonicalRaster, Finish, Raster, Warp};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -11,10 +11,12 @@ pub struct Projector {
     pub name: String,
     /// E: its centre of projection, z < 0 behind the screen or z > 0 in front of it, never in the screen plane.
     pub centre_in_display: DVec3,
-    /// Its pixels.
+    /// Its pixels, as they are drawn; where a mesh says where they fall, the picture that it takes its light from.
     pub raster: Raster,
     /// Which back-end drives it, from 0.
     pub backend: u32,
+    /// From its picture to its codes.
+    pub finish: Finish,
 }
 
 impl Projector {

@@ -2,6 +2,7 @@
 
 pub mod blending_scenes;
 pub mod borders;
+pub mod calibrated;
 pub mod closure_volume;
 pub mod cold_start;
 #[cfg(unix)]

@@ -3,6 +3,7 @@
 mod draw;
 mod frame;
 mod image;
+mod maps;
 mod message;
 mod report;
 mod setup;

@@ -2,8 +2,10 @@
 
 use super::*;
 use crate::*;
-use display_config::{Display, Homography, Projector, Raster};
-use glam::{DAffine3, DMat3, DVec3, UVec3};
+use display_config::{
+    BlackLevel, Display, Finish, Homography, LightMap, Mesh, Projector, Raster, Response, Transfer,
+};
+use glam::{DAffine3, DMat3, DVec3, UVec3, Vec2};
 use optics::DebugView;
 use optics::{
     BandPicker, Curve, Enhancer, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality, Ramp, Trapezoid,
@@ -64,11 +66,42 @@ prop_compose! {
 }
 
 prop_compose! {
-    fn projector()(name in ".*", at in point(), size in any::<(u32, u32)>(), output in any::<Option<(String, u32, u32)>>())
-        -> Projector {
+    fn light_map()(width in 1_u32..6, height in 1_u32..6)(
+        shares in vec(any::<u16>(), (width * height) as usize), width in Just(width), height in Just(height),
+    ) -> LightMap {
+        LightMap::new(width, height, shares).unwrap()
+    }
+}
+
+prop_compose! {
+    fn mesh()(columns in 2_u32..7, rows in 2_u32..7, bow in 0.0_f32..0.1) -> Mesh {
+        let point = |x: u32, y: u32| Vec2::new(x as f32 * (1.0 + bow * y as f32), -(y as f32));
+        Mesh::new(columns, rows, (0..columns * rows).map(|i| point(i % columns, i / columns)).collect()).unwrap()
+    }
+}
+
+prop_compose! {
+    fn finish()(
+        mesh in proptest::option::of(mesh()), blend in proptest::option::of(light_map()), map in light_map(), kind in 0..3,
+        is_dithered in any::<bool>(),
+    ) -> Finish {
+        let response = Response::new(vec![(0.0, 1), (1.0, 250)]).unwrap();
+        let black = [None, Some(BlackLevel::Level([0.1, 0.2, 0.3])), Some(BlackLevel::Map(map))];
+        let measured = Transfer::Measured(Box::new([response.clone(), response.clone(), response]));
+        let transfer = [Transfer::Srgb, Transfer::Gamma(2.2), measured];
+        let kind = kind as usize;
+        Finish { mesh, blend, black: black[kind].clone(), transfer: transfer[kind].clone(), is_dithered }
+    }
+}
+
+prop_compose! {
+    fn projector()(
+        name in ".*", at in point(), size in any::<(u32, u32)>(), output in any::<Option<(String, u32, u32)>>(),
+        finish in finish(),
+    ) -> Projector {
         let screen_from_pixel = Homography(DMat3::from_cols(at, DVec3::Y, DVec3::Z));
         let raster = Raster { width: size.0, height: size.1, screen_from_pixel, output };
-        Projector { name, centre_in_display: at, raster, backend: size.0 }
+        Projector { name, centre_in_display: at, raster, backend: size.0, finish }
     }
 }
 
@@ -214,6 +247,24 @@ proptest! {
         prop_assert!(decode::<FromBackend>(&bytes[..at.index(bytes.len())]).is_err());
         bytes.push(0);
         prop_assert!(decode::<FromBackend>(&bytes).is_err());
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_setup_whose_maps_are_cut_or_lengthened_is_an_error(message in setup(), at in any::<prop::sample::Index>()) {
+        let mut bytes = encode(&message).unwrap();
+        prop_assert!(decode::<FromFrontend>(&bytes[..at.index(bytes.len())]).is_err());
+        bytes.push(0);
+        prop_assert!(decode::<FromFrontend>(&bytes).is_err());
+    }
+
+    #[test]
+    fn a_setup_with_a_changed_byte_is_no_panic(message in setup(), at in any::<prop::sample::Index>(), to in any::<u8>()) {
+        let mut bytes = encode(&message).unwrap();
+        let at = at.index(bytes.len());
+        bytes[at] = to;
+        let _ = decode::<FromFrontend>(&bytes);
     }
 }
 

@@ -45,6 +45,7 @@
 //! | `segmentation` | the published, step-dependent compositing over given segments |
 //! | `tracer` | one call per ray |
 //! | `errors` | how far pictures are from the truth |
+//! | `finish` | a projector's codes for a picture, stage by stage |
 
 mod accumulator;
 #[cfg(test)]
@@ -60,6 +61,7 @@ mod enhanced;
 mod enhancer;
 mod errors;
 mod field;
+mod finish;
 mod fit;
 mod ladder;
 #[cfg(test)]
@@ -95,6 +97,7 @@ use analytic::AnalyticField;
 pub use cubic::Cubic;
 pub use errors::Errors;
 pub use field::{Field, Levels, Piece, Visitor};
+pub use finish::{Filter, FinishTruth};
 pub use radiance::Radiance;
 pub use ray::{Line, Ray};
 pub use segmentation::{Segmentation, SegmentationError};

@@ -1,5 +1,6 @@
 //! Projectors listed one by one.
 
+use super::finish::finish;
 use super::output;
 use super::raw::RawProjector;
 use super::source::Source;
@@ -13,10 +14,11 @@ use toml::Spanned;
 pub(super) fn projectors(
     source: &Source<'_>,
     raw: &[Spanned<RawProjector>],
+    screen: DVec2,
 ) -> Result<Vec<Projector>, ConfigError> {
     let mut projectors: Vec<Projector> = Vec::with_capacity(raw.len());
     for entry in raw {
-        let projector = projector(source, entry)?;
+        let projector = projector(source, entry, screen)?;
         check_against_earlier(source, &projectors, &projector, entry.get_ref())?;
         projectors.push(projector);
     }
@@ -24,10 +26,15 @@ pub(super) fn projectors(
     Ok(projectors)
 }
 
-fn projector(source: &Source<'_>, entry: &Spanned<RawProjector>) -> Result<Projector, ConfigError> {
+fn projector(
+    source: &Source<'_>,
+    entry: &Spanned<RawProjector>,
+    screen: DVec2,
+) -> Result<Projector, ConfigError> {
     let raw = entry.get_ref();
     let (width, height) = source.raster_size(&raw.width_px, &raw.height_px)?;
-    let (key, span, screen_from_pixel) = placement(source, entry, DVec2::new(width.into(), height.into()))?;
+    let (key, span, screen_from_pixel) =
+        placement(source, entry, DVec2::new(width.into(), height.into()), screen)?;
     let output = raw.output.as_ref().map(|output| output::of_entry(source, output)).transpose()?;
     let raster = Raster { width, height, screen_from_pixel, output };
     if !raster.is_regular() {
@@ -38,6 +45,7 @@ fn projector(source: &Source<'_>, entry: &Spanned<RawProjector>) -> Result<Proje
         centre_in_display: source.centre("centre_m", &raw.centre_m)?,
         raster,
         backend: *raw.backend.get_ref(),
+        finish: finish(source, raw.finish.as_ref())?,
     })
 }
 
@@ -48,12 +56,18 @@ fn placement(
     source: &Source<'_>,
     entry: &Spanned<RawProjector>,
     pixels: DVec2,
+    screen: DVec2,
 ) -> Result<Placement, ConfigError> {
     let raw = entry.get_ref();
+    let has_mesh = raw.finish.as_ref().is_some_and(|finish| finish.mesh.is_some());
     match (&raw.screen_rect_m, &raw.homography, &raw.corners_m) {
         (Some(rectangle), None, None) => of_rectangle(source, rectangle, pixels),
         (None, Some(rows), None) => of_rows(source, rows),
         (None, None, Some(corners)) => of_corners(source, corners, pixels),
+        // A mesh takes its light from a picture of the whole screen: the one that row planes draw, and black beside it.
+        (None, None, None) if has_mesh => {
+            Ok(("projector", entry.span(), Homography::of_rectangle(pixels, -screen / 2.0, screen)))
+        }
         (rectangle, rows, corners) => {
             let given = [rectangle.is_some(), rows.is_some(), corners.is_some()];
             let count = given.into_iter().filter(|&is_given| is_given).count();

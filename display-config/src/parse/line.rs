@@ -1,5 +1,6 @@
 //! Projectors generated on a line.
 
+use super::finish::finish;
 use super::output;
 use super::raw::{Covers, RawLine};
 use super::source::Source;
@@ -22,6 +23,7 @@ pub(super) fn projectors(
     let ends = (source.centre("from_m", &raw.from_m)?, source.centre("to_m", &raw.to_m)?);
     let raster = raster(source, raw, screen)?;
     let outputs = output::of_line(source, raw, &backend_of)?;
+    let finish = finish(source, raw.finish.as_ref())?;
     let digits = (count - 1).to_string().len();
     (0..count)
         .zip(backend_of.into_iter().zip(outputs))
@@ -33,7 +35,8 @@ pub(super) fn projectors(
                 });
             }
             let name = format!("projector-{index:0digits$}");
-            Ok(Projector { name, centre_in_display, raster: Raster { output, ..raster.clone() }, backend })
+            let (raster, finish) = (Raster { output, ..raster.clone() }, finish.clone());
+            Ok(Projector { name, centre_in_display, raster, backend, finish })
         })
         .collect()
 }

@@ -1,6 +1,7 @@
 //! From the text of a display file to a display whose every number has been checked.
 
 mod entry;
+mod finish;
 mod line;
 mod output;
 mod raw;
@@ -15,13 +16,18 @@ use std::path::Path;
 use toml::Spanned;
 
 impl Display {
-    /// The display that a file's text describes. `file` is what messages call it.
+    /// The display that a file's text describes. `file` is what messages call it; files that it names are looked for in the
+    /// working folder.
     ///
     /// # Errors
     /// Text that is not TOML, unknown or missing keys, values of the wrong type or without meaning: each names the
     /// file, the line and the key. Nothing that changes the geometry has a default.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, ConfigError> {
-        let source = Source { text, file };
+        Self::from_toml_in(Path::new(""), text, file)
+    }
+
+    fn from_toml_in(folder: &Path, text: &str, file: &str) -> Result<Self, ConfigError> {
+        let source = Source { text, file, folder };
         checked(&source, &source.read()?)
     }
 
@@ -43,7 +49,7 @@ impl Display {
             });
         }
         let text = read_text(path).map_err(|cause| ConfigError::Read { path: path.to_owned(), cause })?;
-        Self::from_toml(&text, name_or_path)
+        Self::from_toml_in(path.parent().unwrap_or(Path::new("")), &text, name_or_path)
     }
 }
 
@@ -99,7 +105,7 @@ fn observer(source: &Source<'_>, raw: &RawDisplay) -> Result<DVec3, ConfigError>
 fn projectors(source: &Source<'_>, raw: &RawDisplay, screen: DVec2) -> Result<Vec<Projector>, ConfigError> {
     match (&raw.projector, &raw.projector_line) {
         (None, Some(line)) => line::projectors(source, line.get_ref(), screen),
-        (Some(list), None) if !list.get_ref().is_empty() => entry::projectors(source, list.get_ref()),
+        (Some(list), None) if !list.get_ref().is_empty() => entry::projectors(source, list.get_ref(), screen),
         (Some(_), Some(line)) => {
             Err(ConfigError::TwoLists { place: source.place("projector_line", line.span()) })
         }

@@ -2,7 +2,7 @@
 
 use crate::text::ListOf;
 use serde::Deserialize;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
@@ -45,6 +45,22 @@ pub(super) struct RawProjector {
     pub backend: Spanned<u32>,
     /// Absent where the projector is not to be driven.
     pub output: Option<Spanned<RawOutput>>,
+    /// Absent where pictures are sent as they are, in sRGB.
+    pub finish: Option<RawFinish>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct RawFinish {
+    /// A file.
+    pub mesh: Option<Spanned<String>>,
+    /// A file.
+    pub blend: Option<Spanned<String>>,
+    /// A number, three of them, or a file.
+    pub black_level: Option<Spanned<Value>>,
+    /// A name, a gamma, or measured pairs.
+    pub transfer: Option<Spanned<Value>>,
+    pub dither: Option<bool>,
 }
 
 #[derive(Deserialize)]
@@ -72,6 +88,8 @@ pub(super) struct RawLine {
     pub backends: Spanned<u32>,
     /// The connectors of each back-end, for its projectors in turn.
     pub outputs: Option<Spanned<Vec<Spanned<String>>>>,
+    /// The same for all of them.
+    pub finish: Option<RawFinish>,
 }
 
 /// Where the rasters of a line of projectors fall.

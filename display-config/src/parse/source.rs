@@ -6,6 +6,7 @@ use crate::text::{ListOf, brief_text, did_you_mean, with_suggestion};
 use crate::{ConfigError, Place};
 use glam::DVec3;
 use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
 
 /// Nothing of a display is longer, or farther away, metres.
@@ -15,6 +16,8 @@ pub(super) struct Source<'a> {
     pub text: &'a str,
     /// What messages call it.
     pub file: &'a str,
+    /// Where the files lie that it names.
+    pub folder: &'a Path,
 }
 
 impl Source<'_> {
@@ -132,6 +135,11 @@ impl Source<'_> {
         expected: &'static str,
     ) -> ConfigError {
         ConfigError::OutOfRange { place: self.place(key, span), value, expected }
+    }
+
+    /// A value of another type than the key's, or not among its choices.
+    pub fn wrong_value(&self, key: &str, span: Range<usize>, message: &str) -> ConfigError {
+        ConfigError::WrongType { place: self.place(key, span), message: message.to_owned() }
     }
 
     fn line(&self, offset: usize) -> usize {

@@ -100,7 +100,7 @@ fn wrong_keys_are_named_with_their_line() {
     assert_eq!(
         message("width_px = 800", "width_px = 800\ncolour = 1"),
         "two.toml, line 13: `colour` is not a key of this table; remove it, or use `name`, `centre_m`, `width_px`, \
-         `height_px`, `screen_rect_m`, `homography`, `corners_m`, `backend`, `output`"
+         `height_px`, `screen_rect_m`, `homography`, `corners_m`, `backend`, `output`, `finish`"
     );
     assert_eq!(
         message("backend = 1\n", ""),

@@ -8,4 +8,4 @@ mod read;
 pub use brief::{brief_number, brief_text};
 pub use list::ListOf;
 pub use nearest::{did_you_mean, with_suggestion};
-pub use read::read_text;
+pub use read::{read_bytes, read_text};

@@ -1,10 +1,10 @@
-//! Reads a text file whole.
+//! Reads a file whole.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-/// Longer files are mistakes, bytes: what people and their programs write by hand is far shorter.
+/// Longer files are mistakes, bytes: what people and their programs write for a display or a scene is far shorter.
 const MOST: u64 = 64 << 20;
 
 /// The text of a file.
@@ -12,15 +12,24 @@ const MOST: u64 = 64 << 20;
 /// # Errors
 /// Those of the file system; it is no regular file, too long, or no UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
+    let no_text = |_| Error::new(ErrorKind::InvalidData, "stream did not contain valid UTF-8");
+    String::from_utf8(read_bytes(path)?).map_err(no_text)
+}
+
+/// The bytes of a file.
+///
+/// # Errors
+/// Those of the file system; it is no regular file, or too long.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     // Before it is opened: a pipe would wait for somebody who writes.
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "it is no regular file"));
     }
-    let mut text = String::new();
-    File::open(path)?.take(MOST + 1).read_to_string(&mut text)?;
-    match text.len() as u64 > MOST {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MOST + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > MOST {
         true => Err(Error::new(ErrorKind::FileTooLarge, format!("it is longer than {} MiB", MOST >> 20))),
-        false => Ok(text),
+        false => Ok(bytes),
     }
 }
 

@@ -90,7 +90,8 @@ impl Backends {
         volume: &VolumeRef,
         display: &Display,
     ) -> Result<Drawing, FrontendError> {
-        let setups = self.setups(options, volume, display, None);
+        // Whole frames come as they are drawn: back-ends finish none of them.
+        let setups = self.setups(options, volume, &display.with_finishes_of(&[]), None);
         let stop = Arc::clone(&self.stop);
         let session = self.session(setups)?;
         let devices = session.devices().to_vec();
@@ -120,7 +121,7 @@ impl Backends {
     ) -> Vec<Setup> {
         let setups = self.wiring.shares.iter().zip(0..).map(|(share, backend)| Setup {
             options: RendererOptions {
-                display: display.clone(),
+                display: display.with_finishes_of(&share.projectors),
                 projectors: share.projectors.clone(),
                 backend,
                 device: options.device,

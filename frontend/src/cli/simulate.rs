@@ -27,6 +27,9 @@ pub struct SimulateArgs {
     /// Write linear OpenEXR pictures too.
     #[arg(long)]
     pub exr: bool,
+    /// Write what every projector is sent, too: its picture with the display's mesh, blend, black level and transfer curve.
+    #[arg(long)]
+    pub calibrated: bool,
     /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
     #[arg(long, value_name = "NAME", value_enum)]
     pub look: Option<LookName>,

@@ -37,6 +37,7 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         display,
         out: args.out.clone(),
         exr: args.exr,
+        calibrated: args.calibrated,
     };
     Job::prepare_output(&args.out)?;
     if let Some((path, text)) = args.save_scene.as_deref().zip(saved) {

@@ -3,15 +3,20 @@
 use super::text::SceneText;
 use super::*;
 use bricks::volume::{Space, VolumeFrame};
-use display_config::{Display, Homography, Projector, Raster};
+use display_config::{Display, Finish, Homography, Projector, Raster};
 use glam::{DAffine3, DMat3, DVec3, UVec3};
 use protocol::VolumeRef;
 use std::path::Path;
 
 pub(super) fn display() -> Display {
     let raster = Raster { width: 8, height: 6, screen_from_pixel: Homography(DMat3::IDENTITY), output: None };
-    let projector =
-        Projector { name: "p".into(), centre_in_display: DVec3::new(0.0, 0.0, -6.0), raster, backend: 0 };
+    let projector = Projector {
+        name: "p".into(),
+        centre_in_display: DVec3::new(0.0, 0.0, -6.0),
+        raster,
+        backend: 0,
+        finish: Finish::default(),
+    };
     Display {
         name: "test".into(),
         width_m: 1.6,

@@ -35,7 +35,8 @@ pub(super) fn remove_earlier_run(out: &Path) -> Result<(), OutputError> {
 /// Whether a frame's folder has a file of this name.
 fn is_picture(name: &str) -> bool {
     let stem = name.strip_suffix(".png").or_else(|| name.strip_suffix(".exr"));
-    let is_numbered = |stem| ["projector-", "eye-"].iter().any(|kind| number_after(stem, kind).is_some());
+    let is_numbered =
+        |stem| ["projector-", "calibrated-", "eye-"].iter().any(|kind| number_after(stem, kind).is_some());
     name == CONTACT_SHEET || stem.is_some_and(is_numbered)
 }
 
@@ -90,6 +91,7 @@ mod tests {
             "contact-sheet.png",
             "frame-0000/projector-00.png",
             "frame-0000/eye-0.exr",
+            "frame-0000/calibrated-00.png",
             "frame-0000/contact-sheet.png",
             "frame-12345/projector-123.exr",
         ];

@@ -41,6 +41,8 @@ pub struct Job {
     pub out: PathBuf,
     /// Whether linear OpenEXR pictures are wanted too.
     pub exr: bool,
+    /// Whether the codes that projectors are sent are wanted too.
+    pub calibrated: bool,
 }
 
 impl Job {

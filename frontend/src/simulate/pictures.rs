@@ -6,7 +6,8 @@ use crate::FrontendError;
 use display_config::Display;
 use glam::DVec2;
 use protocol::ProjectorImage;
-use renderer::output::{ContactSheet, OutputError, PictureRef, write_exr, write_png};
+use renderer::output::{ContactSheet, OutputError, PictureRef, write_codes, write_exr, write_png};
+use renderer::present::Finisher;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -34,8 +35,12 @@ impl<'a> FramePictures<'a> {
 
     /// A projector's file; numbers have as many digits as the largest.
     pub fn projector_file(&self, projector: usize, extension: &str) -> String {
+        format!("projector-{}.{extension}", self.number(projector))
+    }
+
+    fn number(&self, projector: usize) -> String {
         let digits = self.job.display.projectors.len().saturating_sub(1).to_string().len().max(2);
-        format!("projector-{projector:0digits$}.{extension}")
+        format!("{projector:0digits$}")
     }
 
     /// An eye's file.
@@ -56,10 +61,14 @@ impl<'a> FramePictures<'a> {
     fn try_take(&self, image: &ProjectorImage) -> Result<(), OutputError> {
         let projector = image.projector as usize;
         let picture = PictureRef::of(image)?;
-        if projector >= self.job.display.projectors.len() {
-            return Ok(());
-        }
+        let Some(known) = self.job.display.projectors.get(projector) else { return Ok(()) };
         self.write(picture, |extension| self.projector_file(projector, extension))?;
+        if self.job.calibrated {
+            let file = format!("calibrated-{}.png", self.number(projector));
+            // Its tables are made for each picture: those of all projectors would take more memory than they save time.
+            let codes = Finisher::new(known).codes(picture.rgba());
+            write_codes(&self.folder.join(file), known.raster.width, known.raster.height, &codes)?;
+        }
         hold(&self.sheet).add(image.projector, picture);
         self.eyes.add(image)
     }

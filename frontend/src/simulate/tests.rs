@@ -4,7 +4,7 @@ use super::*;
 use crate::report::{self, BackendSummary, LEGEND};
 use crate::scene::{Scene, VolumeFacts};
 use bricks::volume::VolumeFrame;
-use display_config::{Homography, Projector, Raster};
+use display_config::{Finish, Homography, Projector, Raster};
 use glam::{DMat3, DVec3, UVec3};
 use protocol::{DeviceInfo, Draw, DrawError, FrameReport, Pace, ProjectorImage, RenderEvent, Stages, Upkeep};
 use renderer::output::EyePlan;
@@ -30,6 +30,7 @@ fn display(projectors: u32) -> Display {
         centre_in_display: DVec3::new(0.1 * f64::from(index), 0.0, -6.0),
         raster: Raster { width: WIDTH, height: HEIGHT, screen_from_pixel, output: None },
         backend: 0,
+        finish: Finish::default(),
     };
     Display {
         name: "test".into(),
@@ -141,6 +142,7 @@ fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 
         eyes: vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }],
         out: out.to_owned(),
         exr: true,
+        calibrated: false,
     }
 }
 
@@ -325,4 +327,31 @@ fn a_folder_that_cannot_be_written_is_found_first() {
     std::fs::write(folder.path().join("file"), "").unwrap();
     let error = Job::prepare_output(&folder.path().join("file/out")).unwrap_err().to_string();
     assert!(error.starts_with("cannot write "), "{error}");
+}
+
+#[test]
+fn calibrated_codes_lie_beside_the_pictures_and_change_nothing_else() {
+    let [plain, calibrated] = [false, true].map(|calibrated| {
+        let folder = tempfile::tempdir().unwrap();
+        let mut job = job(folder.path(), 4, 1, |_| 0.25);
+        job.calibrated = calibrated;
+        let finish = Finish { transfer: display_config::Transfer::Gamma(1.0), ..Finish::default() };
+        job.display.projectors[2].finish = finish;
+        job.run(&mut source(4), &mut Progress::new(false)).unwrap();
+        let path = folder.path().join("frame-0000");
+        let read = |name: String| (name.clone(), std::fs::read(path.join(name)).unwrap());
+        files(&path).into_iter().map(read).collect::<std::collections::BTreeMap<_, _>>()
+    });
+    let (codes, others): (Vec<_>, Vec<_>) =
+        calibrated.into_iter().partition(|(name, _)| name.starts_with("calibrated-"));
+    assert_eq!(others, plain.clone().into_iter().collect::<Vec<_>>());
+    assert_eq!(codes.len(), 4);
+    for (name, bytes) in codes {
+        let as_drawn = &plain[&name.replace("calibrated", "projector")];
+        assert_eq!(
+            bytes == *as_drawn,
+            name != "calibrated-02.png",
+            "{name}: the third alone has another curve"
+        );
+    }
 }

@@ -10,6 +10,7 @@ mod debug_views;
 mod deviation;
 mod devices;
 mod eye;
+mod finish;
 mod flat_layers;
 mod hard_cases;
 mod idle_tools;

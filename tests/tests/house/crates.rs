@@ -18,7 +18,7 @@ pub const CRATES: [(&str, &str, &[&str]); 17] = [
     ("bricks", "backend/bricks", &["display-config", "layout", "optics"]),
     ("volumes", "backend/volumes", &["bricks"]),
     ("protocol", "backend/protocol", &["display-config", "optics"]),
-    ("reference", "backend/reference", &["bricks", "optics", "protocol"]),
+    ("reference", "backend/reference", &["bricks", "display-config", "optics", "protocol"]),
     // Its own tests compare it with the reference.
     (
         "renderer",

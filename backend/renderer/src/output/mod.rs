@@ -17,4 +17,4 @@ pub use eye::{EyePlan, EyeView};
 pub use picture::{Picture, PictureRef};
 pub use png::{encode_png, write_codes, write_png};
 pub use srgb::srgb_code;
-pub(crate) use srgb::srgb_codes;
+pub(crate) use srgb::{srgb_codes, srgb_light};

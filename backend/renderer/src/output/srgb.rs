@@ -36,14 +36,14 @@ fn encode(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// The inverse of [`encode`].
-fn decode(encoded: f64) -> f64 {
+/// The light of an encoded value on [0, 1]: the inverse of the encoding curve.
+pub(crate) fn srgb_light(encoded: f64) -> f64 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The smallest f32 that encodes to at least `encoded`.
 fn smallest_above(encoded: f64) -> f32 {
-    let mut x = decode(encoded) as f32;
+    let mut x = srgb_light(encoded) as f32;
     while encode(f64::from(x)) >= encoded {
         x = x.next_down();
     }
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn every_code_comes_back_from_its_own_value() {
         for code in 0..=255u8 {
-            assert_eq!(srgb_code(decode(f64::from(code) / 255.0) as f32), code);
+            assert_eq!(srgb_code(srgb_light(f64::from(code) / 255.0) as f32), code);
         }
     }
 

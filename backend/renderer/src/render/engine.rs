@@ -9,6 +9,7 @@ use super::shelf::Shelf;
 use super::stock::Stock;
 use super::table_cache::TableCache;
 use crate::device::{CacheWish, ChosenDevice, Device, open_device};
+use crate::present::Finisher;
 use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
 use bricks::{BrickSource, NodeKey};
 use protocol::{DeviceInfo, RendererOptions};
@@ -17,6 +18,8 @@ use std::sync::Arc;
 /// All that outlives a frame.
 pub(super) struct Engine {
     pub(super) options: RendererOptions,
+    /// Of each view: the projectors of the options, in their order.
+    pub(super) finishers: Vec<Finisher>,
     pub(super) device: Device,
     pub(super) set: WorkingSet,
     pub(super) stock: Stock,
@@ -43,9 +46,12 @@ impl Engine {
         };
         let ChosenDevice { device, info } =
             open_device(options.device, &options.adapter, options.filter, &cache)?;
+        let finisher =
+            |&projector: &u32| options.display.projectors.get(projector as usize).map(Finisher::new);
         let loader = Loader::new(Arc::clone(&source), loader_threads(), PANTRY_BYTES);
         let engine = Self {
             options: options.clone(),
+            finishers: options.projectors.iter().filter_map(finisher).collect(),
             // The shelf keeps one slot blank.
             set: WorkingSet::new(source.summary(NodeKey::ROOT), device.slots() - 1),
             shelf: Shelf::new(device.slots()),

@@ -8,7 +8,7 @@ use super::error::check;
 use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
-use crate::present::{Raster, Thresholds, reconstruct, screen_image};
+use crate::present::{Finisher, Raster, Thresholds, reconstruct, screen_image};
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
@@ -19,8 +19,8 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Takes a picture: projector, pixels along x and y, colours.
-type Sink<'a> = dyn FnMut(u32, [u32; 2], Cow<'_, [f32]>) + 'a;
+/// Takes a picture: projector, pixels along x and y, colours, and what makes codes of them.
+type Sink<'a> = dyn FnMut(u32, [u32; 2], Cow<'_, [f32]>, &Finisher) + 'a;
 
 /// The renderer of one back-end.
 pub struct Renderer {
@@ -124,7 +124,7 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), RenderError> {
-        self.show_finals(&mut |projector, [width, height], rgba| {
+        self.show_finals(&mut |projector, [width, height], rgba, _| {
             sink(ProjectorImage { projector, width, height, rgba: rgba.into_owned() });
         })
     }
@@ -136,7 +136,7 @@ impl Renderer {
             let started = std::time::Instant::now();
             let Some(view) = work.view_of(projector) else { continue };
             let (size, picture) = (work.setting.rays[view].raster, work.picture_of(view));
-            let Engine { easing, live, device, .. } = &mut *engine;
+            let Engine { easing, live, device, finishers, .. } = &mut *engine;
             let cast = device.picture(picture)?;
             let shown = if work.is_of_many() {
                 let raster = Raster { width: size[0] as usize, height: size[1] as usize };
@@ -147,7 +147,7 @@ impl Renderer {
                 cast
             };
             work.account.stages.readback_ms += milliseconds(started);
-            sink(projector, size, shown);
+            sink(projector, size, shown, &finishers[view]);
         }
         Ok(())
     }
@@ -187,7 +187,9 @@ impl Render for Renderer {
     }
 
     fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
-        Ok(self.show_finals(&mut |projector, size, rgba| sink(screen_image(projector, size, &rgba)))?)
+        Ok(self.show_finals(&mut |projector, size, rgba, finisher| {
+            sink(screen_image(projector, size, &rgba, finisher));
+        })?)
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

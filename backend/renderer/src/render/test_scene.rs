@@ -2,7 +2,7 @@
 
 use super::{RenderError, Renderer};
 use bricks::BrickSource;
-use display_config::{Display, Homography, Projector, Raster};
+use display_config::{Display, Finish, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
 use optics::{Curve, Light, Optics, Quality};
 use protocol::{FrameReport, FrameState, RenderEvent, RendererOptions};
@@ -25,6 +25,7 @@ pub(super) fn display() -> Display {
         centre_in_display: DVec3::new(x, 0.0, -1.5),
         raster: raster(48, 36),
         backend: 0,
+        finish: Finish::default(),
     };
     Display {
         name: "test".into(),

@@ -1,0 +1,74 @@
+//! From the picture of one projector to its codes: warp, blend, black level, transfer curve, dither; each left out where it
+//! is the identity.
+
+mod black;
+mod blend;
+mod dither;
+mod spread;
+mod transfer;
+mod warp;
+
+use black::Black;
+use blend::Blend;
+use display_config::Projector;
+use rayon::prelude::*;
+use transfer::Curve;
+use warp::Warp;
+
+/// The stages of one projector, with tables for its pixels.
+pub struct Finisher {
+    size: [usize; 2],
+    warp: Option<Warp>,
+    blend: Option<Blend>,
+    black: Option<Black>,
+    curve: Curve,
+}
+
+impl Finisher {
+    /// The stages that the display file asks for. Tables take up to 12 bytes a pixel.
+    pub fn new(projector: &Projector) -> Self {
+        let (raster, finish) = (&projector.raster, &projector.finish);
+        let size = [raster.width as usize, raster.height as usize];
+        Self {
+            size,
+            warp: finish.mesh.as_ref().map(|mesh| Warp::new(mesh, raster)),
+            blend: finish.blend.as_ref().map(|map| Blend::new(map, size)),
+            black: finish.black.as_ref().map(|black| Black::new(black, size)),
+            curve: Curve::new(&finish.transfer, finish.is_dithered),
+        }
+    }
+
+    /// The codes of a picture: linear colours, four to a pixel, become three codes. A pixel that the picture lacks is black.
+    pub fn codes(&self, rgba: &[f32]) -> Vec<u8> {
+        let [width, height] = self.size;
+        let mut rgb = vec![0; 3 * width * height];
+        rgb.par_chunks_mut(3 * width.max(1)).enumerate().for_each(|(y, row)| {
+            for (x, codes) in row.chunks_exact_mut(3).enumerate() {
+                codes.copy_from_slice(&self.curve.codes(self.light(rgba, x, y), [x, y]));
+            }
+        });
+        rgb
+    }
+
+    /// The linear light of a pixel.
+    fn light(&self, rgba: &[f32], x: usize, y: usize) -> [f32; 3] {
+        let at = y * self.size[0] + x;
+        let seen = match &self.warp {
+            Some(warp) => warp.colour(rgba, self.size, at),
+            None => rgba.get(4 * at..4 * at + 3).map_or([0.0; 3], |rgb| [rgb[0], rgb[1], rgb[2]]),
+        };
+        // A projector's white is white also where it is one of several. Not `clamp`: it hands NaN on, while this comparison
+        // sends it to black.
+        let mut light = seen.map(|channel| if channel > 0.0 { channel.min(1.0) } else { 0.0 });
+        if let Some(blend) = &self.blend {
+            light = blend.apply(light, at);
+        }
+        match &self.black {
+            Some(black) => black.apply(light, at),
+            None => light,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
