@@ -3,9 +3,10 @@
 use super::*;
 use crate::*;
 use display_config::{
-    BlackLevel, Display, Finish, Homography, LightMap, Mesh, Projector, Raster, Response, Transfer,
+    BlackLevel, Display, Finish, Homography, LightMap, Mesh, Output, Projector, Raster, Response, Transfer,
+    Turn,
 };
-use glam::{DAffine3, DMat3, DVec3, UVec3, Vec2};
+use glam::{DAffine3, DMat3, DVec3, UVec2, UVec3, Vec2};
 use optics::DebugView;
 use optics::{
     BandPicker, Curve, Enhancer, ExtinctionUnit, Light, Mimda, MimdaForm, Optics, Quality, Ramp, Trapezoid,
@@ -96,10 +97,14 @@ prop_compose! {
 
 prop_compose! {
     fn projector()(
-        name in ".*", at in point(), size in any::<(u32, u32)>(), output in any::<Option<(String, u32, u32)>>(),
+        name in ".*", at in point(), size in any::<(u32, u32)>(), output in any::<Option<(Option<String>, u32, u32)>>(),
         finish in finish(),
     ) -> Projector {
         let screen_from_pixel = Homography(DMat3::from_cols(at, DVec3::Y, DVec3::Z));
+        let output = output.map(|(connector, x, y)| {
+            let turn = Turn { is_mirrored: x % 2 == 0, quarters: (y % 4) as u8 };
+            Output { connector, first_px: UVec2::new(x, y), turn }
+        });
         let raster = Raster { width: size.0, height: size.1, screen_from_pixel, output };
         Projector { name, centre_in_display: at, raster, backend: size.0, finish }
     }
@@ -192,6 +197,7 @@ fn from_backend() -> impl Strategy<Value = FromBackend> {
         (any::<u64>(), any::<u64>()).prop_map(|(asked_us, here_us)| FromBackend::Clock { asked_us, here_us }),
         ".*".prop_map(FromBackend::Failed),
         ".*".prop_map(FromBackend::Lost),
+        ".*".prop_map(FromBackend::Said),
     ]
 }
 

@@ -114,6 +114,10 @@ const CASES: &[Case] = &[
 const FIGURES: &[Case] = &[
     ("what a frame costs", || cost_by_mpi("cost")),
     ("what a frame with pictures of 800 × 600 costs", || cost_by_mpi("cost of pictures")),
+    ("what the front-end spends on the messages of a beat", || {
+        let run = mpirun("cost of a beat", &[FRONTEND, (36, "--worker")], false);
+        fs::read_to_string(run.file("cost")).map_err(|_| run.text.clone())
+    }),
 ];
 
 fn print_figures() -> ExitCode {

@@ -19,6 +19,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
+use transport::beat::{Drive, Happening, Time};
 use transport::*;
 
 const CULPRIT: u32 = 1;
@@ -211,6 +212,7 @@ pub fn be_frontend() -> ExitCode {
     match case().as_str() {
         "cost" => return cost(Box::new(link), 1, 400),
         "cost of pictures" => return cost(Box::new(link), 800, 20),
+        "cost of a beat" => return cost_of_a_beat(Box::new(link)),
         _ => {}
     }
     let bytes = two_frames(Box::new(link)).unwrap_or_else(|error| fail("lightloom", &error.to_string()));
@@ -239,6 +241,30 @@ fn cost(link: Box<dyn Link>, width: u32, frames: u32) -> ExitCode {
         "a frame of {size} bytes to {count} ranks and back: median {median:?}, 99th percentile {most:?}"
     );
     session.finish().expect("the back-ends leave");
+    note("cost", text);
+    ExitCode::SUCCESS
+}
+
+/// Prints how long the front-end is at handing out the frame of a beat, of which nothing is to be drawn.
+fn cost_of_a_beat(link: Box<dyn Link>) -> ExitCode {
+    let (count, setups) = (link.backends(), setups(link.backends(), 1));
+    let session = Session::start(link, setups.clone(), Limits::default(), Arc::default());
+    let period = Duration::from_millis(100);
+    let mut drive = Drive::new(session.expect("the back-ends start"), setups, period, Time::Real);
+    let size = wire::encode(&FromFrontend::Beat(Box::new(frame(0, 40)))).expect("a frame").len();
+    let mut times = Vec::new();
+    while times.len() < 100 {
+        if let Happening::Due { frame: index, .. } = drive.await_next().expect("the beat goes on") {
+            let state = frame(index, 40);
+            let since = Instant::now();
+            drive.draw(&state).expect("a frame");
+            times.push(since.elapsed());
+        }
+    }
+    times.sort();
+    let [median, most] = [times[times.len() / 2], times[times.len() * 99 / 100]];
+    let text = format!("{size} bytes to each of {count} ranks: median {median:?}, 99th percentile {most:?}");
+    drive.finish().expect("the back-ends leave");
     note("cost", text);
     ExitCode::SUCCESS
 }

@@ -56,7 +56,7 @@ fn be_a_kept_renderer() {
     let open = |setup: Setup| -> Result<Opened, String> {
         match setup.options.cache_bytes {
             0 => Err("there is no such volume".to_owned()),
-            _ => Ok((Box::new(Fake(0)), device())),
+            _ => Ok(Opened::new(Box::new(Fake(0)), device())),
         }
     };
     let code = kept::work(open, keeper.parse().unwrap());
