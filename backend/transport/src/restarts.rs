@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 const FULL_LIFE: Duration = Duration::from_secs(3);
 
 /// So many are started at once, one after another, however short they live.
-const AT_ONCE: u32 = 4;
+pub const AT_ONCE: u32 = 4;
 
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 const LONGEST_WAIT: Duration = Duration::from_secs(60);

@@ -1,6 +1,7 @@
 //! A display driven by back-ends in threads, which draw nothing and take as long as a test says.
 
 use super::*;
+use crate::restarts::AT_ONCE;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::{Limits, Opened, threads};
 use protocol::{Advance, DrawError, ProjectorImage, Render, ScreenImage, Screens, StopAsked};
@@ -167,7 +168,8 @@ fn those_that_fail_or_panic_come_back_while_the_others_go_on() {
     let failed = AtomicU32::new(0);
     let fails = move |backend, frame| {
         // Each frame fails once: who comes back may be asked for it again.
-        if backend == 1 && frame % 8 == 5 && failed.swap(frame, Ordering::SeqCst) != frame {
+        let is_due = backend == 1 && frame % 8 == 5 && counted.load(Ordering::SeqCst) < AT_ONCE;
+        if is_due && failed.swap(frame, Ordering::SeqCst) != frame {
             match counted.fetch_add(1, Ordering::SeqCst) % 2 {
                 0 => return Err("the volume went away".to_owned()),
                 _ => panic!("a fault"),
@@ -178,8 +180,7 @@ fn those_that_fail_or_panic_come_back_while_the_others_go_on() {
     let mut drive = driving(3, Time::Real, Arc::new(fails));
     let seen = play(&mut drive, 200);
     let lost = failures.load(Ordering::SeqCst) as usize;
-    assert!(lost > 10, "{lost}");
-    assert_eq!(seen.lost.len(), lost);
+    assert_eq!([lost, seen.lost.len()], [AT_ONCE as usize; 2]);
     assert!(seen.returned + 1 >= lost, "{} of {lost}", seen.returned);
     assert!(seen.lost.iter().any(|why| why.contains("the volume went away")));
     assert!(seen.lost.iter().any(|why| why.contains("a fault")));
@@ -188,6 +189,24 @@ fn those_that_fail_or_panic_come_back_while_the_others_go_on() {
         assert!(shown as f64 >= LEAST_SHARE * 200.0, "{backend} shows {shown}");
     }
     assert!(seen.shown[&1].len() > 50);
+}
+
+#[test]
+fn one_that_fails_again_and_again_is_started_ever_more_seldom() {
+    let fails = |backend, frame| match (backend, frame) {
+        (1, 5..) => Err("the server is gone".to_owned()),
+        _ => Ok(Duration::from_millis(1)),
+    };
+    let mut drive = driving(2, Time::Real, Arc::new(fails));
+    let seen = play(&mut drive, 200);
+    let lost = seen.lost.len();
+    // After those at once and one more come waits of 1, 2, 4 and 8 s, longer than all of this takes.
+    assert!((AT_ONCE as usize..AT_ONCE as usize + 5).contains(&lost), "{lost}");
+    let shown = seen.shown[&0].len();
+    assert!(shown as f64 >= LEAST_SHARE * 200.0, "{shown}");
+    let since = Instant::now();
+    drive.finish().unwrap();
+    assert!(since.elapsed() < Duration::from_secs(1), "nobody waits for one that waits");
 }
 
 #[test]
