@@ -68,7 +68,8 @@ impl Messenger {
         self.receiving.len()
     }
 
-    /// Posts `bytes` to rank `to`; [`Messenger::is_sending`] says when they are gone.
+    /// Posts `bytes` to rank `to`; [`Messenger::is_sending`] says when they are gone. It does not ask for progress itself: on a
+    /// host with more ranks than cores MPI yields the core whenever it is asked, and a message to many asks once.
     pub fn post(&mut self, to: usize, bytes: Arc<[u8]>) -> Result<(), String> {
         let mut request = MaybeUninit::uninit();
         // SAFETY: the bytes live in `self.sending` until the request is complete, and beyond if it never is.
@@ -85,7 +86,7 @@ impl Messenger {
             request.assume_init()
         };
         self.sending.push(Sending { request, _bytes: bytes });
-        self.is_sending().map(drop)
+        Ok(())
     }
 
     /// Advances pending messages, and returns whether any are left.
