@@ -28,7 +28,7 @@ pub struct ClusterLink {
     first_to_poll: usize,
 }
 
-/// Joins the job as its front-end. An error is a sentence to end with, by [`fail`]. From here on, the launcher's signal to
+/// Joins the job as its front-end. An error is a sentence to end with, by [`crate::fail`]. From here on, the launcher's signal to
 /// end prints which back-end was lost and ends this process.
 pub fn connect() -> Result<ClusterLink, LinkError> {
     let mut messenger = Messenger::start().map_err(LinkError::Launch)?;
