@@ -15,6 +15,8 @@ const SKIPPED: usize = 1;
 const LEAST_GAIN: f64 = 1.25;
 /// What is drawn has changed so much that the answer may have.
 const CHANGE: f64 = 2.0;
+/// Until then a volume is still getting its detail, and its frames are less work than those that follow.
+const WARM_UP: Duration = Duration::from_secs(2);
 /// From a try to the next, at least: each costs some frames of the slower kind.
 const LEAST_INTERVAL: Duration = Duration::from_secs(10);
 
@@ -38,6 +40,8 @@ pub struct Trial {
     /// A frame that takes no longer is fast enough, milliseconds.
     period_ms: f64,
     phase: Phase,
+    /// When the first frame was drawn.
+    since: Option<Duration>,
     /// Whether each open frame welcomes planes.
     asked: BTreeMap<u32, bool>,
     /// The slowest back-end's milliseconds of each frame of the phase.
@@ -50,6 +54,7 @@ impl Trial {
         (asked == CasterChoice::Auto).then(|| Self {
             period_ms: 1e3 * period.as_secs_f64(),
             phase: Phase::Rays,
+            since: None,
             asked: BTreeMap::new(),
             times: BTreeMap::new(),
         })
@@ -74,7 +79,8 @@ impl Trial {
             Phase::Planes { .. } => welcomed == Some(true),
             Phase::Settled { has_planes, .. } => welcomed == Some(has_planes),
         };
-        if !belongs {
+        let is_warm = now >= *self.since.get_or_insert(now) + WARM_UP;
+        if !belongs || !is_warm {
             return;
         }
         if let (Phase::Planes { rays_ms }, false) = (self.phase, has_planes) {
@@ -158,7 +164,7 @@ mod tests {
     #[test]
     fn the_faster_one_draws_after_a_few_frames() {
         let (mut soft, mut hard) = (trial(), trial());
-        assert_eq!(play(&mut soft, 0..40, [100.0, 20.0]), (36, true));
+        assert_eq!(play(&mut soft, 0..40, [100.0, 20.0]), (34, true));
         let tried = FRAMES + SKIPPED + 1;
         assert_eq!(play(&mut hard, 0..40, [100.0, 400.0]), (tried, false));
         assert_eq!(play(&mut trial(), 0..40, [100.0, 90.0]), (tried, false), "too little gain");
