@@ -24,7 +24,7 @@ pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
     if let Some(path) = setup.trace {
         renderer.record(path, &setup.volume);
     }
-    Ok(Opened { renderer: Box::new(renderer), device: info, wall })
+    Ok(Opened { wall, ..Opened::new(Box::new(renderer), info) })
 }
 
 fn open_wall(setup: &Setup) -> Result<Box<dyn Wall>, String> {

@@ -1,6 +1,6 @@
 //! X servers without a screen: one desktop, or several named outputs.
 
-use crate::program::{LIMIT, Running, lightloom, run};
+use crate::program::{LIMIT, Running, SMALL_DISPLAY, lightloom, run};
 use serde_json::Value;
 use std::fs;
 use std::io::Read;
@@ -155,8 +155,7 @@ impl Drop for XServer {
 /// Writes a display into a folder whose projectors, of 96 × 72 pixels, are each on an output of [`XServer::four_outputs`]:
 /// each with its back-end, and the keys of its place.
 pub fn display_on_outputs(folder: &Path, places: &[(usize, String)]) -> String {
-    let head = "name = \"outputs\"\nscreen_width_m = 0.60\nscreen_height_m = 0.45\npixel_size_m = 0.00625\n\
-                angular_accuracy_deg = 9.0\nobserver_m = [0.0, 0.0, 1.2]\neta = 1.0\n";
+    let (head, _) = SMALL_DISPLAY.split_once("[projector_line]").expect("its projectors are on a line");
     let projector = |(index, (backend, place)): (usize, &(usize, String))| {
         format!(
             "[[projector]]\nname = \"p{index}\"\ncentre_m = [{}, 0.0, -1.5]\nwidth_px = 96\nheight_px = 72\n\
@@ -171,6 +170,12 @@ pub fn display_on_outputs(folder: &Path, places: &[(usize, String)]) -> String {
     path.to_string_lossy().into_owned()
 }
 
+/// The pixels of a PNG file as a server has them: 0x00RRGGBB, by rows.
+pub fn pixels_of(path: &Path) -> Vec<u32> {
+    let pixels = image::open(path).expect("it was written").to_rgb8();
+    pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
+}
+
 /// What `simulate` draws of shells: the pixels of each of so many projectors, 0x00RRGGBB.
 pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Vec<u32>> {
     let folder = out.to_string_lossy();
@@ -179,8 +184,7 @@ pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Ve
     let picture = |projector: usize| {
         // As many digits as the last projector has, two at least.
         let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
-        let pixels = image::open(path).expect("it was written").to_rgb8();
-        pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
+        pixels_of(&path)
     };
     let pictures: Vec<Vec<u32>> = (0..projectors).map(picture).collect();
     let is_lit = |picture: &Vec<u32>| picture.iter().any(|&pixel| pixel != 0);

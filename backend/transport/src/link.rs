@@ -4,6 +4,9 @@ use protocol::wire::WireError;
 use protocol::{FromBackend, FromFrontend};
 use std::time::Duration;
 
+/// The silence of a front-end whose end is seen at once: none is too long.
+pub(crate) const WITHOUT_END: Duration = Duration::from_secs(u32::MAX as u64);
+
 /// Why a message was not delivered.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {

@@ -243,13 +243,17 @@ impl Studio {
 
     /// Sends a picture of the beat where the setup wants it.
     fn show(&self, image: ScreenImage) -> Result<(), End> {
-        if self.screens.outputs {
-            self.outbox.send(Reply::Picture(image.clone())).map_err(|_| End::Dismissed)?;
+        let onto_wall = |image| self.outbox.send(Reply::Picture(image)).map_err(|_| End::Dismissed);
+        match self.screens {
+            Screens { outputs: false, frontend: false } => Ok(()),
+            Screens { outputs: true, frontend: false } => onto_wall(image),
+            Screens { outputs, frontend: true } => {
+                if outputs {
+                    onto_wall(image.clone())?;
+                }
+                self.tell(FromBackend::Screen(image), false)
+            }
         }
-        if self.screens.frontend {
-            self.tell(FromBackend::Screen(image), false)?;
-        }
-        Ok(())
     }
 
     fn tell(&self, message: FromBackend, is_answer: bool) -> Result<(), End> {

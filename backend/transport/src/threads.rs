@@ -1,6 +1,6 @@
 //! Back-ends as threads of this process.
 
-use super::link::{Link, LinkError, WorkerLink};
+use super::link::{Link, LinkError, WITHOUT_END, WorkerLink};
 use super::opened::Opened;
 use super::render_loop::panic_sentence;
 use super::restarts::Restarts;
@@ -194,7 +194,7 @@ impl WorkerLink for ThreadWorkerLink {
     /// Without end: in one process the channel shows at once when the front-end is gone, and a program may well
     /// leave its display idle for a day.
     fn frontend_silence(&self) -> Duration {
-        Duration::from_secs(u32::MAX.into())
+        WITHOUT_END
     }
 }
 

@@ -20,14 +20,17 @@ impl LightMap {
     /// # Errors
     /// No pixel, too many pixels, or as many numbers as its size does not say.
     pub fn new(width: u32, height: u32, shares: Vec<u16>) -> Result<Self, MapFault> {
-        let pixels = u64::from(width) * u64::from(height);
-        if !(1..=u64::from(MOST_MAP_PIXELS)).contains(&pixels) {
-            return Err(MapFault::MapSize { width, height });
-        }
-        match pixels == shares.len() as u64 {
+        match Self::pixels(width, height)? == shares.len() {
             true => Ok(Self { width, height, shares: shares.into() }),
             false => Err(MapFault::MapCount { found: shares.len(), width, height }),
         }
+    }
+
+    /// How many numbers a map of this size has, asked before anything of that size is made.
+    pub(crate) fn pixels(width: u32, height: u32) -> Result<usize, MapFault> {
+        let pixels = u64::from(width) * u64::from(height);
+        let is_sensible = (1..=u64::from(MOST_MAP_PIXELS)).contains(&pixels);
+        if is_sensible { Ok(pixels as usize) } else { Err(MapFault::MapSize { width, height }) }
     }
 
     /// Pixels along x and y.

@@ -185,37 +185,40 @@ impl Show<'_, '_> {
                 self.measures.shown(backend, frame, at);
                 if let Some(away) = away {
                     self.measures.came_back(backend, away);
-                    let (name, count) = (self.drive.name(backend), self.lost[backend]);
-                    let seconds = away.as_secs_f64();
-                    self.trouble(format!(
-                        "{name} shows again, {seconds:.2} s after it was lost (loss {count} of this show)"
-                    ));
+                    let (count, seconds) = (self.lost[backend], away.as_secs_f64());
+                    self.trouble(
+                        backend,
+                        &format!(
+                            " shows again, {seconds:.2} s after it was lost (loss {count} of this show)"
+                        ),
+                    );
                 }
             }
-            Happening::Said { backend, sentence } => {
-                let name = self.drive.name(backend);
-                self.trouble(format!("{name}: {sentence}"));
-            }
+            Happening::Said { backend, sentence } => self.trouble(backend, &format!(": {sentence}")),
             Happening::Lost { backend, why } => {
                 self.lost[backend] += 1;
                 self.screens.forget(backend);
                 self.measures.lost(backend);
-                let name = self.drive.name(backend);
-                self.trouble(format!("{name} is lost, and is started again: {why}"));
+                self.trouble(backend, &format!(" is lost, and is started again: {why}"));
             }
             Happening::Standstill { backend, time } => {
-                let (name, seconds) = (self.drive.name(backend), time.as_secs());
-                self.trouble(format!(
-                    "{name} has drawn nothing for {seconds} s; a frame is that much work for it, or its graphics driver \
-                     or the disk with the volume is stuck"
-                ));
+                let seconds = time.as_secs();
+                self.trouble(
+                    backend,
+                    &format!(
+                        " has drawn nothing for {seconds} s; a frame is that much work for it, or its graphics driver \
+                         or the disk with the volume is stuck"
+                    ),
+                );
             }
             Happening::Due { .. } | Happening::Stopped => {}
         }
         Ok(())
     }
 
-    fn trouble(&mut self, sentence: String) {
+    /// Tells what has become of a back-end: its name, and what follows that in a sentence.
+    fn trouble(&mut self, backend: usize, rest: &str) {
+        let sentence = self.drive.name(backend) + rest;
         (self.tell)(&sentence);
         if self.troubles.len() == MOST_TROUBLES {
             self.troubles.remove(0);

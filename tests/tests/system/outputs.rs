@@ -1,7 +1,7 @@
 //! Windows on the named outputs of a real X server without a screen.
 
 use lightloom_tests::program::{LIMIT, Running, cluster, lightloom, run, start};
-use lightloom_tests::x_server::{XServer, complete_pictures, display_on_outputs, report};
+use lightloom_tests::x_server::{XServer, complete_pictures, display_on_outputs, pixels_of, report};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -71,9 +71,7 @@ fn four_outputs_show_the_complete_pictures_whoever_draws_them() {
     ended(running);
     let shown = |projector: usize| {
         let last = fs::read_dir(&dump).unwrap().map(|entry| entry.unwrap().path()).max().unwrap();
-        let pixels = image::open(last.join(format!("projector-{projector:02}.png"))).unwrap().to_rgb8();
-        let code = |p: &image::Rgb<u8>| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2]);
-        pixels.pixels().map(code).collect::<Vec<u32>>()
+        pixels_of(&last.join(format!("projector-{projector:02}.png")))
     };
     assert!((0..4).all(|projector| shown(projector) == complete[projector]), "the dump is what was seen");
     if let Some(command) = cluster(&arguments(&display, &["--for", "6"]), 2) {

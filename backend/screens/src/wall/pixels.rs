@@ -6,6 +6,9 @@ use glam::UVec2;
 use protocol::ScreenImage;
 use x11rb::protocol::xproto::{ImageOrder, Screen, Setup, VisualClass};
 
+/// Red, green and blue of a pixel.
+const MASKS: [u32; 3] = [0xff_0000, 0xff00, 0xff];
+
 /// How a server lays a pixel out: 32 bits, 8 for each colour. Every desktop of today has it so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -23,10 +26,9 @@ impl Layout {
     pub fn of(setup: &Setup, screen: &Screen) -> Result<Self, ScreenError> {
         let depth = screen.root_depth;
         let visuals = screen.allowed_depths.iter().flat_map(|allowed| &allowed.visuals);
-        let masks = |red, green, blue| (red, green, blue) == (0xff_0000, 0xff00, 0xff);
         let is_plain = visuals.filter(|visual| visual.visual_id == screen.root_visual).any(|visual| {
             visual.class == VisualClass::TRUE_COLOR
-                && masks(visual.red_mask, visual.green_mask, visual.blue_mask)
+                && [visual.red_mask, visual.green_mask, visual.blue_mask] == MASKS
         });
         let has_words = setup.pixmap_formats.iter().any(|f| f.depth == depth && f.bits_per_pixel == 32);
         match is_plain && has_words {

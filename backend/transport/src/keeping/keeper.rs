@@ -14,11 +14,11 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 /// After so long without a word it is asked for one. While a show goes on it says something every fifth of a second.
-const ASK_AFTER: Duration = Duration::from_secs(1);
+const ASK_AFTER: Duration = Duration::from_millis(400);
 
-/// Without a word for so long after that it hangs. The thread that passes its messages on does nothing else, and answers within
-/// a millisecond, or tens of them on a busy machine; three seconds in all are beyond what a machine that swaps holds it up.
-const HANGS_AFTER: Duration = Duration::from_secs(2);
+/// After so long without a word it hangs. The thread that passes its messages on does nothing else, and answers within a
+/// millisecond, or tens of them on a busy machine. Longer than this leaves no time to show again within two seconds.
+const HANGS_AFTER: Duration = Duration::from_millis(1500);
 
 /// The same before its first word: its program may come from a slow disk.
 const STARTS_WITHIN: Duration = Duration::from_secs(20);
@@ -59,8 +59,7 @@ struct Child {
     has_greeted: bool,
     /// Whether it has its setup: what the front-end says before is meant for the one before it.
     is_set_up: bool,
-    /// When it was asked for a word that has not come.
-    asked_at: Option<Instant>,
+    is_asked: bool,
 }
 
 /// The keeper.
@@ -149,7 +148,7 @@ impl Keeper {
     /// What comes from the renderer: bytes for the front-end, unless it is for the keeper.
     fn heed(&mut self, bytes: Vec<u8>) -> Option<Vec<u8>> {
         let State::Running(child) = &mut self.state else { return None };
-        child.asked_at = None;
+        child.is_asked = false;
         if has_picture(&bytes) {
             return Some(bytes);
         }
@@ -184,16 +183,12 @@ impl Keeper {
     fn look_for_hang(&mut self) {
         let State::Running(child) = &mut self.state else { return };
         let silence = child.renderer.silence();
-        let hangs = match child.asked_at {
-            // Only a question makes silence mean anything: nobody may have listened for a while.
-            Some(asked_at) => asked_at.elapsed() > HANGS_AFTER,
-            None => !child.has_greeted && silence > STARTS_WITHIN,
-        };
-        if hangs {
-            let seconds = silence.as_secs();
+        let limit = if child.has_greeted { HANGS_AFTER } else { STARTS_WITHIN };
+        if silence > limit {
+            let seconds = limit.as_secs_f64();
             self.end(Some(format!("gave no sign of life for {seconds} s, so it was killed")));
-        } else if child.has_greeted && child.asked_at.is_none() && silence > ASK_AFTER {
-            child.asked_at = Some(Instant::now());
+        } else if child.has_greeted && !child.is_asked && silence > ASK_AFTER {
+            child.is_asked = true;
             if let Ok(question) = encode(&OWN_QUESTION) {
                 child.renderer.send(&question);
             }
@@ -231,8 +226,8 @@ impl Keeper {
     fn start(&mut self) -> Option<Vec<u8>> {
         match (self.command)().and_then(Renderer::start) {
             Ok(renderer) => {
-                let [has_greeted, is_set_up] = [false; 2];
-                self.state = State::Running(Child { renderer, has_greeted, is_set_up, asked_at: None });
+                let [has_greeted, is_set_up, is_asked] = [false; 3];
+                self.state = State::Running(Child { renderer, has_greeted, is_set_up, is_asked });
                 None
             }
             Err(error) => self.lose(format!("its renderer could not be started: {error}")),
@@ -246,7 +241,7 @@ impl Keeper {
         child.renderer.send(&quit);
         let since = Instant::now();
         // What it still says is for nobody, but it must not wait for room to say it.
-        while since.elapsed() < PARTING && child.renderer.silence() < ASK_AFTER + HANGS_AFTER {
+        while since.elapsed() < PARTING && child.renderer.silence() < HANGS_AFTER {
             if let Heard::End = child.renderer.receive(Duration::from_millis(10)) {
                 return;
             }

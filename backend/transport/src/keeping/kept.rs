@@ -2,7 +2,7 @@
 
 use super::stream::{incoming, length_of};
 use crate::launch::say;
-use crate::link::{LinkError, WorkerLink};
+use crate::link::{LinkError, WITHOUT_END, WorkerLink};
 use crate::opened::Opened;
 use crate::watchdog;
 use crate::worker::{WorkerError, serve};
@@ -90,7 +90,7 @@ impl WorkerLink for KeptLink {
 
     /// Without end: the keeper listens to the front-end, and its own end is seen at once.
     fn frontend_silence(&self) -> Duration {
-        Duration::from_secs(u32::MAX.into())
+        WITHOUT_END
     }
 }
 

@@ -1,6 +1,6 @@
 //! The file of a map: a grey PNG, or a PFM of one channel.
 
-use crate::finish::{LightMap, MOST_MAP_PIXELS, MapFault};
+use crate::finish::{LightMap, MapFault};
 use crate::text::read_bytes;
 use image::codecs::png::PngDecoder;
 use image::{ColorType, ImageDecoder};
@@ -23,7 +23,7 @@ fn of_png(bytes: &[u8]) -> Result<LightMap, MapFault> {
     let damaged = |error: image::ImageError| MapFault::Damaged(error.to_string().replace('\n', ", "));
     let decoder = PngDecoder::new(Cursor::new(bytes)).map_err(damaged)?;
     let (width, height) = decoder.dimensions();
-    check_size(width, height)?;
+    LightMap::pixels(width, height)?;
     let shares: fn(&[u8]) -> Vec<u16> = match decoder.color_type() {
         // 257 · 255 = 65535: a white of 8 bits is a white of 16.
         ColorType::L8 => |codes| codes.iter().map(|&code| 257 * u16::from(code)).collect(),
@@ -45,15 +45,15 @@ fn of_pfm(bytes: &[u8]) -> Result<LightMap, MapFault> {
     let [Ok(width), Ok(height)] = [head[1], head[2]].map(str::parse) else { return Err(damaged()) };
     let scale: f32 =
         head[3].parse().ok().filter(|scale: &f32| *scale != 0.0 && scale.is_finite()).ok_or_else(damaged)?;
-    check_size(width, height)?;
+    let pixels = LightMap::pixels(width, height)?;
     let number = |four: &[u8]| {
         let four = [four[0], four[1], four[2], four[3]];
         if scale < 0.0 { f32::from_le_bytes(four) } else { f32::from_be_bytes(four) }
     };
-    if numbers.len() as u64 != 4 * u64::from(width) * u64::from(height) {
+    if numbers.len() != 4 * pixels {
         return Err(MapFault::MapCount { found: numbers.len() / 4, width, height });
     }
-    let mut shares = Vec::with_capacity(numbers.len() / 4);
+    let mut shares = Vec::with_capacity(pixels);
     for (row, line) in numbers.chunks_exact(4 * width as usize).rev().enumerate() {
         for (column, value) in line.chunks_exact(4).map(number).enumerate() {
             if !(0.0..=1.0).contains(&value) {
@@ -75,11 +75,4 @@ fn head_of_pfm(bytes: &[u8]) -> Option<([&str; 4], &[u8])> {
         rest = &rest[end..];
     }
     Some((words, rest.get(1..)?))
-}
-
-/// Before anything of that size is made.
-fn check_size(width: u32, height: u32) -> Result<(), MapFault> {
-    let pixels = u64::from(width) * u64::from(height);
-    let is_sensible = (1..=u64::from(MOST_MAP_PIXELS)).contains(&pixels);
-    if is_sensible { Ok(()) } else { Err(MapFault::MapSize { width, height }) }
 }
