@@ -80,10 +80,11 @@ fn periods(time: Duration) -> f64 {
 fn main() -> Result<(), String> {
     let mut arguments = std::env::args().skip(1);
     let number = |text: Option<String>| text.and_then(|text| text.parse().ok()).ok_or("give a number");
-    let (kills, seconds) = match (arguments.next().as_deref(), arguments.next()) {
-        (None, _) => (KILLS, KILLS * SECONDS_PER_KILL + MARGIN),
-        (Some("--kills"), kills) => number(kills).map(|kills| (kills, kills * SECONDS_PER_KILL + MARGIN))?,
-        (Some("--for"), seconds) => (u32::MAX, number(seconds)?),
+    let for_kills = |kills| ("kills", kills, kills * SECONDS_PER_KILL + MARGIN);
+    let (part, kills, seconds) = match (arguments.next().as_deref(), arguments.next()) {
+        (None, _) => for_kills(KILLS),
+        (Some("--kills"), kills) => for_kills(number(kills)?),
+        (Some("--for"), seconds) => ("soak", u32::MAX, number(seconds)?),
         _ => return Err("give nothing, --kills N or --for SECONDS".to_owned()),
     };
     let Some(show) = Show::begin(seconds) else { return Ok(()) };
@@ -97,7 +98,8 @@ fn main() -> Result<(), String> {
         return Err(ran.stderr);
     }
     let report: Value = serde_json::from_str(&ran.stdout).map_err(|error| error.to_string())?;
-    tell(&comebacks, missing, began, [before, after], &report)
+    let results = Results::new(Program::Study("comeback"), "comeback", part);
+    tell(results, &comebacks, missing, began, [before, after], &report)
 }
 
 type Comebacks = Vec<(usize, Comeback)>;
@@ -126,13 +128,13 @@ fn end_one_after_another(show: &Show, kills: u32, last_kill: Duration) -> (Comeb
 }
 
 fn tell(
+    mut results: Results,
     comebacks: &[(usize, Comeback)],
     missing: u32,
     took: Duration,
     held: [String; 2],
     report: &Value,
 ) -> Result<(), String> {
-    let mut results = Results::new(Program::Study("comeback"), "comeback", "kills");
     let beat = &report["beat"];
     let late = |name: &str| -> u64 {
         let of = beat["backends"].as_array().into_iter().flatten().filter_map(|one| one[name].as_u64());

@@ -46,6 +46,28 @@ bindings! {
     FEEDBACK = 16;
     /// The texture of the bricks' standard deviations, slot by slot as in the atlas.
     DEVIATIONS = 17;
+    /// The uniform [`PresentBlock`](crate::PresentBlock).
+    PRESENT = 18;
+    /// The colours that a pass reads, pixel by pixel.
+    PICTURE = 19;
+    /// The colours that were shown before.
+    BEFORE = 20;
+    /// The colours of a picture without gaps.
+    WHOLE = 21;
+    /// The colours that are shown.
+    SHOWN = 22;
+    /// Whether any of them is not yet what rays see.
+    BEHIND = 23;
+    /// Where in the picture each pixel of a warp takes its light from.
+    PLACES = 24;
+    /// The factor of each pixel's light.
+    BLEND = 25;
+    /// The black level of each pixel.
+    BLACK = 26;
+    /// The transfer curves of red, green and blue.
+    CURVES = 27;
+    /// The codes, pixel by pixel: red in the lowest byte, then green and blue.
+    CODES = 28;
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ pub mod binding;
 pub mod brick;
 mod feedback;
 mod node;
+pub mod present;
 mod scene;
 mod table_entry;
 mod view;
@@ -13,6 +14,7 @@ pub use feedback::{
     CODE_OF_ZERO, CODES_PER_LEVEL, FeedbackEntry, MOST_DEFICIT, code_from_deficit, deficit_from_code,
 };
 pub use node::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
+pub use present::PresentBlock;
 pub use scene::{Link, SceneBlock};
 pub use table_entry::{ImportanceEntry, IndexEntry, TableCell, TableEntry};
 pub use view::{MISSING, TILE_EDGE, ViewBlock};
