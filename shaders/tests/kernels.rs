@@ -1,11 +1,11 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
 use layout::{
-    FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, SceneBlock, TableCell, TableEntry,
-    ViewBlock, binding,
+    FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, PresentBlock, SceneBlock, TableCell,
+    TableEntry, ViewBlock, binding,
 };
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use shaders::compose::KernelKey;
+use shaders::compose::{KernelKey, PresentKernel};
 use std::mem::{offset_of, size_of};
 
 fn parse(wgsl: &str) -> naga::Module {
@@ -30,13 +30,20 @@ fn every_permutation_is_valid() {
             panic!("{key:?}: {why}");
         }
     }
+    for kernel in PresentKernel::ALL {
+        let wgsl = kernel.wgsl();
+        assert!(wgsl.contains(&format!("fn {}(", kernel.entry_point())), "{kernel:?}");
+        if let Err(why) = is_valid(&wgsl) {
+            panic!("{kernel:?}: {why}");
+        }
+    }
 }
 
 #[test]
 fn bindings_have_the_numbers_of_the_table_and_no_others() {
-    for key in KernelKey::samples() {
-        let wgsl = key.wgsl();
-        assert!(wgsl.split("@binding(").skip(1).all(|rest| rest.starts_with("BINDING_")), "{key:?}");
+    let of_rays = KernelKey::samples().into_iter().map(|key| key.wgsl());
+    for wgsl in of_rays.chain(PresentKernel::ALL.map(PresentKernel::wgsl)) {
+        assert!(wgsl.split("@binding(").skip(1).all(|rest| rest.starts_with("BINDING_")), "{wgsl}");
     }
     let module = parse(&KernelKey::samples()[0].wgsl());
     let number = |name: &str| {
@@ -129,4 +136,6 @@ fn host_structs_and_wgsl_structs_agree() {
     assert_layout!(&module, IndexEntry, value, slope, jumps);
     assert_layout!(&module, FeedbackEntry, deficit_code, rays);
     assert_layout!(&module, Link, a, b, c, d);
+    let module = parse(&PresentKernel::Finish.wgsl());
+    assert_layout!(&module, PresentBlock, raster, steps, numbers, stages, black);
 }

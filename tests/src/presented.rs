@@ -10,7 +10,7 @@ use needs::tables::Tables;
 use needs::{Compositing, Needs, Way};
 use protocol::FrameState;
 use reference::StoredField;
-use renderer::device::{CastJob, Device, Gather, NEVER, Part};
+use renderer::device::{CastJob, Device, DevicePicture, Gather, NEVER, Part};
 use renderer::working_set::{Cut, IndexRules, build_index, refresh, settle};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -235,5 +235,5 @@ pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>
             stop: NEVER,
         })
         .expect("the device stays");
-    (device.picture(0).expect("the device stays").into_owned(), outcome.samples)
+    (device.picture(DevicePicture::Cast(0)).expect("the device stays").into_owned(), outcome.samples)
 }

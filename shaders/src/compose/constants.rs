@@ -1,5 +1,8 @@
 //! The constants that host and kernels share, as WGSL.
 
+use layout::present::{
+    CODES, CURVE_NUMBERS, DITHER_BITS, HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED, MOST_PAIRS, NOWHERE,
+};
 use layout::{
     CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, TILE_EDGE, binding, brick,
 };
@@ -19,13 +22,25 @@ pub(super) fn wgsl() -> String {
         ("CELLS_ACROSS", brick::CELLS_ACROSS),
         ("CELL_WORDS", brick::CELL_WORDS),
         ("MOST_LINKS", MOST_ENHANCERS),
+        ("MOST_PAIRS", MOST_PAIRS),
+        ("CODES", CODES),
+        ("CURVE_NUMBERS", CURVE_NUMBERS),
     ];
     for (name, count) in counts {
         declare(name, "u32", format!("{count}u"));
     }
-    for (name, code) in
-        [("NO_NODE", NO_NODE), ("NO_SLOT", NO_SLOT), ("MISSING", MISSING), ("TILE_EDGE", TILE_EDGE)]
-    {
+    let codes = [
+        ("NO_NODE", NO_NODE),
+        ("NO_SLOT", NO_SLOT),
+        ("MISSING", MISSING),
+        ("TILE_EDGE", TILE_EDGE),
+        ("DITHER_BITS", DITHER_BITS),
+        ("HAS_WARP", HAS_WARP),
+        ("HAS_BLEND", HAS_BLEND),
+        ("HAS_BLACK_MAP", HAS_BLACK_MAP),
+        ("IS_DITHERED", IS_DITHERED),
+    ];
+    for (name, code) in codes {
         declare(name, "u32", format!("{code}u"));
     }
     let lengths = [
@@ -35,6 +50,7 @@ pub(super) fn wgsl() -> String {
         ("CODE_OF_ZERO", CODE_OF_ZERO),
         ("CODES_PER_LEVEL", CODES_PER_LEVEL),
         ("MOST_DEFICIT", MOST_DEFICIT),
+        ("NOWHERE", NOWHERE),
     ];
     for (name, length) in lengths {
         declare(name, "f32", format!("{length:?}"));

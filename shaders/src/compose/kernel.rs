@@ -28,6 +28,7 @@ macro_rules! module {
         include_str!(concat!("../../wgsl/", $path, ".wgsl"))
     };
 }
+pub(super) use module;
 
 fn levels_wgsl(needs: &Needs) -> Vec<&'static str> {
     let weights = if needs.blends { module!("levels/weights") } else { module!("levels/no_weights") };

@@ -13,10 +13,14 @@
 //! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`needs::Chain`] |
 //! | way | `way/straight`, or `way/path`, `pair` and `refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
+//!
+//! What is shown of a picture is made by kernels of their own, without slots: [`PresentKernel`].
 
 mod chain;
 mod constants;
 mod debug_view;
 mod kernel;
+mod present;
 
 pub use kernel::{Filter, KernelKey};
+pub use present::PresentKernel;

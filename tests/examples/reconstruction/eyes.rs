@@ -9,7 +9,7 @@ use lightloom_tests::scenes::TestScene;
 use nv_flip::{FlipImageRgb8, FlipPool, flip};
 use protocol::ProjectorImage;
 use renderer::output::{EyePlan, EyeView, Picture, PictureRef, write_png};
-use renderer::present::{Finisher, Thresholds, screen_image};
+use renderer::present::{Finisher, Thresholds};
 use std::path::Path;
 
 /// From side to side within the zone from which desk8 is seen whole, ±0.132 m: half a metre a second.
@@ -49,8 +49,7 @@ fn image(picture: &Picture) -> ProjectorImage {
 fn mean_flip(display: &Display, picture: &Picture, truth: &Picture) -> f32 {
     let plain = Finisher::new(&display.projectors[0]);
     let coded = |picture: &Picture| {
-        let codes = screen_image(0, [picture.width, picture.height], &picture.rgba, &plain);
-        FlipImageRgb8::with_data(codes.width, codes.height, &codes.rgb)
+        FlipImageRgb8::with_data(picture.width, picture.height, &plain.codes(&picture.rgba))
     };
     FlipPool::from_image(&flip(coded(truth), coded(picture), pixels_per_degree(display))).mean()
 }

@@ -4,8 +4,11 @@ use crate::assert_none;
 use crate::sources::sources;
 use std::collections::BTreeSet;
 
+/// Why some twins lie elsewhere.
+const SHOWS: &str = "it casts no rays: the CPU device shows with it, and nobody asks for it in f64";
+
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 20] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 26] = [
     ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
@@ -26,6 +29,12 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 20] = [
         Some("shaders/twin/src/sample.rs"),
         "the twin has one way to sample: there is no choice to name",
     ),
+    ("present/block", Some("shaders/layout/src/present.rs"), "the host's struct is used beyond the renderer"),
+    ("present/ease", Some("backend/renderer/src/present/ease.rs"), SHOWS),
+    ("present/finish", Some("backend/renderer/src/present/finish/mod.rs"), SHOWS),
+    ("present/reconstruct", Some("backend/renderer/src/present/reconstruct.rs"), SHOWS),
+    ("present/transfer", Some("backend/renderer/src/present/finish/transfer.rs"), SHOWS),
+    ("present/warp", Some("backend/renderer/src/present/finish/warp.rs"), SHOWS),
     ("spread/none", Some("shaders/twin/src/spread/level.rs"), "a branch in the twin"),
     ("spread/one", Some("shaders/twin/src/spread/three.rs"), "the twin of three without ancestors"),
     ("spread/two", Some("shaders/twin/src/spread/three.rs"), "the twin of three without a grandparent"),

@@ -8,7 +8,7 @@ use lightloom_tests::scenes::{self, TestScene, with_raster};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{AdapterWish, DeviceChoice, FilterChoice};
 use renderer::device::{
-    CacheWish, CastJob, CastOutcome, Device, FeedbackTag, Gather, NEVER, Part, open_device,
+    CacheWish, CastJob, CastOutcome, Device, DevicePicture, FeedbackTag, Gather, NEVER, Part, open_device,
 };
 use std::time::{Duration, Instant};
 use twin::Lattice;
@@ -131,12 +131,12 @@ fn a_cast_of_a_frame_draws_the_same_and_counts_where_it_is_asked() {
     for choice in draw::devices() {
         let mut stage = Stage::new(choice);
         let own = stage.cast(0, Gather::Own, true);
-        let picture = stage.device.picture(0).unwrap().into_owned();
+        let picture = stage.device.picture(DevicePicture::Cast(0)).unwrap().into_owned();
         let counted = stage.cast(0, Gather::Frame, true);
         assert_eq!((counted.rays, counted.samples), (own.rays, own.samples), "{choice:?}");
         assert!(own.samples > 0 && own.rays == 72 * 54);
         let plain = stage.cast(0, Gather::Frame, false);
-        assert!(stage.device.picture(0).unwrap().into_owned() == picture, "{choice:?}");
+        assert!(stage.device.picture(DevicePicture::Cast(0)).unwrap().into_owned() == picture, "{choice:?}");
         assert_eq!((plain.rays, plain.samples, plain.missing_tiles.len()), (own.rays, 0, 0), "{choice:?}");
     }
 }
@@ -146,7 +146,9 @@ fn views_cast_together_are_views_cast_one_by_one() {
     let _turn = draw::turn();
     for choice in draw::devices() {
         let mut stage = Stage::new(choice);
-        let alone = [0, 1].map(|view| (stage.own(view), stage.device.picture(0).unwrap().into_owned()));
+        let alone = [0, 1].map(|view| {
+            (stage.own(view), stage.device.picture(DevicePicture::Cast(0)).unwrap().into_owned())
+        });
         assert!(alone[0].1 != alone[1].1, "two views that look alike tell nothing here");
         let views = [0, 1].map(|view| stage.views[view].rays);
         let job = CastJob {
@@ -164,12 +166,12 @@ fn views_cast_together_are_views_cast_one_by_one() {
         assert_eq!((both.rays, both.missing_tiles.len()), (2 * 72 * 54, 2), "{choice:?}");
         assert!(both.feedback == union(&alone[0].0, &alone[1].0), "{choice:?}");
         assert!(
-            stage.device.picture(0).unwrap().into_owned() == alone[1].1,
+            stage.device.picture(DevicePicture::Cast(0)).unwrap().into_owned() == alone[1].1,
             "the picture of another cast stays"
         );
         for (index, (_, picture)) in alone.iter().enumerate() {
             assert!(
-                stage.device.picture(1 + index).unwrap().into_owned() == *picture,
+                stage.device.picture(DevicePicture::Cast(1 + index)).unwrap().into_owned() == *picture,
                 "{choice:?}, view {index}"
             );
         }
@@ -181,8 +183,11 @@ fn views_cast_together_are_views_cast_one_by_one() {
             ..job
         };
         assert_eq!(stage.device.cast(&job).unwrap().rays, 64, "{choice:?}");
-        assert!(stage.device.picture(1).unwrap().into_owned() == alone[0].1, "{choice:?}");
-        let mixed = stage.device.picture(2).unwrap().into_owned();
+        assert!(
+            stage.device.picture(DevicePicture::Cast(1)).unwrap().into_owned() == alone[0].1,
+            "{choice:?}"
+        );
+        let mixed = stage.device.picture(DevicePicture::Cast(2)).unwrap().into_owned();
         let pixels = |picture: &[f32]| [picture[..4 * 8].to_vec(), picture[4 * 72 * 54 - 4..].to_vec()];
         let expected = [&pixels(&alone[0].1)[0], &pixels(&alone[1].1)[1]].map(Clone::clone);
         assert!(pixels(&mixed) == expected, "{choice:?}");

@@ -5,3 +5,4 @@
 mod faulty_disk;
 mod feedback;
 mod frames;
+mod shown;

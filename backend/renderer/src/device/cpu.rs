@@ -3,7 +3,10 @@
 use super::job::ViewJob;
 use super::rows::cast_rows;
 use super::under_way::UnderWay;
-use super::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
+use super::{
+    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShowJob, TaggedFeedback,
+};
+use crate::present::{Thresholds, ease, reconstruct};
 use bricks::BRICK_VOXELS;
 use layout::NodeRecord;
 use needs::tables::Tables;
@@ -22,6 +25,8 @@ pub struct CpuDevice {
     tables: Tables,
     /// The colours of each picture.
     pictures: Vec<Vec<f32>>,
+    /// What is shown of each.
+    shown: Vec<Vec<f32>>,
     /// What the casts of this frame have told.
     frame_feedback: Vec<FeedbackCell>,
     /// The tables of earlier frames, which are there at once.
@@ -41,6 +46,7 @@ impl CpuDevice {
             cells: Vec::new(),
             tables: Tables::default(),
             pictures: Vec::new(),
+            shown: Vec::new(),
             frame_feedback: Vec::new(),
             tables_of_frames: UnderWay::default(),
         }
@@ -138,8 +144,37 @@ impl CpuDevice {
         !self.tables_of_frames.is_empty()
     }
 
-    pub(super) fn picture(&mut self, index: usize) -> Result<Cow<'_, [f32]>, DeviceError> {
-        Ok(Cow::from(&self.pictures[index]))
+    pub(super) fn show(&mut self, job: &ShowJob) -> Result<bool, DeviceError> {
+        let &ShowJob { picture, raster, known, has_before, most_change } = job;
+        let cast = &self.pictures[picture];
+        self.shown.resize_with(self.shown.len().max(picture + 1), Vec::new);
+        let shown = &mut self.shown[picture];
+        let before = has_before.then_some(&shown[..]);
+        let mut now = reconstruct(cast.into(), before, raster, known, Thresholds::default());
+        let is_behind = match (before, most_change) {
+            (Some(before), Some(most)) => ease(before, now.to_mut(), most),
+            _ => false,
+        };
+        match now {
+            Cow::Owned(now) => *shown = now,
+            Cow::Borrowed(cast) => {
+                shown.clear();
+                shown.extend_from_slice(cast);
+            }
+        }
+        Ok(is_behind)
+    }
+
+    pub(super) fn picture(&mut self, picture: DevicePicture) -> Result<Cow<'_, [f32]>, DeviceError> {
+        Ok(match picture {
+            DevicePicture::Cast(index) => &self.pictures[index][..],
+            DevicePicture::Shown(index) => &self.shown[index][..],
+        }
+        .into())
+    }
+
+    pub(super) fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
+        Ok(job.finisher.codes(&self.picture(job.picture)?))
     }
 }
 

@@ -1,6 +1,9 @@
 //! A device of either kind, with its brick cache.
 
-use super::{CastJob, CastOutcome, CpuDevice, DeviceError, FeedbackTag, TaggedFeedback};
+use super::{
+    CastJob, CastOutcome, CpuDevice, DeviceError, DevicePicture, FeedbackTag, FinishJob, ShowJob,
+    TaggedFeedback,
+};
 use layout::NodeRecord;
 use needs::tables::Tables;
 use std::borrow::Cow;
@@ -99,15 +102,37 @@ impl Device {
         on_device!(self, device => device.cast(job))
     }
 
-    /// The colours of the view last cast into this picture (see [`CastJob::first_picture`]): 4 numbers per pixel, rows
-    /// from the top.
+    /// Makes what is shown of what was cast last into a picture (see [`CastJob::first_picture`]), and of what was shown of
+    /// it before. Whether any pixel is not yet as it was cast, because it may not change by so much.
     ///
     /// # Errors
     /// The device stopped answering.
     ///
     /// # Panics
     /// Where nothing was cast into it yet.
-    pub fn picture(&mut self, index: usize) -> Result<Cow<'_, [f32]>, DeviceError> {
-        on_device!(self, device => device.picture(index))
+    pub fn show(&mut self, job: &ShowJob) -> Result<bool, DeviceError> {
+        on_device!(self, device => device.show(job))
+    }
+
+    /// The colours of a picture: 4 numbers per pixel, rows from the top.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    ///
+    /// # Panics
+    /// Where there is none yet.
+    pub fn picture(&mut self, picture: DevicePicture) -> Result<Cow<'_, [f32]>, DeviceError> {
+        on_device!(self, device => device.picture(picture))
+    }
+
+    /// The codes of a picture: red, green and blue of each pixel, rows from the top.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    ///
+    /// # Panics
+    /// Where there is none yet.
+    pub fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
+        on_device!(self, device => device.codes(job))
     }
 }

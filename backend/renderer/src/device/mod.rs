@@ -10,6 +10,7 @@ mod error;
 pub mod gpu;
 mod job;
 mod rows;
+mod show;
 mod tag;
 mod under_way;
 
@@ -18,4 +19,5 @@ pub use cpu::CpuDevice;
 pub use either::Device;
 pub use error::DeviceError;
 pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, TileGrid, coarse};
+pub use show::{DevicePicture, FinishJob, ShowJob};
 pub use tag::{FeedbackTag, TaggedFeedback};

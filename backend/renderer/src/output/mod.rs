@@ -17,4 +17,6 @@ pub use eye::{EyePlan, EyeView};
 pub use picture::{Picture, PictureRef};
 pub use png::{encode_png, write_codes, write_png};
 pub use srgb::srgb_code;
+#[cfg(feature = "gpu")]
+pub(crate) use srgb::srgb_edges;
 pub(crate) use srgb::{srgb_codes, srgb_light};

@@ -31,6 +31,12 @@ pub(crate) fn srgb_codes(pixel: &[f32]) -> [u8; 3] {
     [srgb_code(pixel[0]), srgb_code(pixel[1]), srgb_code(pixel[2])]
 }
 
+/// The smallest linear values of codes 1 to 255.
+#[cfg(feature = "gpu")]
+pub(crate) fn srgb_edges() -> &'static [f32; 255] {
+    &THRESHOLDS
+}
+
 /// The encoding curve of IEC 61966-2-1, from linear to sRGB, on [0, 1].
 fn encode(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }

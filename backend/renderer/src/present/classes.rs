@@ -23,6 +23,12 @@ impl Classes {
         classes.fold(Self::default(), Self::with)
     }
 
+    /// A bit for each class: that of pixel (x, y) is number (x mod 2) + 2 (y mod 2).
+    #[cfg(feature = "gpu")]
+    pub fn bits(self) -> u32 {
+        self.0.into()
+    }
+
     /// Both.
     #[must_use]
     pub fn with(self, other: Self) -> Self {

@@ -1,11 +1,15 @@
 //! From what was cast to what is shown: pixels that were not cast are reconstructed, and colours become the codes of a projector.
 
 mod classes;
-mod codes;
+mod ease;
 mod finish;
 mod reconstruct;
 
 pub use classes::{Classes, lattice_of};
-pub use codes::screen_image;
+pub use ease::ease;
+#[cfg(feature = "gpu")]
+pub use finish::FinishTables;
 pub use finish::Finisher;
+#[cfg(feature = "gpu")]
+pub use reconstruct::{Pass, passes};
 pub use reconstruct::{Raster, Thresholds, reconstruct};

@@ -16,6 +16,7 @@
 //! as they were cast, whatever the filter says: so a still view comes to the full picture.
 
 use super::Classes;
+use layout::present::MOST_PAIRS;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
@@ -26,6 +27,14 @@ pub struct Raster {
     pub width: usize,
     /// Along y.
     pub height: usize,
+}
+
+impl Raster {
+    /// Of pixels along x and y.
+    pub fn of(size: [u32; 2]) -> Self {
+        let [width, height] = size.map(|along| along as usize);
+        Self { width, height }
+    }
 }
 
 /// How differently a pixel's neighbours must have changed, in linear colour, for it to be made from them alone.
@@ -45,16 +54,39 @@ impl Default for Thresholds {
 }
 
 type Pixel = [f32; 4];
-type Step = (i32, i32);
+/// The way to a neighbour, pixels.
+type Step = [i32; 2];
 
-const BESIDE: [[Step; 2]; 2] = [[(-1, 0), (1, 0)], [(0, -1), (0, 1)]];
-const DIAGONAL: [[Step; 2]; 2] = [[(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+// Of each pair of neighbours the one; the other lies opposite.
+const BESIDE: &[Step] = &[[-1, 0], [0, -1]];
+const DIAGONAL: &[Step] = &[[-1, -1], [1, -1]];
 /// Where whole rows are known: those above and below.
-const ACROSS_ROWS: [[Step; 2]; 3] = [[(0, -1), (0, 1)], [(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
+const ACROSS_ROWS: &[Step] = &[[0, -1], [-1, -1], [1, -1]];
 /// Where whole columns are.
-const ACROSS_COLUMNS: [[Step; 2]; 3] = [[(-1, 0), (1, 0)], [(-1, -1), (1, 1)], [(1, -1), (-1, 1)]];
-/// Pairs of neighbours, at most.
-const MOST_PAIRS: usize = 3;
+const ACROSS_COLUMNS: &[Step] = &[[-1, 0], [-1, -1], [1, -1]];
+
+/// One pass over a picture: some missing pixels are made of neighbours that are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// The pixels to make.
+    pub missing: Classes,
+    /// Of each pair of their neighbours the one.
+    pub pairs: &'static [Step],
+}
+
+/// The passes after which no pixel is missing, where those of some classes are known.
+pub fn passes(known: Classes) -> impl Iterator<Item = Pass> {
+    let diagonal = known.diagonal_of_one();
+    let known = diagonal.map_or(known, |diagonal| known.with(diagonal));
+    let pairs = match known {
+        known if known.are_rows() => ACROSS_ROWS,
+        known if known.are_columns() => ACROSS_COLUMNS,
+        _ => BESIDE,
+    };
+    let first = diagonal.map(|missing| Pass { missing, pairs: DIAGONAL });
+    let last = (known != Classes::ALL).then(|| Pass { missing: Classes::ALL.without(known), pairs });
+    first.into_iter().chain(last)
+}
 
 /// Makes the picture to show of `cast`, of which the pixels of the `known` classes stand. `before` is what was shown before,
 /// where anything was. Both have four numbers a pixel, rows from the top.
@@ -69,23 +101,9 @@ pub fn reconstruct<'a>(
     thresholds: Thresholds,
 ) -> Cow<'a, [f32]> {
     assert_eq!(cast.len(), 4 * raster.width * raster.height, "a picture fills its raster");
-    if known == Classes::ALL {
-        return cast;
-    }
-    let fill = |picture: &[f32], pairs: &[[Step; 2]], missing: Classes| {
-        Filter { picture, before, raster, pairs, thresholds }.fill(missing)
-    };
-    if let Some(diagonal) = known.diagonal_of_one() {
-        let half = fill(&cast, &DIAGONAL, diagonal);
-        let both = known.with(diagonal);
-        return fill(&half, &BESIDE, Classes::ALL.without(both)).into();
-    }
-    let pairs = match known {
-        known if known.are_rows() => &ACROSS_ROWS[..],
-        known if known.are_columns() => &ACROSS_COLUMNS[..],
-        _ => &BESIDE[..],
-    };
-    fill(&cast, pairs, Classes::ALL.without(known)).into()
+    passes(known).fold(cast, |picture, Pass { missing, pairs }| {
+        Filter { picture: &picture, before, raster, pairs, thresholds }.fill(missing).into()
+    })
 }
 
 /// One pass over a picture.
@@ -93,8 +111,8 @@ struct Filter<'a> {
     picture: &'a [f32],
     before: Option<&'a [f32]>,
     raster: Raster,
-    /// Neighbours, in opposite pairs: all of them are known where they are in the raster.
-    pairs: &'a [[Step; 2]],
+    /// Of each pair of neighbours the one: all of them are known where they are in the raster.
+    pairs: &'a [Step],
     thresholds: Thresholds,
 }
 
@@ -141,8 +159,8 @@ impl Filter<'_> {
         let Raster { width, height } = self.raster;
         let mut around = Around::default();
         let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
-        for pair in self.pairs {
-            around.add(pair.map(|(dx, dy)| {
+        for &[dx, dy] in self.pairs {
+            around.add([[dx, dy], [-dx, -dy]].map(|[dx, dy]| {
                 let (x, y) = (x.wrapping_add_signed(dx as isize), y.wrapping_add_signed(dy as isize));
                 (is_inside || (x < width && y < height)).then_some(4 * (y * width + x))
             }));

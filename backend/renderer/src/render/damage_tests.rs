@@ -5,7 +5,7 @@ use super::brick_ranges::BrickRanges;
 use super::rules::FrameRules;
 use super::test_scene::{Pictures, display, draw, frame, renderer};
 use super::views::{rays_of, scene_numbers};
-use crate::device::{CastJob, CpuDevice, Device, Gather, NEVER, Part};
+use crate::device::{CastJob, CpuDevice, Device, DevicePicture, Gather, NEVER, Part};
 use crate::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle};
 use bricks::LodRule;
 use bricks::is_shown;
@@ -146,7 +146,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
                 stop: NEVER,
             })
             .unwrap();
-        device.picture(0).unwrap().into_owned()
+        device.picture(DevicePicture::Cast(0)).unwrap().into_owned()
     };
     rays.iter().map(picture).collect()
 }

@@ -8,19 +8,45 @@ use super::error::check;
 use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
-use crate::present::{Finisher, Raster, Thresholds, reconstruct, screen_image};
+use crate::device::{DeviceError, DevicePicture, FinishJob, ShowJob};
+use crate::present::Raster;
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
     Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, ProjectorImage, Render, RenderEvent,
     RendererOptions, ScreenImage, StopAsked, VolumeRef,
 };
-use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Takes a picture: projector, pixels along x and y, colours, and what makes codes of them.
-type Sink<'a> = dyn FnMut(u32, [u32; 2], Cow<'_, [f32]>, &Finisher) + 'a;
+/// A picture that is final.
+struct Final {
+    projector: u32,
+    view: usize,
+    /// Pixels along x and y.
+    size: [u32; 2],
+    picture: DevicePicture,
+}
+
+impl Engine {
+    /// What is shown of the picture of a view: it depends on the frames before where there are many.
+    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<DevicePicture, DeviceError> {
+        let picture = work.picture_of(view);
+        if !work.is_of_many() {
+            return Ok(DevicePicture::Cast(picture));
+        }
+        let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
+        let is_behind = self.device.show(&ShowJob {
+            picture,
+            raster: Raster::of(work.setting.rays[view].raster),
+            known: work.known,
+            has_before: easing.has_shown(projector),
+            most_change: if work.eases { easing.most_change(projector, now_s) } else { None },
+        })?;
+        easing.show(projector, now_s, is_behind);
+        Ok(DevicePicture::Shown(picture))
+    }
+}
 
 /// The renderer of one back-end.
 pub struct Renderer {
@@ -109,7 +135,7 @@ impl Renderer {
         let Some(Course { work, .. }) = &self.course else { return Ok(None) };
         let Some(view) = work.view_of(projector) else { return Ok(None) };
         let [width, height] = work.setting.rays[view].raster;
-        let rgba = self.engine.device.picture(work.picture_of(view))?.into_owned();
+        let rgba = self.engine.device.picture(DevicePicture::Cast(work.picture_of(view)))?.into_owned();
         Ok(Some(ProjectorImage { projector, width, height, rgba }))
     }
 
@@ -124,30 +150,39 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), RenderError> {
-        self.show_finals(&mut |projector, [width, height], rgba, _| {
-            sink(ProjectorImage { projector, width, height, rgba: rgba.into_owned() });
+        self.take_finals(sink, |engine, Final { projector, size: [width, height], picture, .. }| {
+            let rgba = engine.device.picture(picture)?.into_owned();
+            Ok(ProjectorImage { projector, width, height, rgba })
         })
     }
 
-    /// The pictures that have become final, as they are shown.
-    fn show_finals(&mut self, sink: &mut Sink<'_>) -> Result<(), RenderError> {
+    /// The same, as screens show them.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), RenderError> {
+        self.take_finals(sink, |engine, Final { projector, view, size: [width, height], picture }| {
+            let Engine { device, finishers, .. } = engine;
+            let (raster, finisher) = (Raster::of([width, height]), &finishers[view]);
+            let rgb = device.codes(&FinishJob { picture, raster, view, finisher })?;
+            Ok(ScreenImage { projector, width, height, rgb })
+        })
+    }
+
+    /// Has the device make what is shown of the pictures that have become final, and takes each with `take`.
+    fn take_finals<T>(
+        &mut self,
+        sink: &mut dyn FnMut(T),
+        take: impl Fn(&mut Engine, Final) -> Result<T, DeviceError>,
+    ) -> Result<(), RenderError> {
         let Self { engine, course: Some(Course { work, .. }) } = self else { return Ok(()) };
         for projector in std::mem::take(&mut work.finals) {
             let started = std::time::Instant::now();
             let Some(view) = work.view_of(projector) else { continue };
-            let (size, picture) = (work.setting.rays[view].raster, work.picture_of(view));
-            let Engine { easing, live, device, finishers, .. } = &mut *engine;
-            let cast = device.picture(picture)?;
-            let shown = if work.is_of_many() {
-                let raster = Raster { width: size[0] as usize, height: size[1] as usize };
-                let before = easing.before(projector).filter(|before| before.len() == cast.len());
-                let whole = reconstruct(cast, before, raster, work.known, Thresholds::default());
-                Cow::from(easing.show(projector, whole, live.now_s(&work.frame), work.eases))
-            } else {
-                cast
-            };
+            let (size, picture) = (work.setting.rays[view].raster, engine.show(work, projector, view)?);
+            let taken = take(engine, Final { projector, view, size, picture })?;
             work.account.stages.readback_ms += milliseconds(started);
-            sink(projector, size, shown, &finishers[view]);
+            sink(taken);
         }
         Ok(())
     }
@@ -187,9 +222,7 @@ impl Render for Renderer {
     }
 
     fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
-        Ok(self.show_finals(&mut |projector, size, rgba, finisher| {
-            sink(screen_image(projector, size, &rgba, finisher));
-        })?)
+        Ok(Self::present_on_screens(self, sink)?)
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

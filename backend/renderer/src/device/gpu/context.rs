@@ -109,6 +109,11 @@ impl Context {
         }
     }
 
+    /// A list of work for the device.
+    pub(super) fn new_encoder(&self) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
     /// Hands work to the device, behind what it has.
     pub(super) fn submit(&self, encoder: wgpu::CommandEncoder) {
         self.queue.submit([encoder.finish()]);

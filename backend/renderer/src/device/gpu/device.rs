@@ -5,12 +5,15 @@ use super::batch::BatchSize;
 use super::context::Context;
 use super::feedback::FrameFeedback;
 use super::kernels::Kernels;
+use super::pictures::Pictures;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
 use super::view::ViewBuffers;
 use crate::device::job::ViewJob;
-use crate::device::{CastJob, CastOutcome, DeviceError, FeedbackTag, Gather, TaggedFeedback};
+use crate::device::{
+    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShowJob, TaggedFeedback,
+};
 use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock, binding};
 use needs::Way;
@@ -46,11 +49,10 @@ pub struct GpuDevice {
     index: Storage,
     materials: Storage,
     table_cells: Storage,
-    views: Vec<ViewBuffers>,
+    pictures: Pictures,
     feedback: Storage,
     frame_feedback: FrameFeedback,
     feedback_back: Readback,
-    pixels_back: Readback,
     /// Places of the index.
     places: usize,
     batch: BatchSize,
@@ -101,11 +103,10 @@ impl GpuDevice {
             importance_most: storage("largest importances"),
             index: storage("refraction table"),
             materials: storage("material table"),
-            views: Vec::new(),
+            pictures: Pictures::new(&context),
             feedback: storage("feedback"),
             frame_feedback: FrameFeedback::new(&context),
             feedback_back: Readback::new(),
-            pixels_back: Readback::new(),
             places: 0,
             batch: BatchSize::new(context.is_software),
             context,
@@ -176,7 +177,7 @@ impl GpuDevice {
         self.prepare(job);
         let key = KernelKey { filter: self.filter, needs: job.needs };
         let pipeline = self.kernels.get(&context, key).clone();
-        let mut encoder = new_encoder(&context);
+        let mut encoder = context.new_encoder();
         match job.gather {
             Gather::Own => encoder.clear_buffer(&self.feedback.buffer, 0, None),
             Gather::Frame => self.frame_feedback.clear_stale(&mut encoder),
@@ -207,8 +208,8 @@ impl GpuDevice {
             let end = view.tiles.len().min(done + self.batch.tiles());
             let batch = ViewJob { tiles: view.tiles[done..end].into(), ..view.clone() };
             let started = Instant::now();
-            self.views[view.picture].prepare(&context, &batch);
-            let mut encoder = new_encoder(&context);
+            self.pictures.views[view.picture].prepare(&context, &batch);
+            let mut encoder = context.new_encoder();
             self.dispatch(&mut encoder, pipeline, key, job, &batch);
             context.run(encoder)?;
             self.batch.learn(end - done, started.elapsed());
@@ -230,7 +231,7 @@ impl GpuDevice {
             Gather::Own => &self.feedback,
             Gather::Frame => self.frame_feedback.table(),
         };
-        let bind_group = self.bind(pipeline, key, &self.views[view.picture], feedback);
+        let bind_group = self.bind(pipeline, key, &self.pictures.views[view.picture], feedback);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &bind_group, &[]);
@@ -246,7 +247,7 @@ impl GpuDevice {
         mut outcome: CastOutcome,
     ) -> Result<CastOutcome, DeviceError> {
         let context = &self.context;
-        let mut encoder = new_encoder(context);
+        let mut encoder = context.new_encoder();
         let has_own = job.gather == Gather::Own;
         if has_own {
             let bytes = self.feedback.used_bytes;
@@ -254,12 +255,12 @@ impl GpuDevice {
         }
         if job.counts {
             for (_, view) in cast {
-                self.views[view.picture].copy_counts(context, &mut encoder);
+                self.pictures.views[view.picture].copy_counts(context, &mut encoder);
             }
         }
         context.run(encoder)?;
         for (index, view) in cast {
-            self.views[view.picture].add_up(context, job, (*index, view), &mut outcome)?;
+            self.pictures.views[view.picture].add_up(context, job, (*index, view), &mut outcome)?;
         }
         if has_own {
             outcome.feedback = self.feedback_back.read(context, self.places)?;
@@ -296,22 +297,28 @@ impl GpuDevice {
         self.frame_feedback.take(&context)
     }
 
-    pub(in crate::device) fn picture(&mut self, index: usize) -> Result<Cow<'_, [f32]>, DeviceError> {
-        let context = Arc::clone(&self.context);
-        let _turn = context.turn();
-        let view = &self.views[index];
-        let numbers = 4 * view.pixel_count();
-        let mut encoder = new_encoder(&context);
-        self.pixels_back.copy(&context, &mut encoder, &view.pixels.buffer, 4 * numbers as u64);
-        context.run(encoder)?;
-        Ok(self.pixels_back.read(&context, numbers)?.into())
+    pub(in crate::device) fn show(&mut self, job: &ShowJob) -> Result<bool, DeviceError> {
+        let _turn = self.context.turn();
+        self.pictures.show(&self.context, job)
+    }
+
+    pub(in crate::device) fn picture(
+        &mut self,
+        picture: DevicePicture,
+    ) -> Result<Cow<'_, [f32]>, DeviceError> {
+        let _turn = self.context.turn();
+        Ok(self.pictures.read(&self.context, picture)?.into())
+    }
+
+    pub(in crate::device) fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
+        let _turn = self.context.turn();
+        self.pictures.codes(&self.context, job)
     }
 
     /// Uploads what all views of a cast share, and makes room for their pictures.
     fn prepare(&mut self, job: &CastJob) {
-        let Self { context, views, .. } = self;
-        let pictures = views.len().max(job.first_picture + job.views.len());
-        views.resize_with(pictures, || ViewBuffers::new(context));
+        let Self { context, pictures, .. } = self;
+        pictures.make_room(context, job.first_picture + job.views.len());
         context.queue.write_buffer(&self.scene, 0, bytemuck::bytes_of(&job.scene.block(self.atlas.slots)));
         if !job.needs.chain.is_empty() {
             context.queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&job.scene.links()));
@@ -373,10 +380,6 @@ impl GpuDevice {
             entries: &entries,
         })
     }
-}
-
-fn new_encoder(context: &Context) -> wgpu::CommandEncoder {
-    context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
 }
 
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {

@@ -67,7 +67,7 @@ impl FrameFeedback {
 
     /// Starts the table on its way.
     pub(super) fn end(&mut self, context: &Context, tag: FeedbackTag) {
-        let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = context.new_encoder();
         let bytes = self.table.used_bytes;
         let buffer = self.free_buffer(context, bytes);
         self.clear_stale(&mut encoder);

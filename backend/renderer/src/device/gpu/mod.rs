@@ -7,10 +7,14 @@ mod cache_file;
 mod context;
 mod device;
 mod feedback;
+mod finish;
 mod kernels;
+mod pictures;
 mod pipeline_cache;
 mod precision;
+mod present;
 mod readback;
+mod show;
 mod storage;
 mod view;
 

@@ -50,7 +50,7 @@ pub(super) fn filter_error(
             wgpu::BindGroupEntry { binding: 2, resource: found.as_entire_binding() },
         ],
     });
-    let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut encoder = context.new_encoder();
     {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&pipeline);

@@ -15,6 +15,8 @@ pub(super) struct ViewBuffers {
     pub(super) block: wgpu::Buffer,
     pub(super) tiles: Storage,
     pub(super) pixels: Storage,
+    /// What is shown of them.
+    pub(super) shown: Storage,
     pub(super) counts: Storage,
     counts_back: Readback,
     /// Width and height of its picture, pixels.
@@ -28,6 +30,7 @@ impl ViewBuffers {
             block: uniform::<ViewBlock>(context, "view"),
             tiles: storage("tiles"),
             pixels: storage("pixels"),
+            shown: storage("shown pixels"),
             counts: storage("sample counts"),
             counts_back: Readback::new(),
             raster: [0, 0],

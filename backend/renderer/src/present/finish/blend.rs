@@ -4,7 +4,7 @@ use super::spread::spread;
 use display_config::LightMap;
 
 pub(super) struct Blend {
-    factors: Vec<f32>,
+    pub(super) factors: Vec<f32>,
 }
 
 impl Blend {

@@ -1,7 +1,8 @@
 //! Ordered dither: a threshold for each pixel, the same in every frame.
 
-/// Bits of a coordinate that matter: the pattern repeats after 32 pixels.
-const BITS: usize = 5;
+use layout::present::DITHER_BITS;
+
+const BITS: usize = DITHER_BITS as usize;
 const LEVELS: f32 = (1 << (2 * BITS)) as f32;
 
 /// The threshold of a pixel, between 0 and 1: Bayer's matrix (1973) of 8 × 8, whose tiles differ by less than its steps in

@@ -24,6 +24,23 @@ pub struct Finisher {
     curve: Curve,
 }
 
+/// The stages as tables for a kernel, rows from the top.
+#[cfg(feature = "gpu")]
+pub struct FinishTables<'a> {
+    /// Where each pixel takes its light from, pixels.
+    pub places: Option<&'a [[f32; 2]]>,
+    /// The factor of each pixel's light.
+    pub blend: Option<&'a [f32]>,
+    /// The black level of each pixel.
+    pub black: Option<&'a [f32]>,
+    /// That of all pixels, where there is no other.
+    pub black_level: [f32; 3],
+    /// The transfer curves: see [`layout::binding::CURVES`].
+    pub curves: Vec<f32>,
+    /// Whether codes are dithered.
+    pub is_dithered: bool,
+}
+
 impl Finisher {
     /// The stages that the display file asks for. Tables take up to 12 bytes a pixel.
     pub fn new(projector: &Projector) -> Self {
@@ -35,6 +52,24 @@ impl Finisher {
             blend: finish.blend.as_ref().map(|map| Blend::new(map, size)),
             black: finish.black.as_ref().map(|black| Black::new(black, size)),
             curve: Curve::new(&finish.transfer, finish.is_dithered),
+        }
+    }
+
+    /// What a kernel needs to do the same.
+    #[cfg(feature = "gpu")]
+    pub fn tables(&self) -> FinishTables<'_> {
+        let (level, black) = match &self.black {
+            None => ([0.0; 3], None),
+            Some(Black::Level(level)) => (*level, None),
+            Some(Black::Map(map)) => ([0.0; 3], Some(&map[..])),
+        };
+        FinishTables {
+            places: self.warp.as_ref().map(|warp| &warp.places[..]),
+            blend: self.blend.as_ref().map(|blend| &blend.factors[..]),
+            black,
+            black_level: level,
+            curves: self.curve.numbers(),
+            is_dithered: self.curve.is_dithered(),
         }
     }
 

@@ -1,6 +1,8 @@
 //! The transfer curve: the code for a light, by rounding or by dither.
 
 use super::dither::threshold;
+#[cfg(feature = "gpu")]
+use crate::output::srgb_edges;
 use crate::output::{srgb_codes, srgb_light};
 use display_config::{Response, Transfer};
 
@@ -37,6 +39,33 @@ impl Curve {
                 std::array::from_fn(|c| ramps[c].code(light[c], threshold))
             }
         }
+    }
+}
+
+/// Beyond all light, where a kernel has no ∞.
+#[cfg(feature = "gpu")]
+const BEYOND: f32 = 1e30;
+
+#[cfg(feature = "gpu")]
+impl Curve {
+    /// The curves of red, green and blue as a kernel reads them: of each the lights at which its code rises, then those of
+    /// all codes, which only dither asks for.
+    pub fn numbers(&self) -> Vec<f32> {
+        let channel = |channel: usize| -> Vec<f32> {
+            match self {
+                Self::Srgb => [&srgb_edges()[..], &[0.0; 256]].concat(),
+                Self::Rounded(steps) => [&steps[channel].edges[..], &[0.0; 256]].concat(),
+                Self::Dithered(ramps) => {
+                    [&ramps[channel].steps.edges[..], &ramps[channel].lights[..]].concat()
+                }
+            }
+        };
+        (0..3).flat_map(channel).map(|light| light.clamp(-BEYOND, BEYOND)).collect()
+    }
+
+    /// Whether codes are dithered.
+    pub fn is_dithered(&self) -> bool {
+        matches!(self, Self::Dithered(_))
     }
 }
 
@@ -134,8 +163,7 @@ impl Ramp {
         let below = self.steps.up_to(light);
         let Some(above) = self.lights.get(usize::from(below) + 1) else { return below };
         let low = self.lights[usize::from(below)];
-        let part = (light - low) / (above - low);
-        below + u8::from(part > threshold)
+        below + u8::from(light - low > threshold * (above - low))
     }
 }
 

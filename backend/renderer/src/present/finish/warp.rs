@@ -2,17 +2,16 @@
 
 use display_config::{Mesh, Raster};
 use glam::DVec2;
+use layout::present::NOWHERE;
 use rayon::prelude::*;
 
 /// A place this far outside the picture (pixels) still belongs to it: a mesh has its points in f32.
 const EDGE_PX: f64 = 1e-3;
-/// In the table, where a pixel sees none of the picture.
-const NOWHERE: [f32; 2] = [f32::NAN; 2];
 
 /// Where in the picture each pixel takes its light from.
 pub(super) struct Warp {
     /// Pixel coordinates less a half: the centre of the picture's first pixel is at 0.
-    places: Vec<[f32; 2]>,
+    pub(super) places: Vec<[f32; 2]>,
 }
 
 impl Warp {
@@ -24,9 +23,9 @@ impl Warp {
             let is_inside = place.cmpge(DVec2::splat(-EDGE_PX)).all() && place.cmple(size + EDGE_PX).all();
             is_inside.then(|| (place - 0.5).as_vec2().to_array())
         };
-        let mut places = vec![NOWHERE; raster.width as usize * raster.height as usize];
+        let mut places = vec![[NOWHERE; 2]; raster.width as usize * raster.height as usize];
         places.par_chunks_mut(raster.width.max(1) as usize).zip(0..raster.height).for_each(|(row, y)| {
-            row.iter_mut().zip(0..).for_each(|(into, x)| *into = place(x, y).unwrap_or(NOWHERE));
+            row.iter_mut().zip(0..).for_each(|(into, x)| *into = place(x, y).unwrap_or([NOWHERE; 2]));
         });
         Self { places }
     }
@@ -38,7 +37,7 @@ impl Warp {
     /// (tests/results/finish.md). Its negative lobes may ring below black.
     pub fn colour(&self, rgba: &[f32], [width, height]: [usize; 2], at: usize) -> [f32; 3] {
         let [x, y] = self.places[at];
-        if x.is_nan() {
+        if x == NOWHERE {
             return [0.0; 3];
         }
         let (columns, across) = taps(x, width);

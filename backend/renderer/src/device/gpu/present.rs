@@ -1,0 +1,58 @@
+//! The kernels that make what is shown of what was cast, and what they have in common.
+
+use super::context::Context;
+use super::kernels::compile;
+use super::storage::{Storage, uniform};
+use layout::{PresentBlock, TILE_EDGE, binding};
+use shaders::compose::PresentKernel;
+
+/// One pass over a picture: a kernel, compiled when it is first used, and its uniform block.
+#[derive(Debug)]
+pub(super) struct PresentPass {
+    kernel: PresentKernel,
+    pipeline: Option<wgpu::ComputePipeline>,
+    block: wgpu::Buffer,
+}
+
+impl PresentPass {
+    pub(super) fn new(context: &Context, kernel: PresentKernel) -> Self {
+        Self { kernel, pipeline: None, block: uniform::<PresentBlock>(context, "present") }
+    }
+
+    /// Hands it to the device: reads `picture`, and reads and writes the other buffers, each under its binding.
+    pub(super) fn run(
+        &mut self,
+        context: &Context,
+        block: &PresentBlock,
+        picture: &Storage,
+        others: &[(u32, &Storage)],
+    ) {
+        let kernel = self.kernel;
+        let pipeline = self.pipeline.get_or_insert_with(|| {
+            compile(context, &format!("{kernel:?}"), &kernel.wgsl(), kernel.entry_point())
+        });
+        context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(block));
+        let mut entries = vec![wgpu::BindGroupEntry {
+            binding: binding::PRESENT,
+            resource: self.block.as_entire_binding(),
+        }];
+        let buffers = [(binding::PICTURE, picture)].into_iter().chain(others.iter().copied());
+        entries.extend(
+            buffers.map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() }),
+        );
+        let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        });
+        let mut encoder = context.new_encoder();
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &bind_group, &[]);
+            let [width, height, ..] = block.raster.map(|along| along.div_ceil(TILE_EDGE));
+            pass.dispatch_workgroups(width, height, 1);
+        }
+        context.submit(encoder);
+    }
+}

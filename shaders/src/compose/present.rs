@@ -1,0 +1,43 @@
+//! The kernels that make what is shown of what was cast.
+
+use super::constants;
+use super::kernel::module;
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PresentKernel {
+    /// A pass over a picture that fills gaps.
+    Reconstruct,
+    /// The step from what was shown before.
+    Ease,
+    /// From linear colours to codes.
+    Finish,
+}
+
+impl PresentKernel {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Reconstruct, Self::Ease, Self::Finish];
+
+    /// Its WGSL.
+    pub fn wgsl(self) -> String {
+        let constants = constants::wgsl();
+        let mut modules = vec![constants.as_str(), module!("present/block")];
+        modules.extend(match self {
+            Self::Reconstruct => &[module!("present/reconstruct")][..],
+            Self::Ease => &[module!("present/ease")],
+            Self::Finish => {
+                &[module!("present/warp"), module!("present/transfer"), module!("present/finish")]
+            }
+        });
+        modules.join("\n")
+    }
+
+    /// The name of its entry point, which is called for each pixel in tiles of [`layout::TILE_EDGE`].
+    pub fn entry_point(self) -> &'static str {
+        match self {
+            Self::Reconstruct => "reconstruct_pixel",
+            Self::Ease => "ease_pixel",
+            Self::Finish => "finish_pixel",
+        }
+    }
+}
