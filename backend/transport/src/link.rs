@@ -80,4 +80,9 @@ pub trait WorkerLink {
 
     /// How long the front-end may say nothing before it counts as lost.
     fn frontend_silence(&self) -> Duration;
+
+    /// Whether another takes this back-end's place if it fails: then one that is stuck had better.
+    fn can_be_replaced(&self) -> bool {
+        false
+    }
 }

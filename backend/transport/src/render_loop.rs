@@ -1,12 +1,13 @@
 //! The thread of a back-end that draws.
 
+use super::beat::now_us;
 use super::opened::Opened;
 use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded, unbounded};
 use protocol::{FrameState, FromBackend, Render, ScreenImage, Screens, Setup, Wall};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -50,6 +51,7 @@ pub(super) struct RenderThread {
     commands: Option<Sender<Command>>,
     replies: Option<Receiver<Reply>>,
     is_over: Arc<AtomicBool>,
+    stepped_us: Arc<AtomicU64>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -64,17 +66,39 @@ impl RenderThread {
     {
         let (commands, inbox) = unbounded();
         let (outbox, replies) = bounded(MOST_AHEAD);
-        let is_over = Arc::new(AtomicBool::new(false));
-        let studio =
-            Studio { inbox, outbox, is_over: Arc::clone(&is_over), taken: 0, screens: Screens::default() };
+        let (is_over, stepped_us) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(now_us())));
+        let studio = Studio {
+            inbox,
+            outbox,
+            is_over: Arc::clone(&is_over),
+            stepped_us: Arc::clone(&stepped_us),
+            taken: 0,
+            screens: Screens::default(),
+        };
         let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
-        Ok(Self { commands: Some(commands), replies: Some(replies), is_over, thread: Some(thread) })
+        Ok(Self {
+            commands: Some(commands),
+            replies: Some(replies),
+            is_over,
+            stepped_us,
+            thread: Some(thread),
+        })
     }
 
     /// Asks something of it; what it is drawing is left off after the present tile.
     pub(super) fn command(&self, command: Command) {
         // A thread that has ended has failed, and said so in a reply.
         let _ = self.commands.as_ref().map(|commands| commands.send(command));
+    }
+
+    /// It is asked something after it had nothing to do.
+    pub(super) fn wake(&self) {
+        self.stepped_us.fetch_max(now_us(), Ordering::Relaxed);
+    }
+
+    /// For how long it has taken no command and finished no tile, since it was woken; opening a volume may take any time.
+    pub(super) fn stands_still_for(&self) -> Duration {
+        Duration::from_micros(now_us().saturating_sub(self.stepped_us.load(Ordering::Relaxed)))
     }
 
     /// Where its replies come.
@@ -98,6 +122,8 @@ struct Studio {
     inbox: Receiver<Command>,
     outbox: Sender<Reply>,
     is_over: Arc<AtomicBool>,
+    /// When it last took a command or finished a tile.
+    stepped_us: Arc<AtomicU64>,
     /// Commands that it has begun with.
     taken: u64,
     /// Where the pictures of the beat go.
@@ -148,7 +174,9 @@ impl Studio {
     {
         let Ok(Command::Open(setup)) = self.inbox.recv() else { return Ok(()) };
         (self.taken, self.screens) = (1, setup.screens);
+        self.stepped_us.store(u64::MAX, Ordering::Relaxed);
         let Opened { mut renderer, device, wall } = make(*setup).map_err(End::Failed)?;
+        self.step();
         if let Some(wall) = wall {
             self.outbox.send(Reply::Wall(wall)).map_err(|_| End::Dismissed)?;
         }
@@ -197,6 +225,7 @@ impl Studio {
         };
         match command {
             Ok(command) => {
+                self.step();
                 self.taken += 1;
                 Ok(Some(command))
             }
@@ -207,8 +236,7 @@ impl Studio {
 
     /// Goes on with a frame of the beat until it is done or a command comes, and begins the next.
     fn go_on_beating(&self, renderer: &mut dyn Render, next: Option<Box<FrameState>>) -> Result<Work, End> {
-        let has_command = || !self.inbox.is_empty() || self.is_over.load(Ordering::Relaxed);
-        let advance = renderer.advance(&has_command)?;
+        let advance = renderer.advance(&|| self.has_command())?;
         let mut sent = Ok(());
         renderer.present_on_screens(&mut |image| {
             if sent.is_ok() {
@@ -226,8 +254,7 @@ impl Studio {
     /// Goes on with the frame until it is done, a command comes, or it is time for news. Whether it is done.
     fn go_on(&self, renderer: &mut dyn Render) -> Result<bool, End> {
         let since = Instant::now();
-        let has_command = || !self.inbox.is_empty() || self.is_over.load(Ordering::Relaxed);
-        let advance = renderer.advance(&|| has_command() || since.elapsed() > PROGRESS_INTERVAL)?;
+        let advance = renderer.advance(&|| self.has_command() || since.elapsed() > PROGRESS_INTERVAL)?;
         let mut sent = Ok(());
         renderer.present(&mut |image| {
             if sent.is_ok() {
@@ -239,6 +266,16 @@ impl Studio {
         let Some(report) = advance.report else { return Ok(false) };
         self.tell(FromBackend::Done(report), true)?;
         Ok(true)
+    }
+
+    /// Asked before each tile: whether something else is to be done.
+    fn has_command(&self) -> bool {
+        self.step();
+        !self.inbox.is_empty() || self.is_over.load(Ordering::Relaxed)
+    }
+
+    fn step(&self) {
+        self.stepped_us.store(now_us(), Ordering::Relaxed);
     }
 
     /// Sends a picture of the beat where the setup wants it.

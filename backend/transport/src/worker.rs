@@ -32,6 +32,10 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(1);
 
 const THREAD_ENDED: &str = "the thread that draws has ended; please report it with this line";
 
+/// Whoever draws no tile for so long is stuck, in a driver or on a disk. The slowest thing between two tiles is a driver in
+/// software that compiles a kernel: seconds.
+const STUCK_AFTER: Duration = Duration::from_secs(if cfg!(test) { 2 } else { 60 });
+
 /// How often a back-end with something to do says that it lives, while it has nothing else to say.
 const ALIVE_INTERVAL: Duration = Duration::from_millis(250);
 
@@ -113,6 +117,9 @@ where
             }
             FromFrontend::Finish => Command::Finish,
         };
+        if desk.is_idle() {
+            desk.renderer.wake();
+        }
         desk.asked += 1;
         desk.renderer.command(command);
     }
@@ -135,9 +142,14 @@ struct Desk<'a> {
 }
 
 impl Desk<'_> {
+    /// Whether the renderer owes nothing.
+    fn is_idle(&self) -> bool {
+        self.answered == self.asked
+    }
+
     /// The next message of the front-end; None where the renderer had something to say first.
     fn next(&mut self) -> Result<Option<FromFrontend>, WorkerError> {
-        if self.answered == self.asked && self.ordered.is_none() {
+        if self.is_idle() && self.ordered.is_none() {
             let silence = self.link.frontend_silence();
             return self.link.receive(silence).map(Some).map_err(|error| match error {
                 LinkError::Silent => WorkerError::FrontendSilent(silence.as_secs()),
@@ -154,6 +166,11 @@ impl Desk<'_> {
                 }
             }
             default(LOOK_INTERVAL) => {
+                if self.is_stuck() {
+                    let seconds = STUCK_AFTER.as_secs();
+                    let why = "its graphics driver or the disk with the volume is stuck";
+                    return self.fail(format!("it has drawn no tile for {seconds} s: {why}")).map(|()| None);
+                }
                 // The thread that draws may be in a piece of work that takes long.
                 if self.last_said.elapsed() > ALIVE_INTERVAL {
                     self.say(FromBackend::Alive)?;
@@ -165,6 +182,11 @@ impl Desk<'_> {
             Err(LinkError::Silent) => Ok(None),
             Err(error) => Err(error.into()),
         }
+    }
+
+    /// Whether it had better be replaced.
+    fn is_stuck(&self) -> bool {
+        !self.is_idle() && self.link.can_be_replaced() && self.renderer.stands_still_for() > STUCK_AFTER
     }
 
     /// What the renderer has to say, to whom it concerns.

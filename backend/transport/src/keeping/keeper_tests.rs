@@ -19,6 +19,12 @@ const ABORTS: u32 = 1001;
 const EXITS: u32 = 1002;
 const FAILS: u32 = 1003;
 const PANICS: u32 = 1004;
+/// One in which it is slow, tile by tile, and one in which it never comes to the next tile.
+const IS_SLOW: u32 = 1005;
+const IS_STUCK: u32 = 1006;
+
+/// Beyond what a back-end of a test counts as stuck after.
+const SLOWLY: Duration = Duration::from_millis(2500);
 
 struct Fake(u32);
 
@@ -28,12 +34,19 @@ impl Render for Fake {
         Ok(())
     }
 
-    fn advance(&mut self, _: StopAsked) -> Result<Advance, DrawError> {
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
         match self.0 {
             ABORTS => std::process::abort(),
             EXITS => std::process::exit(7),
             FAILS => return Err(DrawError("the fake device is lost".to_owned())),
             PANICS => panic!("a fake fault"),
+            IS_SLOW => {
+                let since = Instant::now();
+                while since.elapsed() < SLOWLY && !stop() {
+                    std::thread::sleep(Duration::from_millis(20));
+                }
+            }
+            IS_STUCK => std::thread::sleep(2 * LIMIT),
             _ => {}
         }
         Ok(Advance { done: 1, total: 1, lacking_bricks: 0, report: Some(Box::new(report(self.0, 0))) })
@@ -225,6 +238,21 @@ fn one_that_hangs_is_killed_and_comes_back_and_one_that_is_idle_is_not() {
     assert!(why.contains("gave no sign of life for 1.5 s, so it was killed"), "{why}");
     assert!(since.elapsed() < HANGS_AFTER + Duration::from_secs(2), "{:?}", since.elapsed());
     assert_ne!(is_running(process), Some(true));
+}
+
+#[test]
+fn one_that_draws_no_tile_comes_back_and_one_that_is_slow_is_let_be() {
+    let mut bench = Bench::new().ready();
+    // Idle for longer than it may be stuck, and asked again.
+    let since = Instant::now();
+    while since.elapsed() < SLOWLY {
+        assert_eq!(bench.keeper.next(Duration::from_millis(1)), None);
+    }
+    bench.beat(IS_SLOW);
+    bench.draws(IS_SLOW);
+    bench.beat(IS_STUCK);
+    let why = bench.comes_back();
+    assert!(why.contains("failed: it has drawn no tile for 2 s"), "{why}");
 }
 
 #[test]

@@ -92,6 +92,11 @@ impl WorkerLink for KeptLink {
     fn frontend_silence(&self) -> Duration {
         WITHOUT_END
     }
+
+    /// The keeper ends it, whatever its threads do, and starts another.
+    fn can_be_replaced(&self) -> bool {
+        true
+    }
 }
 
 fn frontend_ended() -> LinkError {
