@@ -14,6 +14,10 @@ static START: LazyLock<Instant> = LazyLock::new(Instant::now);
 /// How often windows are looked after.
 const TEND_INTERVAL: Duration = Duration::from_millis(200);
 
+/// So long before a frame is due the thread wakes, and only lets others run from then on: a sleeper may wake a millisecond
+/// late, each back-end by another time.
+const WAKES_BEFORE: Duration = Duration::from_millis(1);
+
 /// What the clock of this process says, microseconds.
 pub fn now_us() -> u64 {
     START.elapsed().as_micros() as u64
@@ -160,7 +164,8 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
                 tell(outbox, Told::Shown { frame, at_us: now_us() });
                 continue;
             }
-            wait = Some(wait.map_or(left, |wait| wait.min(left)));
+            let sleep = left.saturating_sub(WAKES_BEFORE);
+            wait = Some(wait.map_or(sleep, |wait| wait.min(sleep)));
         }
         if let Some(frame) = stage.next(now_us()) {
             windows.ready(frame)?;
@@ -177,7 +182,7 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
                 stage.drawn(frame);
             }
             Ok(Cue::Show { frame, at_us }) => stage.order(frame, at_us),
-            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Timeout) => std::thread::yield_now(),
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         }
         if let (Some(wall), true) = (&mut windows.wall, tended.elapsed() >= TEND_INTERVAL) {
