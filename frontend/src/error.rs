@@ -67,6 +67,9 @@ pub enum FrontendError {
         /// How many there are.
         count: u32,
     },
+    /// The input file is wrong, or a source cannot be started.
+    #[error(transparent)]
+    Inputs(#[from] inputs::InputError),
     /// `--trace` without `--live`.
     #[error("--trace records what live frames ask for, and these frames are complete ones; add --live")]
     TraceOfCompleteFrames,

@@ -8,6 +8,7 @@ pub mod drive;
 mod error;
 pub mod gallery;
 pub mod interrupt;
+pub mod monitor;
 pub mod orientation;
 pub mod progress;
 pub mod report;

@@ -2,16 +2,13 @@
 
 use super::BackendArgs;
 use super::live::{fade, live_pace, upload};
-use super::parse::whole;
+use super::parse::{seconds, whole};
 use crate::scene::{LookName, QualityPreset};
 use clap::{Args, ValueEnum};
 use display_config::RATES_HZ;
 use protocol::Pace;
 use std::path::PathBuf;
 use std::time::Duration;
-
-/// The longest show, seconds: a year.
-const LONGEST_S: f64 = 3.2e7;
 
 /// `lightloom drive`.
 #[derive(Clone, Debug, Args)]
@@ -109,11 +106,4 @@ fn rate(text: &str) -> Result<f64, String> {
     let (low, high) = RATES_HZ;
     let rate = text.trim().parse().ok().filter(|rate| (low..=high).contains(rate));
     rate.ok_or_else(|| format!("give a number of frames per second from {low} to {high}"))
-}
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.trim().parse().ok().filter(|&seconds: &f64| seconds > 0.0 && seconds <= LONGEST_S);
-    seconds
-        .map(Duration::from_secs_f64)
-        .ok_or_else(|| format!("give a number of seconds above 0 and at most {LONGEST_S}"))
 }

@@ -8,6 +8,7 @@ mod export;
 mod gallery;
 mod import;
 mod info;
+mod inputs;
 mod live;
 mod looks;
 mod outputs;
@@ -26,6 +27,7 @@ pub use export::ExportArgs;
 pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
 pub use info::InfoArgs;
+pub use inputs::InputsArgs;
 pub use live::LiveArgs;
 pub use looks::LooksArgs;
 pub use outputs::OutputsArgs;
@@ -71,4 +73,6 @@ pub enum Command {
     Displays,
     /// List the video outputs of this host, for the projectors of a display file.
     Outputs(OutputsArgs),
+    /// Show live what trackers, controllers and programs say.
+    Inputs(InputsArgs),
 }

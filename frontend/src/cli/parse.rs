@@ -4,6 +4,7 @@ use glam::{DVec3, UVec2, UVec3};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
+use std::time::Duration;
 
 /// Three numbers within a million.
 pub(super) fn point(text: &str) -> Result<DVec3, String> {
@@ -60,4 +61,15 @@ pub(super) fn picture_size(text: &str) -> Result<UVec2, String> {
     sizes.filter(|size| size.min_element() > 0 && size.max_element() <= MOST_PIXELS).ok_or_else(|| {
         format!("give a width and a height such as 640x480, each from 1 to {MOST_PIXELS} pixels")
     })
+}
+
+/// Nothing runs longer, seconds: a year.
+const LONGEST_S: f64 = 3.2e7;
+
+/// A time above 0.
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.trim().parse().ok().filter(|&seconds: &f64| seconds > 0.0 && seconds <= LONGEST_S);
+    seconds
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| format!("give a number of seconds above 0 and at most {LONGEST_S}"))
 }

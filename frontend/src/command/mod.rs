@@ -7,6 +7,7 @@ mod export;
 mod gallery;
 mod import;
 mod info;
+mod inputs;
 mod look;
 mod looks;
 mod outputs;
@@ -41,5 +42,6 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Replay(args) => replay::replay(args),
         Command::Displays => displays::displays(),
         Command::Outputs(args) => outputs::outputs(args),
+        Command::Inputs(args) => inputs::inputs(args),
     }
 }

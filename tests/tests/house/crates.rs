@@ -7,7 +7,7 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 17] = [
+pub const CRATES: [(&str, &str, &[&str]); 18] = [
     ("display-config", "display-config", &[]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
@@ -43,6 +43,7 @@ pub const CRATES: [(&str, &str, &[&str]); 17] = [
         "backend",
         &["bricks", "display-config", "optics", "protocol", "renderer", "screens", "transport"],
     ),
+    ("inputs", "frontend/inputs", &["display-config"]),
     (
         "frontend",
         "frontend",
@@ -50,6 +51,7 @@ pub const CRATES: [(&str, &str, &[&str]); 17] = [
             "backend",
             "bricks",
             "display-config",
+            "inputs",
             "optics",
             "protocol",
             "reference",

@@ -26,6 +26,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "simulate",
             "gallery",
             "drive",
+            "monitor",
             "adapter",
             "cli",
             "command",

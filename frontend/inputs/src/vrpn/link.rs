@@ -208,3 +208,7 @@ fn hear(session: &mut Session, bytes: &[u8], outbox: &mut Outbox) -> std::result
     }
     Ok(Heard { taken, leaves: false })
 }
+
+#[cfg(test)]
+#[path = "link_tests.rs"]
+mod tests;
