@@ -104,19 +104,9 @@ impl Datagrams {
         let mut datagram = vec![0; LONGEST];
         let mut heard = Instant::now();
         while !outbox.is_stopped() {
-            match socket.recv_from(&mut datagram) {
-                Ok((length, from)) => {
-                    let message = self.decoder.decode(&datagram[..length]);
-                    if message.is_ok() {
-                        heard = Instant::now();
-                        outbox.found(|| format!("is heard from {from} at {}", self.port));
-                    }
-                    outbox.take(message);
-                }
-                Err(error) if is_passing(error.kind()) => {}
-                Err(error) => return Err(error),
-            }
-            if self.decoder.is_steady() && heard.elapsed() > PATIENCE {
+            if self.receive(&socket, &mut datagram, outbox)? {
+                heard = Instant::now();
+            } else if self.decoder.is_steady() && heard.elapsed() > PATIENCE {
                 outbox.lost(|| {
                     format!(
                         "nothing has arrived at {} for {} s; it is listened to",
@@ -127,6 +117,23 @@ impl Datagrams {
             }
         }
         Ok(())
+    }
+
+    /// Waits a moment for a datagram. Whether one has come that says anything.
+    fn receive(&mut self, socket: &UdpSocket, bytes: &mut [u8], outbox: &mut Outbox) -> Result<bool> {
+        match socket.recv_from(bytes) {
+            Ok((length, from)) => {
+                let message = self.decoder.decode(&bytes[..length]);
+                let is_heard = message.is_ok();
+                if is_heard {
+                    outbox.found(|| format!("is heard from {from} at {}", self.port));
+                }
+                outbox.take(message);
+                Ok(is_heard)
+            }
+            Err(error) if is_passing(error.kind()) => Ok(false),
+            Err(error) => Err(error),
+        }
     }
 }
 

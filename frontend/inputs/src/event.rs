@@ -25,7 +25,8 @@ pub struct Event {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DeviceTime {
-    /// On the clock of [`Event::received`]: the device's clock and this host's both show the time of day.
+    /// On the clock of [`Event::received`]: the device's clock and this host's both show the time of day. It is 0 for what was
+    /// measured before that clock began.
     InStep(Duration),
     /// On a clock of the device's own: only differences mean something.
     Own(Duration),

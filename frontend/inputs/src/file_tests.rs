@@ -88,6 +88,29 @@ fn mistakes_are_named_with_their_place() {
     }
 }
 
+/// Blocks of TOML of the page that tells people of these files.
+fn blocks() -> Vec<&'static str> {
+    let page = include_str!("../../docs/inputs.md");
+    page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect()
+}
+
+#[test]
+fn what_the_page_shows_and_what_ships_can_be_read() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let (entries, scripts): (Vec<_>, Vec<_>) =
+        blocks().into_iter().partition(|block| block.contains("[[input]]"));
+    assert_eq!((entries.len(), scripts.len()), (8, 1), "one of each kind, and a script");
+    for entry in entries {
+        let inputs = Input::from_toml(&examples, entry, "inputs.md").unwrap();
+        assert_eq!(inputs.len(), 1);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("page.toml"), scripts[0]).unwrap();
+    let entry = "[[input]]\nname = 'a'\nkind = 'script'\npath = 'page.toml'";
+    assert!(Input::from_toml(folder.path(), entry, "a.toml").is_ok());
+    assert_eq!(Input::load(&examples.join("inputs.toml")).unwrap().len(), 2);
+}
+
 #[test]
 fn files_that_are_none_are_refused() {
     let two = "[[input]]\nname = 'a'\nkind = 'gamepad'\n".repeat(2);

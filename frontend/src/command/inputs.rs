@@ -18,32 +18,23 @@ const REDRAWN: Duration = Duration::from_millis(500);
 pub(super) fn inputs(args: &InputsArgs) -> Result<(), FrontendError> {
     let inputs = Input::load(&args.file)?;
     let stop = interrupt::stop_flag()?;
-    let mut hub = Hub::start(&inputs)?;
-    let mut meter = Meter::new(&inputs);
-    let mut screen = (!args.json && std::io::stdout().is_terminal()).then(Screen::default);
+    let (mut hub, mut meter) = (Hub::start(&inputs)?, Meter::new(&inputs));
+    let mut screen = Screen::new(args.json);
     let began = Instant::now();
     let (mut events, mut redrawn) = (Vec::new(), Duration::ZERO);
-    loop {
+    while !stop.load(Ordering::SeqCst) && args.time.is_none_or(|time| began.elapsed() < time) {
+        std::thread::sleep(ASKED);
         let now = began.elapsed();
         hub.poll(now, &mut events);
         for sentence in events.drain(..).filter_map(|event| meter.add(&event)) {
-            screen.as_mut().map_or(Ok(()), Screen::clear)?;
-            if !args.json {
-                say(&sentence)?;
-            }
+            screen.tell(&sentence)?;
         }
-        if stop.load(Ordering::SeqCst) || args.time.is_some_and(|time| now >= time) {
-            break;
-        }
-        if let Some(screen) = &mut screen
-            && now >= redrawn + REDRAWN
-        {
-            screen.draw(&meter.lap(now, hub.counts()))?;
+        if now >= redrawn + REDRAWN {
+            screen.draw(|| meter.lap(now, hub.counts()))?;
             redrawn = now;
         }
-        std::thread::sleep(ASKED);
     }
-    screen.as_mut().map_or(Ok(()), Screen::clear)?;
+    screen.clear()?;
     let report = meter.report(began.elapsed(), hub.counts());
     match args.json {
         true => say(&serde_json::to_string_pretty(&report)?),
@@ -51,26 +42,48 @@ pub(super) fn inputs(args: &InputsArgs) -> Result<(), FrontendError> {
     }
 }
 
-/// The table on a terminal, which is drawn over itself.
-#[derive(Default)]
-struct Screen {
-    lines: usize,
+/// What is shown until the report.
+enum Screen {
+    /// Nothing.
+    Silent,
+    /// Sentences.
+    Plain,
+    /// Sentences above a table of so many lines, which is drawn over itself.
+    Terminal { lines: usize },
 }
 
 impl Screen {
-    /// Takes the table away, so that something else stands in its place.
-    fn clear(&mut self) -> Result<(), FrontendError> {
-        match std::mem::take(&mut self.lines) {
-            0 => Ok(()),
-            // Up by so many lines, and clear from there on.
-            lines => print(&format!("\x1b[{lines}A\x1b[J")),
+    fn new(is_silent: bool) -> Self {
+        match (is_silent, std::io::stdout().is_terminal()) {
+            (true, _) => Self::Silent,
+            (false, false) => Self::Plain,
+            (false, true) => Self::Terminal { lines: 0 },
         }
     }
 
-    fn draw(&mut self, report: &InputsReport) -> Result<(), FrontendError> {
+    fn tell(&mut self, sentence: &str) -> Result<(), FrontendError> {
         self.clear()?;
-        let table = table(report);
-        self.lines = table.lines().count();
-        say(&table)
+        if matches!(self, Self::Silent) { Ok(()) } else { say(sentence) }
+    }
+
+    /// Takes the table away, so that something else stands in its place.
+    fn clear(&mut self) -> Result<(), FrontendError> {
+        match self {
+            Self::Terminal { lines } if *lines > 0 => {
+                // Up by so many lines, and clear from there on.
+                let up = std::mem::take(lines);
+                print(&format!("\x1b[{up}A\x1b[J"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn draw(&mut self, report: impl FnOnce() -> InputsReport) -> Result<(), FrontendError> {
+        self.clear()?;
+        let Self::Terminal { lines } = self else { return Ok(()) };
+        let table = table(&report());
+        *lines = table.lines().count();
+        // Lines that are too long for the terminal are cut, not wrapped: their number has to be right.
+        say(&format!("\x1b[?7l{table}\x1b[?7h"))
     }
 }

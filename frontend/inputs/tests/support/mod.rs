@@ -11,6 +11,9 @@ use std::time::{Duration, Instant};
 /// No source takes longer to say what a test waits for.
 pub const PATIENCE: Duration = Duration::from_secs(20);
 
+/// What the clock shows when a hub is first asked: what was measured before has a time, too.
+const BEGINNING: Duration = Duration::from_secs(100);
+
 /// A hub and the clock that it is asked by.
 pub struct Asked {
     pub hub: Hub,
@@ -26,7 +29,7 @@ impl Asked {
     }
 
     pub fn poll(&mut self) {
-        self.hub.poll(self.began.elapsed(), &mut self.events);
+        self.hub.poll(BEGINNING + self.began.elapsed(), &mut self.events);
     }
 
     /// Asks until what has happened is enough; what there is otherwise goes into the panic.

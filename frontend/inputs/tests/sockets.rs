@@ -125,6 +125,24 @@ fn a_silent_tracker_is_lost_lets_its_buttons_go_and_is_found_again() {
     }
 }
 
+/// Sends poses as fast as that goes, a press or a release among 512 of them, and a release in the end. How many datagrams.
+fn flood(port: u16, span: Duration) -> u64 {
+    let (sender, began, mut sent) = (sender(), Instant::now(), 0_u64);
+    let button = |is_down| osc("/lightloom/button/5", vec![OscType::Int(is_down)]);
+    let (pose, down, up) = (osc_pose(1.0), button(1), button(0));
+    while began.elapsed() < span {
+        let datagram = match sent % 1024 {
+            0 => &down,
+            512 => &up,
+            _ => &pose,
+        };
+        sent += u64::from(sender.send_to(datagram, (Ipv4Addr::LOCALHOST, port)).is_ok());
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    sender.send_to(&up, (Ipv4Addr::LOCALHOST, port)).unwrap();
+    sent
+}
+
 /// A source sends as fast as it can, and is asked four times a second only; another goes on beside it.
 #[test]
 fn a_flood_is_bounded_and_starves_nobody() {
@@ -137,18 +155,7 @@ fn a_flood_is_bounded_and_starves_nobody() {
     asked.events.clear();
     let began = Instant::now();
     let span = Duration::from_millis(1500);
-    let flood = std::thread::spawn(move || {
-        let (sender, mut sent) = (sender(), 0_u64);
-        let button = |is_down| osc("/lightloom/button/5", vec![OscType::Int(is_down)]);
-        let (pose, down, up) = (osc_pose(1.0), button(1), button(0));
-        while began.elapsed() < span {
-            let datagram = if sent % 512 == 0 { [&down, &up][(sent / 512 % 2) as usize] } else { &pose };
-            sent += u64::from(sender.send_to(datagram, (Ipv4Addr::LOCALHOST, flooded)).is_ok());
-        }
-        std::thread::sleep(Duration::from_millis(300));
-        sender.send_to(&up, (Ipv4Addr::LOCALHOST, flooded)).unwrap();
-        sent
-    });
+    let flood = std::thread::spawn(move || flood(flooded, span));
     let (sender, mut sent) = (sender(), 0);
     while began.elapsed() < span {
         for _ in 0..25 {
