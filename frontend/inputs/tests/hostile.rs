@@ -1,4 +1,5 @@
 //! Hostile bytes: no parser panics on them, or takes more memory than their length allows.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 use inputs::opentrackio::packet::{self, Encoding};
 use inputs::opentrackio::sample;
@@ -70,8 +71,11 @@ impl Random {
     }
 }
 
+/// The name of a parser, what its messages are mutations of, and the parser itself.
+type Seed = (&'static str, Vec<u8>, fn(&[u8]));
+
 /// What each parser is given to begin with; text formats as text.
-fn seeds() -> Vec<(&'static str, Vec<u8>, fn(&[u8]))> {
+fn seeds() -> Vec<Seed> {
     let dtrack = "fr 1\nts 5.0\n6d 2 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1] [1 1.0][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]\n\
                   6df2 1 1 [0 1.000 6 2][1 2 3][1 0 0 0 1 0 0 0 1][2 0.5 -1]\n\
                   6dmt2 1 1 [0 1.0 4 2.0][1 2 3][1 0 0 0 1 0 0 0 1][5][1 2 3 4 5 6]\n";
@@ -90,7 +94,7 @@ fn seeds() -> Vec<(&'static str, Vec<u8>, fn(&[u8]))> {
         ("osc", osc.to_vec(), |bytes| _ = black_box(osc::parse(bytes))),
         ("freed", vec![0xd1; 29], |bytes| _ = black_box(freed::parse(bytes))),
         ("gamepad", vec![1; 8], |bytes| _ = black_box(gamepad::parse(bytes))),
-        ("spacemouse", vec![1, 0, 0, 0].repeat(8), |bytes| _ = black_box(spacemouse::parse(bytes))),
+        ("spacemouse", [1, 0, 0, 0].repeat(8), |bytes| _ = black_box(spacemouse::parse(bytes))),
         ("vrpn", vrpn(), hear),
     ]
 }

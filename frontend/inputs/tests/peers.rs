@@ -2,6 +2,7 @@
 //!
 //! Those of PyPI are installed into a virtual environment among the test's own files. A peer that is missing is announced,
 //! and is a failure with LIGHTLOOM_REQUIRE_PEERS=1.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod support;
 

@@ -1,4 +1,5 @@
 //! Sources over the sockets and pipes of this host.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod support;
 

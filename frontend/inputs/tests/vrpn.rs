@@ -1,4 +1,5 @@
 //! Our VRPN client against the server of these tests, which the genuine client proves in `peers`.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod support;
 
