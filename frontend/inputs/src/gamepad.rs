@@ -1,4 +1,6 @@
 //! Gamepads and joysticks, by the kernel's joystick interface (Linux, `linux/joystick.h`).
+//!
+//! It needs no library of the system, so that the program still builds with a compiler alone. Buttons have numbers, not names.
 
 use crate::Refusal;
 use crate::reading::{Parts, Said, Stamp};
