@@ -15,6 +15,7 @@ mod drive;
 mod export;
 mod idle_backends;
 mod import;
+mod inputs;
 mod live;
 mod looks;
 mod lost_backend;
