@@ -44,6 +44,7 @@ pub const CRATES: [(&str, &str, &[&str]); 18] = [
         &["bricks", "display-config", "optics", "protocol", "renderer", "screens", "transport"],
     ),
     ("inputs", "frontend/inputs", &["display-config"]),
+    ("tracking", "frontend/tracking", &[]),
     (
         "frontend",
         "frontend",
@@ -57,6 +58,7 @@ pub const CRATES: [(&str, &str, &[&str]); 18] = [
             "reference",
             "renderer",
             "screens",
+            "tracking",
             "transport",
             "twin",
             "volumes",
