@@ -22,7 +22,7 @@ impl Pose {
         // NaN is within no range.
         let is_near = position_m.to_array().iter().all(|c| (-FARTHEST_M..=FARTHEST_M).contains(c));
         let has_direction = QUATERNION_LENGTHS.contains(&rotation.length());
-        (is_near && has_direction).then(|| Self { position_m, rotation: canonical(rotation.normalize()) })
+        (is_near && has_direction).then(|| Self { position_m, rotation: canonical(unit(rotation)) })
     }
 
     /// Its origin, metres.
@@ -34,6 +34,12 @@ impl Pose {
     pub fn rotation(&self) -> DQuat {
         self.rotation
     }
+}
+
+/// Of unit length. One that already is stays as it is, to the bit: a pose made of another one's parts is the same pose.
+fn unit(rotation: DQuat) -> DQuat {
+    let is_unit = (rotation.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON;
+    if is_unit { rotation } else { rotation.normalize() }
 }
 
 /// The one of q and −q whose last component that is not 0 is positive.
@@ -62,6 +68,15 @@ mod tests {
             assert_eq!(Pose::new(position_m, rotation), None, "{position_m} {rotation}");
         }
         assert!(Pose::new(DVec3::splat(1e6), DQuat::from_xyzw(0.0, 0.0, 0.0, 1e5)).is_some());
+    }
+
+    #[test]
+    fn the_parts_of_a_pose_make_the_same_pose() {
+        for n in 0..1000 {
+            let pose =
+                Pose::new(DVec3::X, DQuat::from_xyzw(0.1, 0.2, 0.3, 0.1 + 0.01 * f64::from(n))).unwrap();
+            assert_eq!(Pose::new(pose.position_m(), pose.rotation()), Some(pose));
+        }
     }
 
     #[test]
