@@ -4,6 +4,7 @@ use crate::accuracy::AccuracyError;
 use crate::scene::SceneError;
 use renderer::output::OutputError;
 use std::path::PathBuf;
+use tracking::RegistrationError;
 
 /// Each is one sentence for the person who started the program.
 #[derive(Debug, thiserror::Error)]
@@ -83,6 +84,38 @@ pub enum FrontendError {
     NoViewingZone {
         /// The observer's distance from the screen, metres.
         distance_m: f64,
+    },
+    /// The file of point pairs cannot be read.
+    #[error("cannot read the point pairs {}: {source}; give the path of a readable .toml file", path.display())]
+    ReadPairs {
+        /// The file.
+        path: PathBuf,
+        /// What the file system said.
+        source: std::io::Error,
+    },
+    /// The file of point pairs is none.
+    #[error("{}, line {line}: {message}; each [[pair]] has tracker_m and display_m, and may have a name", path.display())]
+    Pairs {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What the reader said.
+        message: String,
+    },
+    /// Point pairs that fix no transform.
+    #[error("{}: {source}", path.display())]
+    Registration {
+        /// Their file.
+        path: PathBuf,
+        /// Why not.
+        source: RegistrationError,
+    },
+    /// The transform would take the place of its own point pairs.
+    #[error("{} holds the point pairs themselves; give --out another name", path.display())]
+    PairsOverwritten {
+        /// The file.
+        path: PathBuf,
     },
     /// What was asked for cannot be told.
     #[error(

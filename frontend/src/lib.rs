@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod adapter;
+pub mod calibrate;
 pub mod cli;
 pub mod command;
 pub mod drive;
@@ -12,6 +13,7 @@ pub mod monitor;
 pub mod orientation;
 pub mod progress;
 pub mod report;
+mod same_file;
 pub mod scene;
 pub mod simulate;
 

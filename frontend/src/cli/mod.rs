@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod backends;
+mod calibrate;
 mod debug_view;
 mod drive;
 mod export;
@@ -21,6 +22,7 @@ mod verify;
 
 pub use accuracy::AccuracyArgs;
 pub use backends::{BackendArgs, DeviceArg, FilterArg};
+pub use calibrate::{CalibrateArgs, CalibrateSubject, TrackerArgs};
 pub use debug_view::DebugViewArg;
 pub use drive::{DriveArgs, OutputArg, ReconstructArg};
 pub use export::ExportArgs;
@@ -69,6 +71,8 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     /// Replay recorded traces under other policies, without drawing anything.
     Replay(ReplayArgs),
+    /// Find where devices are, by measurement.
+    Calibrate(CalibrateArgs),
     /// List the displays that come with the program.
     Displays,
     /// List the video outputs of this host, for the projectors of a display file.

@@ -22,10 +22,23 @@ fn the_command_line_is_consistent() {
 /// Otherwise a number below 0 is taken for an option that nobody knows.
 #[test]
 fn every_number_may_begin_with_a_minus() {
-    let words =
-        ["DIR", "DISPLAY", "NAME", "NAME,…", "OUT.lloom", "SCENE.toml", "STORE.lloom", "SERIES", "TYPE"];
+    let words = [
+        "DIR",
+        "DISPLAY",
+        "NAME",
+        "NAME,…",
+        "OUT.lloom",
+        "SCENE.toml",
+        "STORE.lloom",
+        "SERIES",
+        "TRACKER.toml",
+        "TYPE",
+    ];
     let mut numbers = 0;
-    for command in Cli::command().get_subcommands() {
+    let cli = Cli::command();
+    let commands =
+        cli.get_subcommands().flat_map(|command| [command].into_iter().chain(command.get_subcommands()));
+    for command in commands {
         for option in command.get_opts().filter(|option| option.get_possible_values().is_empty()) {
             let names: Vec<_> =
                 option.get_value_names().into_iter().flatten().map(|name| name.as_str()).collect();

@@ -1,6 +1,7 @@
 //! The commands: from arguments to what they print.
 
 mod accuracy;
+mod calibrate;
 mod displays;
 mod drive;
 mod export;
@@ -40,6 +41,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Export(args) => export::export(args),
         Command::Accuracy(args) => accuracy::accuracy(args),
         Command::Replay(args) => replay::replay(args),
+        Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Displays => displays::displays(),
         Command::Outputs(args) => outputs::outputs(args),
         Command::Inputs(args) => inputs::inputs(args),

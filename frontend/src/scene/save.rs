@@ -3,6 +3,7 @@
 use super::names::PROCEDURAL_PREFIX;
 use super::text::SceneText;
 use super::{DataLook, Look, Scene, SceneError, VolumeSource};
+use crate::same_file::is_same_file;
 use display_config::text::read_text;
 use glam::DVec3;
 use optics::{Curve, CurveValue, Detail, ExtinctionUnit, Light, Quality};
@@ -86,10 +87,6 @@ fn name_beside(path: &Path, out: &Path) -> Result<String, SceneError> {
 
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
-fn is_same_file(one: &Path, other: &Path) -> bool {
-    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
 fn optics(look: &DataLook) -> Table {

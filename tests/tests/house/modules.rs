@@ -16,6 +16,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
     (
         "frontend",
         &[
+            "same_file",
             "orientation",
             "progress",
             "scene",
@@ -23,6 +24,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "error",
             "interrupt",
             "report",
+            "calibrate",
             "simulate",
             "gallery",
             "drive",
