@@ -1,6 +1,7 @@
 //! The lag that the filter adds at even speeds, against theory.
 
 use super::hand::{Hand, Motion};
+use super::page::{Page, head, row, section};
 use super::random::Random;
 use std::f64::consts::TAU;
 use std::time::Duration;
@@ -12,17 +13,16 @@ const RATE_HZ: f64 = 60.0;
 const SAMPLES: u32 = 600;
 
 /// A table of measured lags, without noise, and those that theory expects.
-pub fn table(line: &mut dyn FnMut(String)) {
-    line("\n## Lag of the filter".to_owned());
-    line("At an even speed, without noise and without prediction.".to_owned());
-    line("\n| speed, m/s | lag, mm | in theory, mm | lag, ms |".to_owned());
-    line("| ---: | ---: | ---: | ---: |".to_owned());
+pub fn table(page: &mut Page<'_>) {
+    section(page, "Lag of the filter", "At an even speed, without noise and without prediction.");
+    head(page, &["speed, m/s", "lag, mm", "in theory, mm", "lag, ms"].map(str::to_owned));
     let position = TrackSettings::default().position;
     for speed in SPEEDS_M_PER_S {
         let lag_mm = 1e3 * measured(speed);
         let cutoff_hz = position.least_cutoff_hz + position.cutoff_per_speed * speed;
         let expected_mm = 1e3 * speed / (TAU * cutoff_hz);
-        line(format!("| {speed} | {lag_mm:.2} | {expected_mm:.2} | {:.1} |", lag_mm / speed));
+        let cells = [format!("{lag_mm:.2}"), format!("{expected_mm:.2}"), format!("{:.1}", lag_mm / speed)];
+        row(page, &speed.to_string(), &cells);
     }
 }
 

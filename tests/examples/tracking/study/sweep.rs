@@ -1,6 +1,7 @@
 //! Each setting of a track, varied about its default.
 
 use super::hand::Motion;
+use super::page::{Page, head, row, section};
 use super::scene::Scene;
 use super::viewer::Method;
 use std::time::Duration;
@@ -10,7 +11,7 @@ const RATE_HZ: f64 = 60.0;
 const LATENCY_MS: u64 = 60;
 const SHAKE_HZ: f64 = 2.0;
 
-/// A setting with its values, the unit of its key, and how it is set.
+/// A setting with its unit, its values, and how it is set.
 type Setting = (&'static str, &'static [f64], fn(&mut TrackSettings, f64));
 
 const SETTINGS: [Setting; 5] = [
@@ -37,28 +38,27 @@ fn both(settings: &mut TrackSettings, set: impl Fn(&mut OneEuro)) {
 }
 
 /// A table for each setting: the others are at their defaults.
-pub fn tables(line: &mut dyn FnMut(String)) {
+pub fn tables(page: &mut Page<'_>) {
     let scenes = [Motion::Hold, Motion::Trace, Motion::Reach, Motion::Shake(SHAKE_HZ)]
         .map(|motion| Scene::new(motion, RATE_HZ));
-    line("\n## Settings".to_owned());
-    line(format!(
-        "Jitter in a still hand and errors in motion, RMS in mm and °, at {RATE_HZ} samples a second, seen {LATENCY_MS} ms \
-         later. Defaults are bold."
-    ));
+    let about = format!(
+        "Jitter in a still hand and errors in motion, RMS, at {RATE_HZ} samples a second, seen {LATENCY_MS} ms later. \
+         Defaults are bold."
+    );
+    section(page, "Settings", &about);
     for (name, values, set) in SETTINGS {
-        line(format!("\n| {name} | still | trace | reaches | reversals |"));
-        line("| ---: | ---: | ---: | ---: | ---: |".to_owned());
+        head(page, &[name, "still", "trace", "reaches", "reversals"].map(str::to_owned));
         for &value in values {
             let mut settings = TrackSettings::default();
             set(&mut settings, value);
             let is_default = settings == TrackSettings::default();
             let name = if is_default { format!("**{value}**") } else { value.to_string() };
-            line(format!("| {name} |{}", scenes.each_ref().map(|scene| cell(scene, &settings)).concat()));
+            row(page, &name, &scenes.each_ref().map(|scene| cell(scene, &settings)));
         }
     }
 }
 
 fn cell(scene: &Scene, settings: &TrackSettings) -> String {
     let score = scene.score(LATENCY_MS, Method::Track, settings);
-    format!(" {:.2} mm, {:.2}° |", score.distance_mm.rms, score.angle_deg.rms)
+    format!("{:.2} mm, {:.2}°", score.distance_mm.rms, score.angle_deg.rms)
 }
