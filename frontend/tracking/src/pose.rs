@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 /// Coordinates beyond this are nonsense, metres: what is computed from poses stays finite.
-pub const FARTHEST_M: f64 = 1e6;
+pub(crate) const FARTHEST_M: f64 = 1e6;
 /// Quaternions that are shorter have no direction, and longer ones overflow.
 const QUATERNION_LENGTHS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
@@ -16,7 +16,7 @@ pub struct Pose {
 
 impl Pose {
     /// The pose of a body whose origin is at `position_m`, metres, and whose axes `rotation` turns into those of the frame;
-    /// its length does not matter. None where a coordinate is NaN, infinite or beyond [`FARTHEST_M`], or the quaternion has
+    /// its length does not matter. None where a coordinate is NaN, infinite or farther than 1000 km, or the quaternion has
     /// no direction: trackers send such poses for a lost target.
     pub fn new(position_m: DVec3, rotation: DQuat) -> Option<Self> {
         // NaN is within no range.
