@@ -8,6 +8,7 @@
 mod accuracy;
 mod bad_input;
 mod bad_volumes;
+mod calibrate;
 mod calibrated;
 mod careless;
 mod comeback;
