@@ -1,7 +1,8 @@
 //! DTrack: bodies, Flysticks and measurement tools of ART trackers, as lines of text (DTrack2 user manual, appendix B.2).
 
+use crate::Refusal;
+use crate::pose::pose_of_matrix;
 use crate::reading::{Parts, Reading, Said, Stamp};
-use crate::{Pose, Refusal};
 use glam::{DMat3, DVec3};
 use std::ops::Range;
 use std::str::FromStr;
@@ -159,7 +160,7 @@ fn target(sensor: u8, quality: f64, [x, y, z]: [f64; 3], matrix: [f64; 9]) -> Re
     if quality < 0.0 {
         return Ok(Said::Pose(sensor, None));
     }
-    let pose = Pose::from_matrix(DVec3::new(x, y, z) * 1e-3, DMat3::from_cols_array(&matrix))?;
+    let pose = pose_of_matrix(DVec3::new(x, y, z) * 1e-3, DMat3::from_cols_array(&matrix))?;
     Ok(Said::Pose(sensor, Some(pose)))
 }
 

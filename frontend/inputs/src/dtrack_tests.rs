@@ -1,6 +1,7 @@
 //! Tests of DTrack's lines.
 
 use super::*;
+use crate::Pose;
 use glam::{DQuat, EulerRot};
 use proptest::prelude::*;
 
@@ -31,8 +32,8 @@ fn the_matrix_goes_column_by_column() {
     assert!((pose.position_m() - DVec3::new(0.326848, -0.187216, 0.109503)).length() < 1e-12);
     let [phi, theta, eta] = [-160.4704_f64, -3.6963, -7.0913].map(f64::to_radians);
     let expected = DQuat::from_euler(EulerRot::XYZ, eta, theta, phi);
-    assert!(pose.orientation().angle_between(expected) < 1e-5);
-    assert!(pose.orientation().angle_between(expected.inverse()) > 0.1, "the canary: row by row");
+    assert!(pose.rotation().angle_between(expected) < 1e-5);
+    assert!(pose.rotation().angle_between(expected.inverse()) > 0.1, "the canary: row by row");
 }
 
 #[test]
@@ -127,6 +128,6 @@ proptest! {
         let pose = pose(&line);
         prop_assert!((pose.position_m() - DVec3::from_array(at) * 1e-3).abs().max_element() <= 0.5e-6 + 1e-12);
         // Six digits of nine numbers.
-        prop_assert!(pose.orientation().angle_between(turn) < 1e-5 || pose.orientation().angle_between(-turn) < 1e-5);
+        prop_assert!(pose.rotation().angle_between(turn) < 1e-5 || pose.rotation().angle_between(-turn) < 1e-5);
     }
 }

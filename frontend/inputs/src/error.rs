@@ -53,6 +53,9 @@ pub enum InputError {
     /// A script that cannot be run.
     #[error("{place} names {}, which cannot be run: {message}", path.display())]
     Script { place: Box<Place>, path: PathBuf, message: String },
+    /// A transform that cannot be read.
+    #[error("{place} names {}, which is no calibration: {message}; write one with `lightloom calibrate tracker`", path.display())]
+    Calibration { place: Box<Place>, path: PathBuf, message: String },
     /// No thread.
     #[error("cannot start the thread of input {input}: {cause}; end other programs")]
     Thread { input: String, cause: std::io::Error },

@@ -40,7 +40,8 @@ pub enum What {
     Pose {
         /// The sensor's number.
         sensor: u8,
-        /// Absent where its target is lost: a lost target is no pose.
+        /// In the display's frame where its input has a calibration, and else in the tracker's own. Absent where its target is
+        /// lost: a lost target is no pose.
         pose: Option<Pose>,
     },
     /// A button went down or up.

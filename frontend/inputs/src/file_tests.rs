@@ -54,6 +54,26 @@ fn each_kind_has_its_keys() {
 }
 
 #[test]
+fn a_calibration_is_read_from_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "rotation = [0, 0, 0, 1]\ntranslation_m = [1, 2, 3]\nrms_m = 0.001\n";
+    std::fs::write(folder.path().join("tracker.toml"), text).unwrap();
+    let read = |file: &str| {
+        let entry = format!("[[input]]\nname = 'a'\nkind = 'dtrack'\nlisten = '127.0.0.1:5000'\n{file}");
+        Input::from_toml(folder.path(), &entry, "a.toml").map(|inputs| inputs[0].display_from_tracker)
+    };
+    assert_eq!(read("").unwrap(), None);
+    let found = read("calibration = 'tracker.toml'").unwrap().unwrap();
+    assert_eq!(found.translation_m.to_array(), [1.0, 2.0, 3.0]);
+    let why = read("calibration = 'other.toml'").unwrap_err().to_string();
+    assert!(why.starts_with("a.toml, line 5, input `a`: `calibration` names "), "{why}");
+    assert!(
+        why.contains("other.toml, which is no calibration: ") && why.contains("calibrate tracker"),
+        "{why}"
+    );
+}
+
+#[test]
 fn mistakes_are_named_with_their_place() {
     for (lines, sentence) in [
         ("", "a.toml, line 1, input `wand`: `kind` is missing from the entry that starts here; add it"),
@@ -64,7 +84,7 @@ fn mistakes_are_named_with_their_place() {
         (
             "kind = 'vrpn'\nadress = 'host'",
             "a.toml, line 4, input `wand`: `adress` is not a key of kind vrpn (did you mean `address`?); remove it, or use one of \
-             name, kind, address, device, udp",
+             name, kind, calibration, address, device, udp",
         ),
         ("kind = 'dtrack'\naddress = 'host'", "`address` is not a key of kind dtrack"),
         ("kind = 'vrpn'\naddress = 'a b'\ndevice = 'x'", "`address` is \"a b\"; give the server's host"),

@@ -1,8 +1,9 @@
 //! FreeD: camera poses in messages of type D1 (Vinten Radamec, free-d installation manual 1.4.4, appendices A.3.2 and B).
 
+use crate::Refusal;
 use crate::bytes::Bytes;
+use crate::pose::checked_pose;
 use crate::reading::{Parts, Said};
-use crate::{Pose, Refusal};
 use glam::{DQuat, DVec3};
 
 /// Bytes of a message, and what it begins with.
@@ -37,7 +38,7 @@ pub fn parse(message: &[u8]) -> Result<Parts, Refusal> {
     let [pan, tilt, roll, x, y, z] = numbers;
     let angle = |units: f64| (units / UNITS_PER_DEGREE).to_radians();
     let pose =
-        Pose::new(DVec3::new(x, y, z) / UNITS_PER_METRE, turned(angle(pan), angle(tilt), angle(roll)))?;
+        checked_pose(DVec3::new(x, y, z) / UNITS_PER_METRE, turned(angle(pan), angle(tilt), angle(roll)))?;
     Ok(vec![Ok(Said::Pose(camera, Some(pose)).at(None))])
 }
 

@@ -1,6 +1,7 @@
 //! Tests of FreeD messages.
 
 use super::*;
+use crate::Pose;
 use proptest::prelude::*;
 
 /// A message as the manual lays it out, from degrees and metres.
@@ -22,7 +23,7 @@ fn pose(message: &[u8]) -> Pose {
 
 /// Where a camera that is turned by degrees looks, and what is to its right.
 fn looks(angles_deg: [f64; 3]) -> (DVec3, DVec3) {
-    let turn = pose(&message(1, angles_deg, [0.0; 3])).orientation();
+    let turn = pose(&message(1, angles_deg, [0.0; 3])).rotation();
     (turn * DVec3::Y, turn * DVec3::X)
 }
 
@@ -66,7 +67,7 @@ proptest! {
         let pose = pose(&message(9, angles, at));
         prop_assert!((pose.position_m() - DVec3::from_array(at)).abs().max_element() <= 0.5 / 64_000.0 + 1e-12);
         let [pan, tilt, roll] = angles.map(f64::to_radians);
-        let off = pose.orientation().angle_between(turned(pan, tilt, roll));
+        let off = pose.rotation().angle_between(turned(pan, tilt, roll));
         // Three roundings to half of 1/32768 degree; the arc cosine of a number near 1 adds the rest.
         prop_assert!(off <= 3.0 * (0.5 / 32_768.0_f64).to_radians() + 1e-7, "{off}");
     }

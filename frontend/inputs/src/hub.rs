@@ -15,11 +15,14 @@ use crate::worker::{Source, start};
 use std::sync::Arc;
 use std::thread::Thread;
 use std::time::{Duration, Instant};
+use tracking::RigidTransform;
 
 /// Sources that are listened to until this is dropped. Asking never waits for one of them, and a source that floods takes
 /// nothing from the others.
 pub struct Hub {
     feeds: Vec<Feed>,
+    /// Of each, where it was calibrated.
+    displays_from_trackers: Vec<Option<RigidTransform>>,
 }
 
 enum Feed {
@@ -36,15 +39,20 @@ impl Hub {
     /// The system has no more threads.
     pub fn start(inputs: &[Input]) -> Result<Self, InputError> {
         let feeds = inputs.iter().map(Feed::start).collect::<Result<_, _>>()?;
-        Ok(Self { feeds })
+        let displays_from_trackers = inputs.iter().map(|input| input.display_from_tracker).collect();
+        Ok(Self { feeds, displays_from_trackers })
     }
 
     /// What has happened since it was last asked, in the order of arrival. `now` is the asker's clock, which events are given
     /// on; it must not go back.
     pub fn poll(&mut self, now: Duration, events: &mut Vec<Event>) {
         let first = events.len();
-        for (number, feed) in (0..).zip(&mut self.feeds) {
+        for ((number, feed), calibration) in (0..).zip(&mut self.feeds).zip(&self.displays_from_trackers) {
+            let own = events.len();
             feed.poll(SourceId(number), now, events);
+            if let Some(display_from_tracker) = calibration {
+                events[own..].iter_mut().for_each(|event| bring(display_from_tracker, &mut event.what));
+            }
         }
         // Events of one source that arrived at the same time stay in order.
         events[first..].sort_by_key(|event| event.received);
@@ -122,6 +130,13 @@ impl Feed {
     }
 }
 
+/// Brings a pose to the display's frame; one that would be too far away is lost.
+fn bring(display_from_tracker: &RigidTransform, what: &mut What) {
+    if let What::Pose { pose, .. } = what {
+        *pose = pose.and_then(|pose| display_from_tracker.pose(&pose));
+    }
+}
+
 /// An event that waited, on the clock that shows `now` at the instant `asked`.
 fn event(source: SourceId, waiting: Waiting, asked: Instant, now: Duration) -> Event {
     let received = now.saturating_sub(asked.saturating_duration_since(waiting.at));
@@ -137,6 +152,28 @@ fn event(source: SourceId, waiting: Waiting, asked: Instant, now: Duration) -> E
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::{DQuat, DVec3};
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn poses_are_brought_to_the_display_s_frame() {
+        let display_from_tracker =
+            RigidTransform { rotation: DQuat::from_rotation_z(FRAC_PI_2), translation_m: DVec3::Z };
+        let brought = |x_m: f64| {
+            let pose = tracking::Pose::new(DVec3::X * x_m, DQuat::from_rotation_x(0.5));
+            let mut what = What::Pose { sensor: 3, pose };
+            bring(&display_from_tracker, &mut what);
+            let What::Pose { sensor: 3, pose } = what else { panic!("{what:?}") };
+            pose
+        };
+        let pose = brought(2.0).unwrap();
+        assert!(pose.position_m().distance(DVec3::new(0.0, 2.0, 1.0)) < 1e-12, "{pose:?}");
+        let turned = DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(0.5);
+        assert!(pose.rotation().angle_between(turned) < 1e-6, "{pose:?}");
+        let mut down = What::Button { index: 1, is_down: true };
+        bring(&display_from_tracker, &mut down);
+        assert_eq!(down, What::Button { index: 1, is_down: true });
+    }
 
     #[test]
     fn times_are_put_on_the_asker_s_clock() {

@@ -3,6 +3,7 @@
 use crate::datagrams::Port;
 use crate::script::Script;
 use std::path::PathBuf;
+use tracking::RigidTransform;
 
 /// A source.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +12,8 @@ pub struct Input {
     pub name: String,
     /// What it is.
     pub kind: Kind,
+    /// From its frame to the display's, where it was calibrated.
+    pub display_from_tracker: Option<RigidTransform>,
 }
 
 /// A protocol, and where it is spoken.

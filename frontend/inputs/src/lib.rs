@@ -5,16 +5,17 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | `event`, `pose` | what happens at a source |
-//! | `reading`, `refusal` | what a message says, or why it is not taken |
+//! | `event` | what happens at a source |
+//! | `reading`, `pose`, `refusal` | what a message says, or why it is not taken |
 //! | `vrpn`, `dtrack`, `osc`, `opentrackio`, `freed`, `gamepad`, `spacemouse` | a parser for each protocol |
 //! | `datagrams`, `records`, `vrpn/link` | the sockets and devices that messages come from |
 //! | `script` | a path that is written down |
 //! | `worker`, `outbox`, `state`, `queue`, `pause` | the thread of a source, and what waits between it and the hub |
 //! | `hub` | all sources, asked at once |
-//! | `input`, `file`, `error` | what sources there are, as a file says |
+//! | `input`, `file`, `calibration`, `error` | what sources there are and where, as files say |
 
 mod bytes;
+mod calibration;
 mod datagrams;
 pub mod dtrack;
 mod error;
@@ -42,12 +43,13 @@ mod state;
 pub mod vrpn;
 mod worker;
 
+pub use calibration::transform_text;
 pub use datagrams::Port;
 pub use error::{InputError, Place};
 pub use event::{DeviceTime, Event, SourceId, What};
 pub use hub::Hub;
 pub use input::{Input, Kind};
 pub use outbox::Counts;
-pub use pose::Pose;
 pub use refusal::Refusal;
 pub use script::Script;
+pub use tracking::Pose;

@@ -1,7 +1,8 @@
 //! Open Sound Control: what programs and phones send to the addresses of this program.
 
+use crate::Refusal;
+use crate::pose::checked_pose;
 use crate::reading::{Parts, Said, Stamp};
-use crate::{Pose, Refusal};
 use glam::{DQuat, DVec3};
 use rosc::{OscMessage, OscPacket, OscTime, OscType};
 use std::time::Duration;
@@ -65,7 +66,7 @@ fn said(message: &OscMessage) -> Result<Said, Refusal> {
     let numbers = message.args.iter().map(number).collect::<Option<Vec<f64>>>().ok_or(Refusal::Form)?;
     match (kind, numbers.as_slice()) {
         ("pose", &[x, y, z, qx, qy, qz, qw]) => {
-            let pose = Pose::new(DVec3::new(x, y, z), DQuat::from_xyzw(qx, qy, qz, qw))?;
+            let pose = checked_pose(DVec3::new(x, y, z), DQuat::from_xyzw(qx, qy, qz, qw))?;
             Ok(Said::Pose(index, Some(pose)))
         }
         ("lost", []) => Ok(Said::Pose(index, None)),

@@ -1,6 +1,7 @@
 //! Tests of OSC packets.
 
 use super::*;
+use crate::Pose;
 use crate::reading::Reading;
 use proptest::prelude::*;
 use rosc::OscBundle;
@@ -29,7 +30,7 @@ fn each_address_has_its_meaning() {
     };
     assert_eq!(pose.position_m(), DVec3::new(1.0, -2.0, 3.5));
     // x y z w, and not w first.
-    assert!((pose.orientation().x - 0.1).abs() < 1e-6 && (pose.orientation().w - 0.927_361_8).abs() < 1e-6);
+    assert!((pose.rotation().x - 0.1).abs() < 1e-6 && (pose.rotation().w - 0.927_361_8).abs() < 1e-6);
     for (address, args, said) in [
         ("lost/7", vec![], Said::Pose(7, None)),
         ("button/0", vec![OscType::Int(1)], Said::Button(0, true)),
@@ -87,6 +88,8 @@ proptest! {
         let parts = parts(&message("/lightloom/pose/0", floats(&[&at[..], &turn].concat())));
         let Ok(Reading { said: Said::Pose(0, Some(pose)), .. }) = parts[0] else { panic!("{parts:?}") };
         prop_assert_eq!(pose.position_m(), DVec3::from_array(at.map(f64::from)));
-        prop_assert!((pose.orientation() - given.normalize()).length() < 1e-12);
+        // q and −q are one rotation, which a pose has as one of the two.
+        let expected = Pose::new(DVec3::ZERO, given).unwrap().rotation();
+        prop_assert!((pose.rotation() - expected).length() < 1e-12);
     }
 }

@@ -1,9 +1,10 @@
 //! A path that is written down: what a tracker would say, without a tracker.
 
+use crate::Refusal;
 use crate::event::What;
+use crate::pose::checked_pose;
 use crate::reading::Said;
 use crate::state::State;
-use crate::{Pose, Refusal};
 use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use std::time::Duration;
@@ -105,7 +106,7 @@ fn said(step: &RawStep) -> Result<Said, String> {
     let refused = |refusal: Refusal| format!("{refusal}; correct the numbers");
     match (step.pose, step.lost, step.button, step.axis) {
         (Some(RawPose { sensor, position_m, orientation }), None, None, None) => {
-            let pose = Pose::new(position_m, orientation.unwrap_or(DQuat::IDENTITY)).map_err(refused)?;
+            let pose = checked_pose(position_m, orientation.unwrap_or(DQuat::IDENTITY)).map_err(refused)?;
             Ok(Said::Pose(sensor, Some(pose)))
         }
         (None, Some(sensor), None, None) => Ok(Said::Pose(sensor, None)),
@@ -136,7 +137,7 @@ impl Script {
         };
         let share = ((time_s - step.at_s) / (at_s - step.at_s)).clamp(0.0, 1.0);
         let position_m = from.position_m().lerp(to.position_m(), share);
-        let pose = Pose::new(position_m, from.orientation().slerp(to.orientation(), share));
+        let pose = checked_pose(position_m, from.rotation().slerp(to.rotation(), share));
         // Opposite orientations have no turn between them: then the step stays until the next.
         Said::Pose(sensor, Some(pose.unwrap_or(from)))
     }

@@ -1,6 +1,7 @@
 //! Tests of scripts.
 
 use super::*;
+use crate::Pose;
 
 fn script(text: &str) -> Result<Script, String> {
     toml::from_str::<RawScript>(text).map_err(|error| error.to_string()).and_then(Script::try_from)
@@ -46,7 +47,7 @@ fn a_path_goes_straight_and_turns_evenly() {
     );
     let half = poses[4].1.unwrap();
     assert!((half.position_m() - DVec3::new(0.5, 0.0, 1.0)).length() < 1e-12);
-    assert!(half.orientation().angle_between(DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2)) < 1e-6);
+    assert!(half.rotation().angle_between(DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2)) < 1e-6);
     assert_eq!(poses[9].1, None, "the last step wins");
     assert!(all.contains(&(7500, What::Button { index: 1, is_down: true })));
     assert_eq!(polled(&mut running, 20_000), [], "it is over");

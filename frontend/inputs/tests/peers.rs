@@ -130,7 +130,7 @@ fn oscsend_is_heard() {
     asked.until("a button", has(What::Button { index: 1, is_down: true }));
     let pose = asked.poses()[0];
     assert_eq!(pose.position_m(), DVec3::new(1.0, -2.0, 3.5));
-    assert!((pose.orientation() - DQuat::from_xyzw(0.1, -0.7, 0.5, 0.5)).length() < 1e-7);
+    assert!((pose.rotation() - DQuat::from_xyzw(0.1, -0.7, 0.5, 0.5)).length() < 1e-7);
     assert_eq!(asked.hub.counts()[0].messages, 4);
 }
 
@@ -155,7 +155,7 @@ fn a_bundle_of_python_osc_says_when() {
     assert!(Command::new(python).args(["-c", OSC_BUNDLE, &port.to_string()]).status().unwrap().success());
     asked.until("a button", has(What::Button { index: 3, is_down: true }));
     let expected = Pose::new(DVec3::new(1.0, 2.0, 3.0), DQuat::from_xyzw(0.0, 0.0, 0.6, 0.8)).unwrap();
-    assert!((asked.poses()[0].orientation() - expected.orientation()).length() < 1e-7);
+    assert!((asked.poses()[0].rotation() - expected.rotation()).length() < 1e-7);
     for event in &asked.events[1..] {
         let Some(DeviceTime::InStep(time)) = event.device_time else { panic!("{event:?}") };
         let age_s = event.received.as_secs_f64() - time.as_secs_f64();
@@ -197,7 +197,7 @@ fn smpte_s_sender_of_opentrackio_is_heard() {
         asked.until("samples", |events| poses(events).len() >= 20);
         for pose in asked.poses() {
             assert_eq!(pose.position_m(), DVec3::new(1.5, -2.0, 0.25));
-            let looks = pose.orientation() * DVec3::Y;
+            let looks = pose.rotation() * DVec3::Y;
             assert!((looks - DVec3::new(-(3_f64.sqrt()) / 2.0, 0.0, 0.5)).length() < 1e-9, "{looks}");
         }
         let is_recent = |event: &Event| matches!(event.device_time, Some(DeviceTime::InStep(_)));

@@ -80,7 +80,7 @@ fn each_protocol_is_heard_at_its_port() {
         let expected = Pose::new(position, turn).unwrap();
         let found = asked.poses()[0];
         assert!((found.position_m() - position).length() < 1e-9, "{kind}: {found:?}");
-        assert!((found.orientation() - expected.orientation()).length() < 1e-9, "{kind}: {found:?}");
+        assert!((found.rotation() - expected.rotation()).length() < 1e-9, "{kind}: {found:?}");
         send_until_heard(&mut asked, port, b"garbage", |_| true);
         let garbage = Asked::poll;
         sender().send_to(b"garbage", (Ipv4Addr::LOCALHOST, port)).unwrap();

@@ -5,13 +5,10 @@
 //! | `pairs` | from a file of point pairs to pairs |
 //! | `expected` | how far the transform may be off where people are |
 //! | `summary` | what is told of a registration |
-//! | `file` | the transform as a file that exhibits read |
 
 mod expected;
-mod file;
 mod pairs;
 mod summary;
 
-pub use file::transform_text;
 pub use pairs::read_pairs;
 pub use summary::{PairSummary, TrackerSummary};

@@ -3,7 +3,7 @@
 use super::say::{print, say, warn};
 use crate::FrontendError;
 use crate::adapter;
-use crate::calibrate::{TrackerSummary, read_pairs, transform_text};
+use crate::calibrate::{TrackerSummary, read_pairs};
 use crate::cli::{CalibrateArgs, CalibrateSubject, TrackerArgs};
 use crate::report::write_text;
 use crate::same_file::is_same_file;
@@ -22,7 +22,7 @@ fn tracker(args: &TrackerArgs) -> Result<(), FrontendError> {
     let refused = |source| FrontendError::Registration { path: args.pairs.clone(), source };
     let found = tracking::register(&pairs).map_err(refused)?;
     let summary = TrackerSummary::new(&pairs, &found, display.as_ref());
-    let transform = transform_text(&found);
+    let transform = inputs::transform_text(&found.display_from_tracker, found.rms_m);
     if let Some(out) = &args.out {
         if is_same_file(out, &args.pairs) {
             return Err(FrontendError::PairsOverwritten { path: out.clone() });

@@ -4,6 +4,7 @@ use crate::drive::{Histogram, Quantiles};
 use inputs::{DeviceTime, Event, Pose, What};
 use serde::Serialize;
 use std::time::Duration;
+use tracking::{ToolTrack, Tracked};
 
 /// A sensor, button or axis of a source, by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -49,6 +50,8 @@ pub(super) struct Tally {
     ages: Histogram,
     latest_age_ms: Option<f64>,
     last: Option<Last>,
+    /// Of a sensor: the tool that somebody would hold.
+    track: ToolTrack,
     /// Events when the rate was last asked for.
     before: u64,
 }
@@ -63,6 +66,13 @@ impl Tally {
             // A device whose clock is ahead is 0 old.
             self.ages.add(event.received.saturating_sub(time));
             self.latest_age_ms = Some((event.received.as_secs_f64() - time.as_secs_f64()) * 1e3);
+        }
+        if let Last::Pose(pose) = last {
+            let measured = match event.device_time {
+                Some(DeviceTime::InStep(time)) => time,
+                _ => event.received,
+            };
+            self.track.push(measured, pose);
         }
         let had_target = matches!(self.last, Some(Last::Pose(Some(_))));
         self.losses += u64::from(had_target && matches!(last, Last::Pose(None)));
@@ -90,6 +100,7 @@ impl Tally {
             latest_age_ms: self.latest_age_ms,
             silent_s: now.saturating_sub(self.latest).as_secs_f64(),
             last: self.last,
+            tool: self.track.at(now, now).map(|Tracked { pose, presence }| Tool { pose, presence }),
         }
     }
 }
@@ -117,4 +128,14 @@ pub struct ChannelReport {
     pub silent_s: f64,
     /// What it said last.
     pub(super) last: Option<Last>,
+    /// The tool that a frame of now would show.
+    pub(super) tool: Option<Tool>,
+}
+
+/// A tool at a sensor, filtered and predicted.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(super) struct Tool {
+    pub pose: Pose,
+    /// How much of it is there: it fades out where its target is lost.
+    pub presence: f64,
 }

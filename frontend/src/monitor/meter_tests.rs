@@ -7,7 +7,11 @@ use inputs::{DeviceTime, Kind, Pose, Refusal, SourceId};
 use std::path::PathBuf;
 
 fn inputs() -> [Input; 2] {
-    ["wand", "pad"].map(|name| Input { name: name.to_owned(), kind: Kind::Gamepad(PathBuf::new()) })
+    ["wand", "pad"].map(|name| Input {
+        name: name.to_owned(),
+        kind: Kind::Gamepad(PathBuf::new()),
+        display_from_tracker: None,
+    })
 }
 
 fn event(source: u16, received_ms: u64, age_ms: Option<u64>, what: What) -> Event {
@@ -39,6 +43,10 @@ fn rates_ages_and_losses_are_those_of_the_events() {
     assert_eq!((sensor.channel, sensor.events, sensor.losses), (Channel::Sensor(3), 101, 1));
     assert!((sensor.rate_hz - 100.0).abs() < 1e-9 && (sensor.silent_s - 1.0).abs() < 1e-9);
     // Histograms are right to two percent.
+    assert_eq!(sensor.tool, None, "it has faded");
+    let soon = filled().report(Duration::from_millis(1800), vec![Counts::default(); 2]);
+    let tool = soon.sources[0].channels[0].tool.unwrap();
+    assert!(tool.presence == 1.0 && tool.pose.position_m() == DVec3::new(1.0, -2.0, 0.5), "{tool:?}");
     assert!((sensor.gap_ms.p50 - 10.0).abs() < 0.2 && sensor.jitter_ms < 0.2, "{sensor:?}");
     assert!(
         (sensor.age_ms.unwrap().p99 - 4.0).abs() < 0.1 && (sensor.latest_age_ms.unwrap() - 4.0).abs() < 1e-6
@@ -87,7 +95,7 @@ fn the_table_has_a_line_for_each_channel() {
     assert_eq!(lines[2], "  3 refused: its checksum is wrong");
     assert_eq!(
         lines[3].split_whitespace().collect::<Vec<_>>().join(" "),
-        "sensor 3 100.0 0.00 4.0 1 no target"
+        "sensor 3 100.0 0.00 4.0 1 no target, 95 % of its tool left"
     );
     assert_eq!(lines[5].split_whitespace().collect::<Vec<_>>().join(" "), "button 2 0.0 0.00 (500) 0 down");
 }

@@ -46,21 +46,19 @@ fn line(channel: &ChannelReport) -> String {
         None => format!("({:.0})", channel.silent_s * 1e3),
     };
     let (rate, jitter) = (channel.rate_hz, channel.jitter_ms);
-    let last = channel.last.map(last).unwrap_or_default();
+    let held = channel.tool.map(|tool| format!(", {:.0} % of its tool left", 1e2 * tool.presence));
+    let last = match channel.last {
+        Some(Last::Pose(None)) => "no target".to_owned() + &held.unwrap_or_default(),
+        Some(Last::Pose(Some(pose))) => pose_text(&pose),
+        Some(Last::IsDown(is_down)) => if is_down { "down" } else { "up" }.to_owned(),
+        Some(Last::Value(value)) => format!("{value:.3}"),
+        None => String::new(),
+    };
     format!("{name:<16}{rate:>9.1}{jitter:>9.2}{age:>8}{:>6}  {last}", channel.losses)
-}
-
-fn last(last: Last) -> String {
-    match last {
-        Last::Pose(None) => "no target".to_owned(),
-        Last::Pose(Some(pose)) => pose_text(&pose),
-        Last::IsDown(is_down) => if is_down { "down" } else { "up" }.to_owned(),
-        Last::Value(value) => format!("{value:.3}"),
-    }
 }
 
 /// Metres, and the quaternion x, y, z, w.
 fn pose_text(pose: &Pose) -> String {
-    let (DVec3 { x, y, z }, DQuat { x: qx, y: qy, z: qz, w }) = (pose.position_m(), pose.orientation());
+    let (DVec3 { x, y, z }, DQuat { x: qx, y: qy, z: qz, w }) = (pose.position_m(), pose.rotation());
     format!("{x:.3} {y:.3} {z:.3} m  {qx:.3} {qy:.3} {qz:.3} {w:.3}")
 }

@@ -26,7 +26,7 @@ mod turn;
 
 pub use filter::PoseFilter;
 pub use one_euro::OneEuro;
-pub use pose::Pose;
+pub use pose::{FARTHEST_M, Pose};
 pub use predictor::PosePredictor;
 pub use registration::{Frame, Handedness, Outlier, PointPair, Registration, RegistrationError, register};
 pub use rigid::RigidTransform;

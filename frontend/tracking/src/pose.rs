@@ -1,17 +1,35 @@
 //! Where a tracked body is, and how it is turned.
 
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// Coordinates beyond this are nonsense, metres: what is computed from poses stays finite.
-pub(crate) const FARTHEST_M: f64 = 1e6;
+pub const FARTHEST_M: f64 = 1e6;
 /// Quaternions that are shorter have no direction, and longer ones overflow.
 const QUATERNION_LENGTHS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 /// A position and a rotation, always finite. The rotation is of unit length, and q and −q make the same pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Pose {
     position_m: DVec3,
     rotation: DQuat,
+}
+
+/// A pose that somebody wrote down.
+#[derive(Deserialize)]
+struct Unchecked {
+    position_m: DVec3,
+    rotation: DQuat,
+}
+
+impl TryFrom<Unchecked> for Pose {
+    type Error = &'static str;
+
+    fn try_from(unchecked: Unchecked) -> Result<Self, Self::Error> {
+        Self::new(unchecked.position_m, unchecked.rotation)
+            .ok_or("a pose has a finite place within 1000 km, and a quaternion with a direction")
+    }
 }
 
 impl Pose {
@@ -88,5 +106,15 @@ mod tests {
         ] {
             assert_eq!(Pose::new(DVec3::X, rotation), Pose::new(DVec3::X, -rotation), "{rotation}");
         }
+    }
+
+    #[test]
+    fn a_pose_comes_back_from_a_tape_and_what_is_none_does_not() {
+        let turn = DQuat::from_xyzw(0.1, -0.2, 0.3, 0.9).normalize();
+        let pose = Pose::new(DVec3::new(1.0, -2.0, 3.0), turn).unwrap();
+        let text = serde_json::to_string(&pose).unwrap();
+        assert_eq!(serde_json::from_str::<Pose>(&text).unwrap(), pose);
+        let spoiled = r#"{"position_m":[1,2,3],"rotation":[0,0,0,0]}"#;
+        assert!(serde_json::from_str::<Pose>(spoiled).is_err());
     }
 }

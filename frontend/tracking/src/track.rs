@@ -66,6 +66,12 @@ pub struct ToolTrack {
     counts: SampleCounts,
 }
 
+impl Default for ToolTrack {
+    fn default() -> Self {
+        Self::new(TrackSettings::default())
+    }
+}
+
 impl ToolTrack {
     /// A track without samples.
     pub fn new(settings: TrackSettings) -> Self {

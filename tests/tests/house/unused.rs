@@ -11,9 +11,8 @@ use std::collections::BTreeSet;
 const KINDS: [&str; 7] = ["fn", "const", "static", "struct", "enum", "trait", "type"];
 
 /// Names that no product uses yet, or ever, with the reason; the list can only shrink.
-const KNOWN: [(&str, &str); 5] = [
+const KNOWN: [(&str, &str); 4] = [
     ("FinishTruth", "the codes of projectors in f64, which the renderer's are compared with"),
-    ("ToolTrack", "the track of a tool, which exhibits are to take up; its study and laws use it"),
     ("plainly", "row planes without wide instructions, which tests compare with those that have them"),
     ("screen_from_point", "the inverse of the ray, which overlays need; its law is tested beside the ray's"),
     ("segmented", "the paper's own, step-dependent compositing: the reference offers it to be compared with"),

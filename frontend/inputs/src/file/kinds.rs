@@ -1,6 +1,7 @@
 //! The keys of each kind of input.
 
 use super::entry::Entry;
+use crate::calibration::transform;
 use crate::datagrams::Port;
 use crate::error::InputError;
 use crate::input::{Input, Kind};
@@ -8,17 +9,18 @@ use crate::script::{RawScript, Script};
 use display_config::text::{brief_text, did_you_mean, read_text};
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
+use tracking::RigidTransform;
 
 /// Kinds, each with its own keys.
 const KINDS: [(&str, &[&str]); 8] = [
-    ("vrpn", &["name", "kind", "address", "device", "udp"]),
-    ("dtrack", &["name", "kind", "listen"]),
-    ("osc", &["name", "kind", "listen"]),
-    ("opentrackio", &["name", "kind", "listen", "source", "interface", "port"]),
-    ("freed", &["name", "kind", "listen"]),
+    ("vrpn", &["name", "kind", "calibration", "address", "device", "udp"]),
+    ("dtrack", &["name", "kind", "calibration", "listen"]),
+    ("osc", &["name", "kind", "calibration", "listen"]),
+    ("opentrackio", &["name", "kind", "calibration", "listen", "source", "interface", "port"]),
+    ("freed", &["name", "kind", "calibration", "listen"]),
     ("gamepad", &["name", "kind", "path"]),
     ("spacemouse", &["name", "kind", "path"]),
-    ("script", &["name", "kind", "path"]),
+    ("script", &["name", "kind", "calibration", "path"]),
 ];
 /// Where VRPN servers listen if nothing else is said.
 const VRPN_PORT: u16 = 3883;
@@ -46,7 +48,18 @@ pub(super) fn input(entry: &Entry<'_>, folder: &Path) -> Result<Input, InputErro
         "spacemouse" => Kind::Spacemouse(entry.optional_text("path")?.unwrap_or(SPACENAVD).into()),
         _ => script(entry, folder)?,
     };
-    Ok(Input { name: entry.text("name")?.to_owned(), kind })
+    let display_from_tracker = calibration(entry, folder)?;
+    Ok(Input { name: entry.text("name")?.to_owned(), kind, display_from_tracker })
+}
+
+fn calibration(entry: &Entry<'_>, folder: &Path) -> Result<Option<RigidTransform>, InputError> {
+    let Some(path) = entry.optional_text("calibration")?.map(|path| folder.join(path)) else {
+        return Ok(None);
+    };
+    let text = read_text(&path).map_err(|error| error.to_string());
+    let wrong =
+        |message| InputError::Calibration { place: entry.place("calibration"), path: path.clone(), message };
+    text.and_then(|text| transform(&text)).map(Some).map_err(wrong)
 }
 
 fn vrpn(entry: &Entry<'_>) -> Result<Kind, InputError> {

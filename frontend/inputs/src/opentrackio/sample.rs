@@ -1,6 +1,7 @@
 //! A sample of OpenTrackIO: where a camera is, at one time.
 
 use super::packet::Encoding;
+use crate::pose::checked_pose;
 use crate::reading::{Parts, Said, Stamp};
 use crate::{Pose, Refusal};
 use glam::{DQuat, DVec3};
@@ -85,7 +86,7 @@ fn pose(transforms: &[Transform]) -> Result<Pose, Refusal> {
         position_m += orientation * DVec3::new(t.x, t.y, t.z);
         orientation *= turned(rotation);
     }
-    Pose::new(position_m, orientation)
+    checked_pose(position_m, orientation)
 }
 
 /// A camera that looks along y with z up; its turns are about its own z, x and y axes in this order, each clockwise as seen

@@ -1,9 +1,10 @@
 //! What a VRPN server says, from its descriptions on: names first, then messages with numbers for them.
 
 use super::wire::{self, Message};
+use crate::Refusal;
 use crate::bytes::Bytes;
+use crate::pose::checked_pose;
 use crate::reading::{Parts, Said, Stamp};
-use crate::{Pose, Refusal};
 use glam::{DQuat, DVec3};
 
 /// The types that are read, by the names that servers describe them by.
@@ -117,7 +118,7 @@ fn pose(bytes: &mut Bytes<'_>) -> Result<Result<Said, Refusal>, Refusal> {
     }
     let [x, y, z, qx, qy, qz, qw] = numbers;
     let Ok(sensor) = u8::try_from(sensor) else { return Ok(Err(Refusal::Index)) };
-    let pose = Pose::new(DVec3::new(x, y, z), DQuat::from_xyzw(qx, qy, qz, qw));
+    let pose = checked_pose(DVec3::new(x, y, z), DQuat::from_xyzw(qx, qy, qz, qw));
     Ok(pose.map(|pose| Said::Pose(sensor, Some(pose))))
 }
 

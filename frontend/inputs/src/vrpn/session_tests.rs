@@ -1,6 +1,7 @@
 //! Tests of a conversation with a VRPN server.
 
 use super::*;
+use crate::Pose;
 use proptest::prelude::*;
 use std::time::Duration;
 
@@ -51,7 +52,7 @@ fn poses_are_in_metres_with_w_last() {
     let [Ok(Said::Pose(2, Some(pose)))] = said[..] else { panic!("{said:?}") };
     let expected = DQuat::from_xyzw(0.5, -0.5, 0.1, 0.7).normalize();
     assert_eq!(pose.position_m(), DVec3::new(1.0, -2.0, 3.0));
-    assert!((pose.orientation() - expected).length() < 1e-12);
+    assert!((pose.rotation() - expected).length() < 1e-12);
 }
 
 #[test]
