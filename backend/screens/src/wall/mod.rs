@@ -5,6 +5,7 @@
 
 mod pane;
 mod pixels;
+mod surface;
 
 use crate::{OutputInfo, ScreenError, outputs};
 use display_config::Display;
@@ -12,14 +13,21 @@ use pane::{Pane, Part, Server};
 use pixels::Layout;
 use protocol::{ScreenImage, Wall, WallError};
 use std::time::{Duration, Instant};
-use x11rb::connection::Connection;
+use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::Event;
+use x11rb::protocol::present::{self, ConnectionExt as _};
 use x11rb::protocol::randr::{ConnectionExt as _, NotifyMask};
-use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, ScreenSaver};
+use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, ScreenSaver, Window};
 use x11rb::rust_connection::RustConnection;
 
 /// How often the server is told that somebody looks, so that it does not blank its outputs: it does so after minutes.
 const WAKE_INTERVAL: Duration = Duration::from_secs(20);
+
+/// A refresh takes less. What takes longer, as on an output that sleeps, is not waited for.
+const SHOWN_WITHIN: Duration = Duration::from_millis(100);
+
+/// How often it is looked whether the server has shown something.
+const LOOK_INTERVAL: Duration = Duration::from_micros(100);
 
 /// The windows of a back-end.
 pub struct OutputWall {
@@ -27,6 +35,8 @@ pub struct OutputWall {
     panes: Vec<Pane>,
     /// What has happened and nobody was told.
     news: Vec<String>,
+    /// Whether any output may have.
+    has_moved: bool,
     woken: Instant,
 }
 
@@ -43,9 +53,10 @@ impl OutputWall {
         let screen = screen.ok_or_else(|| ScreenError::NoServer("it has no screen".to_owned()))?;
         let layout = Layout::of(setup, &screen)?;
         let cursor = unseen_cursor(&connection, root)?;
-        let server = Server { connection, screen, layout, cursor };
-        let mut wall =
-            Self { server, panes: panes(display, projectors), news: Vec::new(), woken: Instant::now() };
+        let has_present = has_present(&connection)?;
+        let server = Server { connection, screen, layout, cursor, has_present };
+        let (panes, woken) = (panes(display, projectors), Instant::now());
+        let mut wall = Self { server, panes, news: Vec::new(), has_moved: false, woken };
         if wall.has_connectors() {
             let kinds = NotifyMask::SCREEN_CHANGE | NotifyMask::CRTC_CHANGE | NotifyMask::OUTPUT_CHANGE;
             wall.server.connection.randr_select_input(root, kinds)?;
@@ -80,24 +91,10 @@ impl OutputWall {
     }
 
     fn heed(&mut self) -> Result<(), ScreenError> {
-        let mut has_moved = false;
         while let Some(event) = self.server.connection.poll_for_event()? {
-            match event {
-                Event::Expose(exposed) => {
-                    let pane = self.panes.iter().find(|pane| pane.has(exposed.window));
-                    pane.map_or(Ok(()), |pane| pane.repaint(&self.server))?;
-                }
-                Event::DestroyNotify(gone) => {
-                    // One that this wall has closed itself is no pane's any more.
-                    if let Some(pane) = self.panes.iter_mut().find(|pane| pane.has(gone.window)) {
-                        self.news.push(pane.reopen(&self.server)?);
-                    }
-                }
-                Event::RandrNotify(_) | Event::RandrScreenChangeNotify(_) => has_moved = true,
-                _ => {}
-            }
+            self.take(event)?;
         }
-        if has_moved {
+        if std::mem::take(&mut self.has_moved) {
             self.follow()?;
         }
         if self.woken.elapsed() > WAKE_INTERVAL {
@@ -105,6 +102,43 @@ impl OutputWall {
             self.woken = Instant::now();
         }
         Ok(self.server.connection.flush()?)
+    }
+
+    fn take(&mut self, event: Event) -> Result<(), ScreenError> {
+        let Self { server, panes, news, has_moved, .. } = self;
+        match event {
+            Event::Expose(exposed) => {
+                pane_of(panes, exposed.window).map_or(Ok(()), |pane| pane.repaint(server))?;
+            }
+            Event::DestroyNotify(gone) => {
+                // One that this wall has closed itself is no pane's any more.
+                if let Some(pane) = pane_of(panes, gone.window) {
+                    news.push(pane.reopen(server)?);
+                }
+            }
+            Event::PresentCompleteNotify(shown) => {
+                pane_of(panes, shown.window).into_iter().for_each(|pane| pane.shown(shown.serial));
+            }
+            Event::PresentIdleNotify(done) => {
+                pane_of(panes, done.window).into_iter().for_each(|pane| pane.done_with(done.pixmap));
+            }
+            Event::RandrNotify(_) | Event::RandrScreenChangeNotify(_) => *has_moved = true,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Takes what the server says until all panes are as they should be, or it has had its time.
+    fn wait_for(&mut self, is_so: impl Fn(&Pane) -> bool) -> Result<(), ScreenError> {
+        let since = Instant::now();
+        self.server.connection.flush()?;
+        while !self.panes.iter().all(&is_so) && since.elapsed() < SHOWN_WITHIN {
+            match self.server.connection.poll_for_event()? {
+                Some(event) => self.take(event)?,
+                None => std::thread::sleep(LOOK_INTERVAL),
+            }
+        }
+        Ok(())
     }
 
     /// Waits until the server has done all that it was asked to.
@@ -116,14 +150,19 @@ impl OutputWall {
 
 impl Wall for OutputWall {
     fn ready(&mut self, images: &[ScreenImage]) -> Result<(), WallError> {
-        self.panes.iter().try_for_each(|pane| pane.ready(&self.server, images))?;
+        self.wait_for(Pane::can_be_readied)?;
+        self.panes.iter_mut().try_for_each(|pane| pane.ready(&self.server, images))?;
         // Pixels take a while on their way, and the moment to show them may be near.
         Ok(self.sync()?)
     }
 
     fn show(&mut self) -> Result<(), WallError> {
         self.panes.iter_mut().try_for_each(|pane| pane.show(&self.server))?;
-        Ok(self.sync()?)
+        match self.server.has_present {
+            true => self.wait_for(Pane::has_shown)?,
+            false => self.sync()?,
+        }
+        Ok(())
     }
 
     fn tend(&mut self) -> Result<Vec<String>, WallError> {
@@ -146,6 +185,16 @@ fn panes(display: &Display, projectors: &[u32]) -> Vec<Pane> {
         }
     }
     groups.into_iter().map(|(connector, parts)| Pane::new(connector, parts)).collect()
+}
+
+fn pane_of(panes: &mut [Pane], window: Window) -> Option<&mut Pane> {
+    panes.iter_mut().find(|pane| pane.has(window))
+}
+
+/// Whether a server can show pictures between two refreshes of an output.
+fn has_present(connection: &RustConnection) -> Result<bool, ScreenError> {
+    let is_there = connection.extension_information(present::X11_EXTENSION_NAME)?.is_some();
+    Ok(is_there && connection.present_query_version(1, 0)?.reply().is_ok())
 }
 
 /// A cursor of one pixel that is not there.

@@ -1,20 +1,13 @@
 //! A window that covers an output, with the pictures of the projectors there.
 
 use super::pixels::Layout;
+use super::surface::Surface;
 use crate::{OutputInfo, Rectangle, ScreenError};
 use display_config::Output;
 use glam::UVec2;
 use protocol::ScreenImage;
-use x11rb::connection::{Connection, RequestConnection};
-use x11rb::protocol::xproto::{
-    AtomEnum, ConfigureWindowAux, ConnectionExt as _, CreateGCAux, CreateWindowAux, Cursor, EventMask,
-    Gcontext, ImageFormat, Pixmap, PropMode, Rectangle as Filled, Screen, StackMode, Window, WindowClass,
-};
+use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, Pixmap, Screen, Window};
 use x11rb::rust_connection::RustConnection;
-use x11rb::wrapper::ConnectionExt as _;
-
-/// Pixels travel in pieces of this size, bytes, so that a server with several clients goes on with them in between.
-const PIECE: usize = 1 << 20;
 
 /// What all panes of a wall share.
 pub struct Server {
@@ -23,6 +16,8 @@ pub struct Server {
     pub layout: Layout,
     /// One that is not to be seen.
     pub cursor: Cursor,
+    /// Whether it can show a picture between two refreshes of an output (the X Present extension).
+    pub has_present: bool,
 }
 
 /// A projector of an output.
@@ -40,18 +35,9 @@ pub struct Pane {
     pub connector: Option<String>,
     parts: Vec<Part>,
     /// None while there is no such output.
-    open: Option<Open>,
+    open: Option<Surface>,
     /// Whether anybody was told that there is none.
     is_missed: bool,
-}
-
-/// A window with two pictures: what it shows, and what it will.
-struct Open {
-    window: Window,
-    ink: Gcontext,
-    front: Pixmap,
-    back: Pixmap,
-    place: Rectangle,
 }
 
 impl Pane {
@@ -72,13 +58,13 @@ impl Pane {
 
     /// Whether this is its window.
     pub fn has(&self, window: Window) -> bool {
-        self.open.as_ref().is_some_and(|open| open.window == window)
+        self.open.as_ref().is_some_and(|open| open.window() == window)
     }
 
     /// Goes where its output is now: opens its window, moves it or closes it. What has changed, in sentences.
     pub fn follow(&mut self, server: &Server, outputs: &[OutputInfo]) -> Result<Vec<String>, ScreenError> {
         let place = self.place(server, outputs);
-        let before = self.open.as_ref().map(|open| open.place);
+        let before = self.open.as_ref().map(Surface::place);
         if place == before && (place.is_some() || self.is_missed) {
             return Ok(Vec::new());
         }
@@ -87,7 +73,7 @@ impl Pane {
             self.is_missed = true;
             return Ok(vec![self.absence(outputs)]);
         };
-        self.open = Some(Open::new(server, &self.name(), place)?);
+        self.open = Some(Surface::new(server, &self.name(), place)?);
         let Rectangle { width, height, x, y } = place;
         let mut said = Vec::new();
         if before.is_some() || std::mem::take(&mut self.is_missed) {
@@ -143,18 +129,21 @@ impl Pane {
     pub fn reopen(&mut self, server: &Server) -> Result<String, ScreenError> {
         if let Some(open) = self.open.take() {
             open.forget(server)?;
-            self.open = Some(Open::new(server, &self.name(), open.place)?);
+            self.open = Some(Surface::new(server, &self.name(), open.place())?);
         }
         Ok(format!("somebody closed the window on {}; it is open again", self.name()))
     }
 
+    /// Whether the server is done with a picture that another has taken the place of, so that it can take the next.
+    pub fn can_be_readied(&self) -> bool {
+        self.open.as_ref().is_none_or(|open| open.spare().is_some())
+    }
+
     /// Puts pictures where they will be seen once it is shown.
-    pub fn ready(&self, server: &Server, images: &[ScreenImage]) -> Result<(), ScreenError> {
-        let Some(open) = &self.open else { return Ok(()) };
+    pub fn ready(&mut self, server: &Server, images: &[ScreenImage]) -> Result<(), ScreenError> {
+        let Some(open) = &mut self.open else { return Ok(()) };
         let image_of = |part: &Part| images.iter().find(|image| image.projector == part.projector);
-        if self.parts.iter().any(|part| image_of(part).is_none()) {
-            open.copy(server, open.front, open.back)?;
-        }
+        open.begin(server, self.parts.iter().any(|part| image_of(part).is_none()))?;
         for part in &self.parts {
             if let Some(image) = image_of(part) {
                 open.put(server, image, &part.output)?;
@@ -163,109 +152,34 @@ impl Pane {
         Ok(())
     }
 
-    /// Shows what is ready.
+    /// Has what is ready shown.
     pub fn show(&mut self, server: &Server) -> Result<(), ScreenError> {
-        let Some(open) = &mut self.open else { return Ok(()) };
-        std::mem::swap(&mut open.front, &mut open.back);
-        open.copy(server, open.front, open.window)
+        self.open.as_mut().map_or(Ok(()), |open| open.show(server))
+    }
+
+    /// Whether the server has shown what it was asked to.
+    pub fn has_shown(&self) -> bool {
+        self.open.as_ref().is_none_or(Surface::has_shown)
+    }
+
+    /// The server has shown what this serial number was given to.
+    pub fn shown(&mut self, serial: u32) {
+        self.open.iter_mut().for_each(|open| open.shown(serial));
+    }
+
+    /// The server is done with a picture.
+    pub fn done_with(&mut self, picture: Pixmap) {
+        self.open.iter_mut().for_each(|open| open.done_with(picture));
     }
 
     /// Shows again what is shown.
     pub fn repaint(&self, server: &Server) -> Result<(), ScreenError> {
-        self.open.as_ref().map_or(Ok(()), |open| open.copy(server, open.front, open.window))
+        self.open.as_ref().map_or(Ok(()), |open| open.repaint(server))
     }
 
     fn close(&mut self, server: &Server) -> Result<(), ScreenError> {
         let Some(open) = self.open.take() else { return Ok(()) };
-        server.connection.destroy_window(open.window)?;
+        server.connection.destroy_window(open.window())?;
         open.forget(server)
-    }
-}
-
-impl Open {
-    /// A window of its own on the desktop, which no window manager touches: full screen by way of one races with it.
-    fn new(server: &Server, name: &str, place: Rectangle) -> Result<Self, ScreenError> {
-        let Server { connection, screen, layout, cursor } = server;
-        let (window, ink) = (connection.generate_id()?, connection.generate_id()?);
-        let Rectangle { x, y, width, height } = place;
-        let look = CreateWindowAux::new()
-            .override_redirect(1)
-            .background_pixel(screen.black_pixel)
-            .cursor(*cursor)
-            .event_mask(EventMask::EXPOSURE | EventMask::STRUCTURE_NOTIFY);
-        let (border, visual) = (0, screen.root_visual);
-        let (kind, root) = (WindowClass::INPUT_OUTPUT, screen.root);
-        connection.create_window(
-            layout.depth,
-            window,
-            root,
-            x,
-            y,
-            width,
-            height,
-            border,
-            kind,
-            visual,
-            &look,
-        )?;
-        let title = format!("lightloom: {name}");
-        let (replace, kind) = (PropMode::REPLACE, AtomEnum::STRING);
-        connection.change_property8(replace, window, AtomEnum::WM_NAME, kind, title.as_bytes())?;
-        let black = CreateGCAux::new().foreground(screen.black_pixel).graphics_exposures(0);
-        connection.create_gc(ink, window, &black)?;
-        let pixmap = || -> Result<Pixmap, ScreenError> {
-            let pixmap = connection.generate_id()?;
-            connection.create_pixmap(layout.depth, pixmap, root, width, height)?;
-            connection.poly_fill_rectangle(pixmap, ink, &[Filled { x: 0, y: 0, width, height }])?;
-            Ok(pixmap)
-        };
-        let (front, back) = (pixmap()?, pixmap()?);
-        connection.map_window(window)?;
-        connection.configure_window(window, &ConfigureWindowAux::new().stack_mode(StackMode::ABOVE))?;
-        Ok(Self { window, ink, front, back, place })
-    }
-
-    fn copy(&self, server: &Server, from: u32, to: u32) -> Result<(), ScreenError> {
-        let Rectangle { width, height, .. } = self.place;
-        server.connection.copy_area(from, to, self.ink, 0, 0, 0, 0, width, height)?;
-        Ok(())
-    }
-
-    fn put(&self, server: &Server, image: &ScreenImage, output: &Output) -> Result<(), ScreenError> {
-        let Server { connection, layout, .. } = server;
-        let size = output.turn.size(UVec2::new(image.width, image.height));
-        let bytes = layout.bytes(image, output.turn);
-        let row_bytes = 4 * size.x as usize;
-        // A request is a little longer than its pixels.
-        let room = connection.maximum_request_bytes().saturating_sub(64).min(PIECE);
-        let rows = (room / row_bytes.max(1)).max(1);
-        for (piece, pixels) in bytes.chunks(rows * row_bytes.max(1)).enumerate() {
-            let y = output.first_px.y as usize + piece * rows;
-            // Beyond these there is no output.
-            let (Ok(x), Ok(y)) = (i16::try_from(output.first_px.x), i16::try_from(y)) else { break };
-            let (width, height) = (size.x as u16, (pixels.len() / row_bytes) as u16);
-            let format = ImageFormat::Z_PIXMAP;
-            connection.put_image(
-                format,
-                self.back,
-                self.ink,
-                width,
-                height,
-                x,
-                y,
-                0,
-                layout.depth,
-                pixels,
-            )?;
-        }
-        Ok(())
-    }
-
-    /// Frees what a closed window leaves behind.
-    fn forget(&self, server: &Server) -> Result<(), ScreenError> {
-        server.connection.free_pixmap(self.front)?;
-        server.connection.free_pixmap(self.back)?;
-        server.connection.free_gc(self.ink)?;
-        Ok(())
     }
 }
