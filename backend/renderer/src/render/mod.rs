@@ -18,6 +18,7 @@ mod easing;
 mod engine;
 mod error;
 mod feedback;
+mod finals;
 #[cfg(test)]
 mod interrupt_tests;
 mod known;

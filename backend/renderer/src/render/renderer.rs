@@ -1,15 +1,14 @@
 //! What a renderer is made of, and how a frame goes through it.
 
 use super::RenderError;
-use super::account::{Account, milliseconds};
+use super::account::Account;
 use super::course::Course;
 use super::engine::Engine;
 use super::error::check;
 use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
-use crate::device::{DeviceError, DevicePicture, FinishJob, ShowJob};
-use crate::present::Raster;
+use crate::device::DevicePicture;
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
@@ -18,35 +17,6 @@ use protocol::{
 };
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// A picture that is final.
-struct Final {
-    projector: u32,
-    view: usize,
-    /// Pixels along x and y.
-    size: [u32; 2],
-    picture: DevicePicture,
-}
-
-impl Engine {
-    /// What is shown of the picture of a view: it depends on the frames before where there are many.
-    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<DevicePicture, DeviceError> {
-        let picture = work.picture_of(view);
-        if !work.is_of_many() {
-            return Ok(DevicePicture::Cast(picture));
-        }
-        let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
-        let is_behind = self.device.show(&ShowJob {
-            picture,
-            raster: Raster::of(work.setting.rays[view].raster),
-            known: work.known,
-            has_before: easing.has_shown(projector),
-            most_change: if work.eases { easing.most_change(projector, now_s) } else { None },
-        })?;
-        easing.show(projector, now_s, is_behind);
-        Ok(DevicePicture::Shown(picture))
-    }
-}
 
 /// The renderer of one back-end.
 pub struct Renderer {
@@ -150,10 +120,8 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), RenderError> {
-        self.take_finals(sink, |engine, Final { projector, size: [width, height], picture, .. }| {
-            let rgba = engine.device.picture(picture)?.into_owned();
-            Ok(ProjectorImage { projector, width, height, rgba })
-        })
+        let Some(Course { work, .. }) = &mut self.course else { return Ok(()) };
+        Ok(self.engine.hand_over(work, sink, Engine::colours)?)
     }
 
     /// The same, as screens show them.
@@ -161,30 +129,8 @@ impl Renderer {
     /// # Errors
     /// The device stopped answering.
     pub fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), RenderError> {
-        self.take_finals(sink, |engine, Final { projector, view, size: [width, height], picture }| {
-            let Engine { device, finishers, .. } = engine;
-            let (raster, finisher) = (Raster::of([width, height]), &finishers[view]);
-            let rgb = device.codes(&FinishJob { picture, raster, view, finisher })?;
-            Ok(ScreenImage { projector, width, height, rgb })
-        })
-    }
-
-    /// Has the device make what is shown of the pictures that have become final, and takes each with `take`.
-    fn take_finals<T>(
-        &mut self,
-        sink: &mut dyn FnMut(T),
-        take: impl Fn(&mut Engine, Final) -> Result<T, DeviceError>,
-    ) -> Result<(), RenderError> {
-        let Self { engine, course: Some(Course { work, .. }) } = self else { return Ok(()) };
-        for projector in std::mem::take(&mut work.finals) {
-            let started = std::time::Instant::now();
-            let Some(view) = work.view_of(projector) else { continue };
-            let (size, picture) = (work.setting.rays[view].raster, engine.show(work, projector, view)?);
-            let taken = take(engine, Final { projector, view, size, picture })?;
-            work.account.stages.readback_ms += milliseconds(started);
-            sink(taken);
-        }
-        Ok(())
+        let Some(Course { work, .. }) = &mut self.course else { return Ok(()) };
+        Ok(self.engine.hand_over(work, sink, Engine::codes)?)
     }
 
     /// No frame follows: completes the trace, where one is wanted.
