@@ -21,6 +21,16 @@ pub struct Event {
     pub what: What,
 }
 
+impl Event {
+    /// When it was measured, on the clock of [`Event::received`]; when it arrived, where the device does not say.
+    pub fn measured(&self) -> Duration {
+        match self.device_time {
+            Some(DeviceTime::InStep(time)) => time,
+            Some(DeviceTime::Own(_)) | None => self.received,
+        }
+    }
+}
+
 /// When a device measured something.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -6,7 +6,7 @@ use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
 use crate::cli::{DriveArgs, OutputArg, ReconstructArg};
 use crate::drive::{
-    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, Trial, World, run,
+    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, Tracked, Trial, World, run,
 };
 use crate::report::BackendSummary;
 use crate::scene::Scene;
@@ -41,12 +41,13 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     if !args.quiet && !args.json {
         tell_look(look.as_ref())?;
     }
+    let tracked = args.inputs.as_deref().map(Tracked::start).transpose()?;
     let has_sub_frames = args.reconstruct == ReconstructArg::Quincunx;
     // Where nothing is late, nothing needs to be missing.
     let pace = if args.stepped { Pace::Complete } else { args.pace() };
     let world = World::new(scene, facts, display, pace, looks).with_sub_frames(has_sub_frames);
     if !args.has_desktop() {
-        return play(args, world, None);
+        return play(args, world, tracked, None);
     }
     let sheet = Sheet::new(world.display());
     let title = format!("lightloom: {}", world.display().name);
@@ -54,7 +55,7 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     let (window_loop, window, acts) = screens::open(&title, size.width, size.height)?;
     let view = View { window, acts, sheet };
     std::thread::scope(|scope| {
-        let show = scope.spawn(|| play(args, world, Some(view)));
+        let show = scope.spawn(|| play(args, world, tracked, Some(view)));
         let shown = window_loop.run().map_err(FrontendError::from);
         let played = show.join().unwrap_or_else(|panic| resume_unwind(panic));
         shown.and(played)
@@ -62,7 +63,12 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
 }
 
 /// The show itself.
-fn play(args: &DriveArgs, mut world: World, view: Option<View>) -> Result<(), FrontendError> {
+fn play(
+    args: &DriveArgs,
+    mut world: World,
+    mut tracked: Option<Tracked>,
+    view: Option<View>,
+) -> Result<(), FrontendError> {
     let display = world.display().clone();
     let backends = Backends::connect(args.drawing.backends, &display)?;
     let wiring = backends.wiring.clone();
@@ -95,6 +101,7 @@ fn play(args: &DriveArgs, mut world: World, view: Option<View>) -> Result<(), Fr
     let options = args.drawing.options(None);
     let mut driving = backends.drive(&options, &world.volume_ref(), &display, &showing)?;
     let mut inputs: Vec<&mut dyn Input> = hands.iter_mut().map(|hands| hands as &mut dyn Input).collect();
+    inputs.extend(tracked.iter_mut().map(|tracked| tracked as &mut dyn Input));
     // Where frames must be the same whenever they are drawn, nothing may depend on how long they take.
     let trial = if args.stepped { None } else { Trial::new(options.caster, showing.period) };
     let plan = Plan { frames: args.frames, time: args.time, trial };

@@ -1,5 +1,6 @@
 //! What can happen to a world.
 
+use crate::scene::HeldTool;
 use glam::DVec3;
 
 /// One change.
@@ -20,6 +21,10 @@ pub enum Change {
     Clip,
     /// It moves toward the viewers, metres.
     MoveClip(f64),
+    /// The tool in somebody's hand is here now.
+    Tool(HeldTool),
+    /// It takes hold of the volume, which then goes with it, or lets go.
+    Grip(bool),
     /// The next look of the library that fits the volume.
     NextLook,
     /// The script stands still, or goes on.

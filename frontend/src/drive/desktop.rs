@@ -1,6 +1,6 @@
 //! A window on a desktop: all projectors' pictures side by side, and the mouse and keys that handle the volume.
 
-use super::{Change, Input, Sheet, Sink};
+use super::{Change, Input, Moment, Sheet, Sink};
 use crate::FrontendError;
 use display_config::Display;
 use glam::DVec3;
@@ -85,7 +85,7 @@ impl Hands {
 }
 
 impl Input for Hands {
-    fn poll(&mut self, _: Duration, changes: &mut Vec<Change>) {
+    fn poll(&mut self, _: Moment, changes: &mut Vec<Change>) {
         changes.extend(self.acts.take().into_iter().filter_map(|act| self.change(act)));
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | `world` | what has happened to the scene since it was loaded |
-//! | `change`, `input` | what can happen to it, and where that comes from |
+//! | `world`, `grip` | what has happened to the scene since it was loaded |
+//! | `change`, `input`, `tracked` | what can happen to it, and where that comes from |
 //! | `run` | the loop: inputs, world, frames, screens |
 //! | `trial` | which caster is faster |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
@@ -12,6 +12,7 @@
 mod change;
 mod desktop;
 mod dump;
+mod grip;
 mod histogram;
 mod input;
 mod measures;
@@ -21,6 +22,7 @@ mod run;
 mod screens;
 mod sheet;
 mod status;
+mod tracked;
 mod trial;
 mod world;
 
@@ -28,12 +30,13 @@ pub use change::Change;
 pub use desktop::{Desktop, Hands, KEYS};
 pub use dump::Dump;
 pub use histogram::{Histogram, Quantiles};
-pub use input::Input;
+pub use input::{Input, Moment};
 pub use measures::{BackendBeat, BeatSummary};
 pub use report::DriveReport;
 pub use run::{End, Plan, Played, run};
 pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
+pub use tracked::Tracked;
 pub use trial::Trial;
 pub use world::{Looks, World};

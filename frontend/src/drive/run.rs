@@ -2,7 +2,7 @@
 
 use super::measures::Measures;
 use super::plot::plot_of_beat;
-use super::{BeatSummary, Change, Input, KEYS, Screens, Status, Trial, World};
+use super::{BeatSummary, Change, Input, KEYS, Moment, Screens, Status, Trial, World};
 use crate::FrontendError;
 use serde::Serialize;
 use std::time::Duration;
@@ -143,7 +143,10 @@ impl Show<'_, '_> {
     /// Asks the inputs, and begins a frame. Why the show ends instead, if it does.
     fn begin(&mut self, frame: u32, seen_at: Duration, now: Duration) -> Result<Option<End>, FrontendError> {
         let mut changes = Vec::new();
-        self.inputs.iter_mut().for_each(|input| input.poll(now, &mut changes));
+        for input in self.inputs.iter_mut() {
+            input.poll(Moment { now, seen_at }, &mut changes);
+            input.news().iter().for_each(|sentence| (self.tell)(sentence));
+        }
         for change in changes {
             match change {
                 Change::Quit => return Ok(Some(End::Left)),

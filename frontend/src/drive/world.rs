@@ -1,8 +1,9 @@
 //! What has happened to a scene since it was loaded. Pure: the same changes at the same times give the same frames.
 
 use super::Change;
+use super::grip::Grip;
 use crate::scene::{
-    Anchor, CLIP_CONTEXT, Handling, LookName, Scene, SceneEnhancer, SceneError, Values, VolumeFacts,
+    Anchor, CLIP_CONTEXT, Handling, HeldTool, LookName, Scene, SceneEnhancer, SceneError, Values, VolumeFacts,
 };
 use display_config::Display;
 use glam::{DQuat, DVec3};
@@ -41,6 +42,8 @@ pub struct World {
     handling: Handling,
     /// Where the clip plane is: metres before the volume's centre; None where there is none.
     clip_m: Option<f64>,
+    /// While a hand holds the volume.
+    grip: Option<Grip>,
     is_paused: bool,
     /// Time of the script, seconds.
     script_s: f64,
@@ -61,6 +64,7 @@ impl World {
             looks,
             handling: Handling::default(),
             clip_m: None,
+            grip: None,
             is_paused: false,
             script_s: 0.0,
             seen_at: None,
@@ -102,10 +106,7 @@ impl World {
                 let turn = DQuat::from_rotation_y(right) * DQuat::from_rotation_x(down) * self.handling.turn;
                 self.handling.turn = turn.normalize();
             }
-            Change::Move(by_m) => {
-                let farthest = FARTHEST * self.display.width_m;
-                self.handling.shift_m = (self.handling.shift_m + by_m).clamp_length_max(farthest);
-            }
+            Change::Move(by_m) => self.shift_to(self.handling.shift_m + by_m),
             Change::Scale(factor) => {
                 self.handling.scale = (self.handling.scale * factor).clamp(SCALES.0, SCALES.1);
             }
@@ -114,6 +115,8 @@ impl World {
                 let farthest = FARTHEST * self.display.width_m;
                 self.clip_m = self.clip_m.map(|at_m| (at_m + by_m).clamp(-farthest, farthest));
             }
+            Change::Tool(tool) => self.hold(tool),
+            Change::Grip(closes) => self.grip = if closes { self.taken_hold() } else { None },
             Change::NextLook => self.next_look(),
             Change::Pause => self.is_paused = !self.is_paused,
             Change::Reset => self.reset(),
@@ -121,8 +124,33 @@ impl World {
         }
     }
 
+    fn shift_to(&mut self, shift_m: DVec3) {
+        self.handling.shift_m = shift_m.clamp_length_max(FARTHEST * self.display.width_m);
+    }
+
+    /// The tool is here, and takes along what it holds. One that is lost lets go.
+    fn hold(&mut self, tool: HeldTool) {
+        self.handling.tool = Some(tool);
+        self.grip = self.grip.filter(|_| tool.presence > 0.0);
+        if let Some(grip) = self.grip {
+            let (centre_m, turn) = grip.moved(&tool);
+            self.handling.turn = turn;
+            self.shift_to(centre_m - self.scene.centre_at(self.script_s));
+        }
+    }
+
+    /// The grip of the tool on the volume as it is now, if there is a tool.
+    fn taken_hold(&self) -> Option<Grip> {
+        let tool = self.handling.tool.filter(|tool| tool.presence > 0.0)?;
+        let centre_m = self.scene.centre_at(self.script_s) + self.handling.shift_m;
+        Some(Grip::new(tool, centre_m, self.handling.turn))
+    }
+
     fn reset(&mut self) {
-        (self.handling, self.clip_m, self.is_paused) = (Handling::default(), None, false);
+        // Whoever holds a tool goes on holding it.
+        let tool = self.handling.tool;
+        (self.handling, self.grip) = (Handling { tool, ..Handling::default() }, None);
+        (self.clip_m, self.is_paused) = (None, false);
         self.scene = self.loaded.clone();
         self.looks.shown = None;
     }

@@ -53,6 +53,57 @@ fn what_is_handled_and_reset_is_as_it_was() {
     assert_eq!(seen(&mut world, ms(30)), before);
 }
 
+fn tool(tip_m: DVec3, rotation: DQuat, presence: f64) -> Change {
+    Change::Tool(HeldTool { tip_m, rotation, presence })
+}
+
+#[test]
+fn what_a_tool_carries_goes_with_it_and_fades_with_it() {
+    let mut world = world_of(
+        "[volume]\nsource = 'procedural:shells@32'\n[tool]\nkind = 'pointer'\n\
+         [[enhancer]]\nkind = 'clip-plane'\ncarried = true\n",
+    );
+    let plane = |world: &mut World| match seen(world, ms(0)).optics.enhancers[..] {
+        [Enhancer::ClipPlane(plane)] => plane,
+        ref others => panic!("{others:?}"),
+    };
+    let scripted = plane(&mut world);
+    let (tip_m, rotation) = (DVec3::new(0.1, -0.05, 0.2), DQuat::from_rotation_y(0.5));
+    world.apply(tool(tip_m, rotation, 1.0));
+    let held = plane(&mut world);
+    assert_eq!((held.point_in_display, held.strength), (tip_m, scripted.strength));
+    // It points along -z of its own; the plane faces back along it.
+    assert!(held.normal_in_display.distance(rotation * DVec3::Z) < 1e-12, "{held:?}");
+    assert_eq!(seen(&mut world, ms(0)).tool.map(|tool| tool.tip_in_display), Some(tip_m));
+    world.apply(tool(tip_m, rotation, 0.25));
+    assert_eq!(plane(&mut world).strength, 0.25 * scripted.strength);
+    world.apply(Change::Reset);
+    assert_eq!(plane(&mut world).point_in_display, tip_m, "who holds it goes on holding it");
+}
+
+#[test]
+fn a_tool_takes_the_volume_along_until_it_lets_go_or_is_lost() {
+    let mut world = still();
+    let corner = |world: &mut World| seen(world, ms(0)).display_from_volume.transform_point3(DVec3::ZERO);
+    let resting = corner(&mut world);
+    world.apply(Change::Grip(true));
+    world.apply(tool(DVec3::ZERO, DQuat::IDENTITY, 1.0));
+    world.apply(tool(DVec3::X, DQuat::IDENTITY, 1.0));
+    assert_eq!(corner(&mut world), resting, "there was no tool to hold it");
+    world.apply(Change::Grip(true));
+    let turn = DQuat::from_rotation_z(0.3);
+    world.apply(tool(DVec3::new(1.0, 0.1, 0.0), turn, 1.0));
+    let moved = DVec3::new(1.0, 0.1, 0.0) + turn * (resting - DVec3::X);
+    assert!(corner(&mut world).distance(moved) < 1e-12, "the corner goes with the tool");
+    world.apply(Change::Grip(false));
+    world.apply(tool(DVec3::ZERO, DQuat::IDENTITY, 1.0));
+    assert!(corner(&mut world).distance(moved) < 1e-12, "it has been let go");
+    world.apply(Change::Grip(true));
+    world.apply(tool(DVec3::ZERO, DQuat::IDENTITY, 0.0));
+    world.apply(tool(DVec3::Y, DQuat::IDENTITY, 1.0));
+    assert!(corner(&mut world).distance(moved) < 1e-12, "a lost tool lets go");
+}
+
 #[test]
 fn a_turn_keeps_the_centre_and_a_scale_too() {
     let mut world = still();
@@ -107,6 +158,13 @@ fn change() -> impl Strategy<Value = Change> {
         (number(), number(), number()).prop_map(|(x, y, z)| Change::Move(DVec3::new(x, y, z))),
         (0.01..100.0_f64).prop_map(Change::Scale),
         number().prop_map(Change::MoveClip),
+        ([number(), number(), number()], [number(), number(), number()], 0.0..=1.0_f64).prop_map(
+            |(tip, turn, presence)| {
+                let rotation = DQuat::from_scaled_axis(DVec3::from_array(turn));
+                tool(DVec3::from_array(tip), rotation, presence)
+            }
+        ),
+        any::<bool>().prop_map(Change::Grip),
         Just(Change::Clip),
         Just(Change::NextLook),
         Just(Change::Pause),

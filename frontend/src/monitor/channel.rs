@@ -68,11 +68,7 @@ impl Tally {
             self.latest_age_ms = Some((event.received.as_secs_f64() - time.as_secs_f64()) * 1e3);
         }
         if let Last::Pose(pose) = last {
-            let measured = match event.device_time {
-                Some(DeviceTime::InStep(time)) => time,
-                _ => event.received,
-            };
-            self.track.push(measured, pose);
+            self.track.push(event.measured(), pose);
         }
         let had_target = matches!(self.last, Some(Last::Pose(Some(_))));
         self.losses += u64::from(had_target && matches!(last, Last::Pose(None)));

@@ -3,8 +3,8 @@
 use super::band::normalised_band;
 use super::volume::PROCEDURAL_VOXEL_M;
 use super::{
-    Band, Edits, Handling, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError, VolumeFacts,
-    VolumeSource,
+    Band, Edits, Handling, HeldTool, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError,
+    VolumeFacts, VolumeSource,
 };
 use display_config::{Display, Place};
 use glam::DVec3;
@@ -101,13 +101,14 @@ impl Scene {
             display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
             optics: self.optics_at(
                 time_s,
+                handling.tool,
                 place.centre_m,
                 facts.value_range,
                 extent_m.max_element() * scale,
             )?,
             light: self.light,
             quality: self.quality,
-            tool: self.tool_at(time_s),
+            tool: self.tool_at(time_s, handling.tool),
             pace: Pace::Complete,
             sub_frame: None,
             welcomes_planes: false,
@@ -127,7 +128,7 @@ impl Scene {
         let longest_m =
             (facts.dims.as_dvec3() * self.voxel_size_m.unwrap_or(facts.voxel_size_m())).max_element();
         for time_s in self.edits.times().filter(|&time_s| time_s <= last_s) {
-            self.optics_at(time_s, self.centre_at(time_s), facts.value_range, longest_m)?;
+            self.optics_at(time_s, None, self.centre_at(time_s), facts.value_range, longest_m)?;
         }
         Ok(())
     }
@@ -136,12 +137,13 @@ impl Scene {
     fn optics_at(
         &self,
         time_s: f64,
+        held: Option<HeldTool>,
         centre_m: DVec3,
         value_range: (f64, f64),
         longest_m: f64,
     ) -> Result<Optics, SceneError> {
         let look = self.look.edited(&self.edits, time_s);
-        let optics = look.optics(value_range, longest_m, &self.chain_around(centre_m, time_s));
+        let optics = look.optics(value_range, longest_m, &self.chain_around(centre_m, time_s, held));
         optics.map_err(|reason| self.look_error(value_range, reason))
     }
 
@@ -169,17 +171,22 @@ impl Scene {
 
     /// The enhancers in their places, bands over data values.
     pub(super) fn chain_at(&self, time_s: f64) -> Vec<Enhancer> {
-        self.chain_around(self.centre_at(time_s), time_s)
+        self.chain_around(self.centre_at(time_s), time_s, None)
     }
 
     /// The enhancers in their places around the volume's centre, bands over data values.
-    fn chain_around(&self, centre_m: DVec3, time_s: f64) -> Vec<Enhancer> {
-        let (tool, picked) = (self.tool_at(time_s), self.edits.pick.at(time_s).copied());
-        self.enhancers.iter().map(|enhancer| enhancer.placed(centre_m, tool.as_ref(), picked)).collect()
+    fn chain_around(&self, centre_m: DVec3, time_s: f64, held: Option<HeldTool>) -> Vec<Enhancer> {
+        let (tool, picked) = (self.tool_at(time_s, held), self.edits.pick.at(time_s).copied());
+        let presence = held.map_or(1.0, |held| held.presence);
+        let placed = |enhancer: &SceneEnhancer| enhancer.placed(centre_m, tool.as_ref(), presence, picked);
+        self.enhancers.iter().map(placed).collect()
     }
 
-    fn tool_at(&self, time_s: f64) -> Option<Tool> {
+    fn tool_at(&self, time_s: f64, held: Option<HeldTool>) -> Option<Tool> {
         let still = self.tool?;
+        if let Some(held) = held {
+            return Some(Tool { tip_in_display: held.tip_m, axis_in_display: held.axis(), ..still });
+        }
         let tip_in_display = self.motion.tool_tip_m.at(time_s).unwrap_or(still.tip_in_display);
         let axis = self.motion.tool_axis.at(time_s).map(|d| d.0);
         Some(Tool { tip_in_display, axis_in_display: axis.unwrap_or(still.axis_in_display), ..still })

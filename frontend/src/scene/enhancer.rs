@@ -29,11 +29,13 @@ pub struct SceneEnhancer {
 }
 
 impl SceneEnhancer {
-    /// Where it is in a frame, bands still over data values. A band-picker picks `picked` if there is one.
+    /// Where it is in a frame, bands still over data values. What a tool carries acts by as much of it as is there, from 0 to
+    /// 1. A band-picker picks `picked` if there is one.
     pub(super) fn placed(
         &self,
         volume_centre: DVec3,
         tool: Option<&Tool>,
+        presence: f64,
         picked: Option<Trapezoid>,
     ) -> Enhancer {
         let carrier = tool.filter(|_| self.anchor == Anchor::Tool);
@@ -45,10 +47,26 @@ impl SceneEnhancer {
         let axis = carrier.map(|tool| tool.axis_in_display);
         let mut numbers = self.numbers;
         numbers.place(place, axis);
+        if carrier.is_some() {
+            fade(&mut numbers, presence);
+        }
         if let (Enhancer::BandPicker(picker), Some(picked)) = (&mut numbers, picked) {
             picker.band = picked;
         }
         numbers
+    }
+}
+
+/// Takes an enhancer back to a share of what it does.
+fn fade(enhancer: &mut Enhancer, share: f64) {
+    match enhancer {
+        Enhancer::ClipPlane(plane) => plane.strength *= share,
+        Enhancer::Probe(probe) => probe.strength *= share,
+        Enhancer::BandPicker(picker) => picker.strength *= share,
+        Enhancer::LayerOpacity(layer) => {
+            let faded = |factor: f64| 1.0 + share * (factor - 1.0);
+            (layer.away, layer.toward) = (faded(layer.away), faded(layer.toward));
+        }
     }
 }
 

@@ -12,12 +12,32 @@ pub struct Handling {
     pub shift_m: DVec3,
     /// A factor of its size.
     pub scale: f64,
+    /// The tool in somebody's hand, in place of the scene's; None where nobody has ever held one.
+    pub tool: Option<HeldTool>,
+}
+
+/// A tool in a hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldTool {
+    /// Its tip, display frame, metres.
+    pub tip_m: DVec3,
+    /// From its own axes, in which it points along −z, to the display's.
+    pub rotation: DQuat,
+    /// How much of it is there, from 0 to 1: what it carries acts by so much.
+    pub presence: f64,
+}
+
+impl HeldTool {
+    /// Unit vector along which it points, display frame.
+    pub(super) fn axis(&self) -> DVec3 {
+        self.rotation * DVec3::NEG_Z
+    }
 }
 
 impl Default for Handling {
     /// As the scene has it.
     fn default() -> Self {
-        Self { turn: DQuat::IDENTITY, shift_m: DVec3::ZERO, scale: 1.0 }
+        Self { turn: DQuat::IDENTITY, shift_m: DVec3::ZERO, scale: 1.0, tool: None }
     }
 }
 

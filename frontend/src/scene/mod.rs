@@ -29,7 +29,7 @@ pub use contents::Scene;
 pub use edits::{Edits, Held};
 pub use enhancer::{Anchor, CLIP_CONTEXT, SceneEnhancer};
 pub use error::SceneError;
-pub use handling::Handling;
+pub use handling::{Handling, HeldTool};
 pub use look::{DataLook, Look};
 pub use looks::{LookChoice, LookName, LookWish, Values, Verdict, WishedLook, choose, read_values, verdict};
 pub use motion::{Motion, Track};

@@ -180,6 +180,53 @@ fn a_signal_ends_a_show_well() {
     assert!(Path::new(&out).join("drive.html").is_file());
 }
 
+/// A scene whose clip plane a tool carries, and the tool's pose as its own or as a tracker's.
+const CARRIED: &str = "\
+[volume]
+source = 'procedural:shells@64'
+
+[[enhancer]]
+kind = 'clip-plane'
+carried = true
+
+[tool]
+kind = 'pointer'
+";
+
+#[test]
+fn a_tracked_tool_is_where_its_tracker_has_it() {
+    let stage = Stage::new();
+    let write = |name: &str, text: &str| {
+        fs::write(stage.path(name), text).unwrap();
+        stage.path(name)
+    };
+    // Turned by a half about y the tool points out of the screen: the other half is cut away.
+    let tracked = write("tracked.toml", CARRIED);
+    let scripted = write("scripted.toml", &format!("{CARRIED}tip_m = [0.02, 0.0, 0.01]\naxis = [0, 0, 1]\n"));
+    let still = write("still.toml", CARRIED);
+    write(
+        "hand.toml",
+        "rate_hz = 60\n[[step]]\nat_s = 0.0\n\
+         pose = { sensor = 3, position_m = [0.02, 0.0, 0.01], orientation = [0, 1, 0, 0] }\n\
+         [[step]]\nat_s = 60.0\n\
+         pose = { sensor = 3, position_m = [0.02, 0.0, 0.01], orientation = [0, 1, 0, 0] }\n",
+    );
+    let inputs = write("inputs.toml", "[[input]]\nname = 'wand'\nkind = 'script'\npath = 'hand.toml'\n");
+    let show = |scene: &str, dump: &str, more: &[&str]| {
+        let fixed = ["drive", scene, "--display", &stage.display, "--output", "none", "--stepped", "--quiet"];
+        let dump_into = stage.path(dump);
+        let more = ["--device", "cpu", "--frames", "30", "--dump", &dump_into]
+            .into_iter()
+            .chain(more.iter().copied());
+        let words: Vec<&str> = fixed.into_iter().chain(more).collect();
+        run(&mut lightloom(&words)).succeeded();
+        pictures(&Path::new(&dump_into).join("frame-000029"))
+    };
+    let of_tracker = show(&tracked, "of-tracker", &["--inputs", &inputs]);
+    assert_same("tracked and scripted", &of_tracker, &show(&scripted, "of-scene", &[]));
+    assert_ne!(of_tracker, show(&still, "still", &[]), "a tool at rest looks the same");
+}
+
 #[test]
 fn what_cannot_be_driven_is_refused() {
     let refused = |more: &[&str], parts: &[&str]| {
