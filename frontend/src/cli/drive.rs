@@ -27,8 +27,8 @@ pub struct DriveArgs {
     /// A window on this desktop as well, wherever else the pictures go. Alone it is the same as --output desktop.
     #[arg(long)]
     pub desktop: bool,
-    /// Trackers and controllers, as `lightloom inputs` reads them: the first sensor of which a pose comes is the scene's [tool].
-    #[arg(long, value_name = "FILE")]
+    /// Trackers and controllers, as `lightloom inputs` reads them: the first sensor of which a pose comes is the scene's `[tool]`.
+    #[arg(long, value_name = "INPUTS.toml")]
     pub inputs: Option<PathBuf>,
     /// Frames per second instead of the display's.
     #[arg(long, value_name = "HZ", value_parser = rate, allow_hyphen_values = true)]

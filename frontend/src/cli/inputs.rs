@@ -8,7 +8,7 @@ use std::time::Duration;
 /// `lightloom inputs`.
 #[derive(Clone, Debug, Args)]
 pub struct InputsArgs {
-    /// A .toml file with [[input]] entries.
+    /// A .toml file with `[[input]]` entries.
     pub file: PathBuf,
     /// End after so many seconds; without it, Ctrl-C ends.
     #[arg(long = "for", value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]

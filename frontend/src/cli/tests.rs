@@ -25,6 +25,7 @@ fn every_number_may_begin_with_a_minus() {
     let words = [
         "DIR",
         "DISPLAY",
+        "INPUTS.toml",
         "NAME",
         "NAME,…",
         "OUT.lloom",
@@ -43,7 +44,7 @@ fn every_number_may_begin_with_a_minus() {
             let names: Vec<_> =
                 option.get_value_names().into_iter().flatten().map(|name| name.as_str()).collect();
             let is_word = words.contains(&names[0]) || !option.get_action().takes_values();
-            assert!(is_word || option.is_allow_hyphen_values_set(), "{}: {option}", command.get_name());
+            assert!(is_word || option.is_allow_hyphen_values_set(), "{}: {names:?}", command.get_name());
             numbers += usize::from(!is_word);
         }
     }

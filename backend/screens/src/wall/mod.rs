@@ -5,13 +5,15 @@
 
 mod pane;
 mod pixels;
+mod server;
 mod surface;
 
 use crate::{OutputInfo, ScreenError, outputs};
 use display_config::Display;
-use pane::{Pane, Part, Server};
+use pane::{Pane, Part};
 use pixels::Layout;
 use protocol::{ScreenImage, Wall, WallError};
+use server::Server;
 use std::time::{Duration, Instant};
 use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::Event;

@@ -1,24 +1,12 @@
 //! A window that covers an output, with the pictures of the projectors there.
 
-use super::pixels::Layout;
+use super::server::Server;
 use super::surface::Surface;
 use crate::{OutputInfo, Rectangle, ScreenError};
 use display_config::Output;
 use glam::UVec2;
 use protocol::ScreenImage;
-use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, Pixmap, Screen, Window};
-use x11rb::rust_connection::RustConnection;
-
-/// What all panes of a wall share.
-pub struct Server {
-    pub connection: RustConnection,
-    pub screen: Screen,
-    pub layout: Layout,
-    /// One that is not to be seen.
-    pub cursor: Cursor,
-    /// Whether it can show a picture between two refreshes of an output (the X Present extension).
-    pub has_present: bool,
-}
+use x11rb::protocol::xproto::{ConnectionExt as _, Pixmap, Screen, Window};
 
 /// A projector of an output.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! A window, with the pictures that it shows and will show.
 
-use super::pane::Server;
+use super::server::Server;
 use crate::{Rectangle, ScreenError};
 use display_config::Output;
 use glam::UVec2;
