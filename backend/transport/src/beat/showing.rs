@@ -14,9 +14,12 @@ static START: LazyLock<Instant> = LazyLock::new(Instant::now);
 /// How often windows are looked after.
 const TEND_INTERVAL: Duration = Duration::from_millis(200);
 
-/// So long before a frame is due the thread wakes, and only lets others run from then on: a sleeper may wake a millisecond
-/// late, each back-end by another time.
+/// So long before a frame is due the thread wakes, and only dozes from then on: who sleeps soundly may wake a millisecond late,
+/// each back-end by another time. Who does not sleep at all takes the core from back-ends that share it, for longer than that.
 const WAKES_BEFORE: Duration = Duration::from_millis(1);
+
+/// The length of a doze.
+const DOZE: Duration = Duration::from_micros(50);
 
 /// What the clock of this process says, microseconds.
 pub fn now_us() -> u64 {
@@ -164,7 +167,7 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
                 tell(outbox, Told::Shown { frame, at_us: now_us() });
                 continue;
             }
-            let sleep = left.saturating_sub(WAKES_BEFORE);
+            let sleep = left.saturating_sub(WAKES_BEFORE).max(left.min(DOZE));
             wait = Some(wait.map_or(sleep, |wait| wait.min(sleep)));
         }
         if let Some(frame) = stage.next(now_us()) {
@@ -182,7 +185,7 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
                 stage.drawn(frame);
             }
             Ok(Cue::Show { frame, at_us }) => stage.order(frame, at_us),
-            Err(RecvTimeoutError::Timeout) => std::thread::yield_now(),
+            Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         }
         if let (Some(wall), true) = (&mut windows.wall, tended.elapsed() >= TEND_INTERVAL) {
