@@ -7,8 +7,9 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 19] = [
+pub const CRATES: [(&str, &str, &[&str]); 23] = [
     ("display-config", "display-config", &[]),
+    ("overlay", "display-config/overlay", &["display-config"]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
     ("needs", "shaders/needs", &["layout", "optics"]),
@@ -45,6 +46,9 @@ pub const CRATES: [(&str, &str, &[&str]); 19] = [
     ),
     ("tracking", "frontend/tracking", &[]),
     ("inputs", "frontend/inputs", &["display-config", "tracking"]),
+    ("world", "frontend/world", &["inputs", "tracking"]),
+    ("tape", "frontend/tape", &["inputs", "world"]),
+    ("exhibit", "frontend/exhibit", &["display-config", "inputs", "tracking", "world"]),
     (
         "frontend",
         "frontend",

@@ -1,0 +1,1 @@
+//! What an exhibit is: its file, the log of its day, and the state that a supervisor reads.

@@ -1,0 +1,1 @@
+//! Everything that reached a world, on disk, as MCAP.
