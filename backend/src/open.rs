@@ -3,7 +3,10 @@
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use bricks::store::Store;
-use protocol::{Setup, VolumeRef, Wall};
+use protocol::{
+    Advance, DeviceInfo, DrawError, FrameState, ProjectorImage, Render, ScreenImage, Setup, StopAsked,
+    VolumeRef, Wall,
+};
 use renderer::Renderer;
 use screens::OutputWall;
 use std::sync::Arc;
@@ -19,12 +22,67 @@ pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
     setup.options.adapter.turn = local_rank().unwrap_or(setup.options.adapter.turn);
     // First, so that outputs are black while a large volume opens.
     let wall = if setup.screens.outputs { Some(open_wall(&setup)?) } else { None };
-    let source = open_volume(&setup.volume)?;
-    let (mut renderer, info) = Renderer::new(&setup.options, source).map_err(|error| error.to_string())?;
-    if let Some(path) = setup.trace {
-        renderer.record(path, &setup.volume);
+    let (mut renderer, info) = renderer_of(&setup, &setup.volume)?;
+    if let Some(path) = &setup.trace {
+        renderer.record(path.clone(), &setup.volume);
     }
-    Ok(Opened { wall, ..Opened::new(Box::new(renderer), info) })
+    let volume = setup.volume.clone();
+    Ok(Opened { wall, ..Opened::new(Box::new(Changing { setup, volume, renderer: Some(renderer) }), info) })
+}
+
+fn renderer_of(setup: &Setup, volume: &VolumeRef) -> Result<(Renderer, DeviceInfo), String> {
+    Renderer::new(&setup.options, open_volume(volume)?).map_err(|error| error.to_string())
+}
+
+/// A renderer of one volume after the other, as frames say.
+struct Changing {
+    setup: Setup,
+    /// The one that is open.
+    volume: VolumeRef,
+    /// None where the one that was wanted last could not be opened.
+    renderer: Option<Renderer>,
+}
+
+impl Changing {
+    fn renderer(&mut self) -> Result<&mut Renderer, DrawError> {
+        self.renderer.as_mut().ok_or_else(|| DrawError("its volume could not be opened".to_owned()))
+    }
+
+    /// Opens a volume in place of the one that is open. There is room for the bricks of one of them.
+    fn turn_to(&mut self, volume: &VolumeRef) -> Result<(), DrawError> {
+        if let Some(mut renderer) = self.renderer.take() {
+            renderer.finish()?;
+        }
+        self.renderer = Some(renderer_of(&self.setup, volume).map_err(DrawError)?.0);
+        self.volume = volume.clone();
+        Ok(())
+    }
+}
+
+impl Render for Changing {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        let volume = frame.volume.as_ref().unwrap_or(&self.setup.volume).clone();
+        if volume != self.volume {
+            self.turn_to(&volume)?;
+        }
+        Ok(self.renderer()?.restart(frame)?)
+    }
+
+    fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {
+        Ok(self.renderer()?.advance(stop)?)
+    }
+
+    fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        Ok(self.renderer()?.present(sink)?)
+    }
+
+    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+        Ok(self.renderer()?.present_on_screens(sink)?)
+    }
+
+    fn finish(&mut self) -> Result<(), DrawError> {
+        Ok(self.renderer()?.finish()?)
+    }
 }
 
 fn open_wall(setup: &Setup) -> Result<Box<dyn Wall>, String> {

@@ -16,5 +16,6 @@ pub mod report;
 mod same_file;
 pub mod scene;
 pub mod simulate;
+pub mod staging;
 
 pub use error::FrontendError;

@@ -167,7 +167,7 @@ pub fn view(display: &Display, projector: u32, frame: &FrameState, source: &dyn 
         resolution: display.resolution(),
     };
     View {
-        scene: SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality),
+        scene: SceneNumbers::new(place, &frame.optics, frame.light, &frame.quality),
         rays: ProjectorRays::new(&canonical, &display.projectors[projector as usize], &law),
     }
 }

@@ -1,30 +1,9 @@
 //! The state of one frame: all that a back-end must know to draw it.
 
+use crate::VolumeRef;
 use glam::{DAffine3, DVec3};
-use optics::DebugView;
-use optics::{Light, Optics, Quality};
+use optics::{DebugView, Light, Optics, Quality};
 use serde::{Deserialize, Serialize};
-
-/// What a tracked tool does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ToolKind {
-    /// It only points.
-    Pointer,
-    /// It carries the light: light comes from where the tool's axis points back to.
-    Light,
-}
-
-/// A tool in a visitor's hand.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tool {
-    /// What it does.
-    pub kind: ToolKind,
-    /// Its tip, display frame, metres.
-    pub tip_in_display: DVec3,
-    /// Unit vector along which it points, display frame.
-    pub axis_in_display: DVec3,
-}
 
 /// How a frame gets its detail.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -95,8 +74,8 @@ pub struct FrameState {
     pub light: Option<Light>,
     /// How closely the continuous model is followed.
     pub quality: Quality,
-    /// The tool, where the scene has one.
-    pub tool: Option<Tool>,
+    /// The volume; None is that of the setup. Another one than in the frame before is opened first.
+    pub volume: Option<VolumeRef>,
     /// How it gets its detail.
     pub pace: Pace,
     /// The pixels that it casts, if it is live: the others are reconstructed from these and from the frames before. None
@@ -122,22 +101,11 @@ impl FrameState {
             optics,
             light: None,
             quality: Quality::default(),
-            tool: None,
+            volume: None,
             pace: Pace::Complete,
             sub_frame: None,
             welcomes_planes: false,
             debug: None,
-        }
-    }
-
-    /// The light after the tool has had its say.
-    pub fn light_in_effect(&self) -> Option<Light> {
-        let light = self.light?;
-        match self.tool {
-            Some(Tool { kind: ToolKind::Light, axis_in_display, .. }) => {
-                Some(Light { toward_light_in_display: -axis_in_display, ..light })
-            }
-            Some(Tool { kind: ToolKind::Pointer, .. }) | None => Some(light),
         }
     }
 

@@ -11,7 +11,7 @@ mod wall;
 pub mod wire;
 
 pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
-pub use frame::{FrameState, Pace, SubFrame, Tool, ToolKind};
+pub use frame::{FrameState, Pace, SubFrame};
 pub use image::{ProjectorImage, ScreenImage};
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{Caster, FrameReport, Stages, Upkeep};

@@ -49,7 +49,7 @@ prop_compose! {
 prop_compose! {
     fn frame()(
         index in any::<u32>(), time_s in any::<f64>(), at in point(), eta in 0.0..1.0, optics in optics(),
-        lit in any::<bool>(), tool in proptest::option::of(point()),
+        lit in any::<bool>(), volume in proptest::option::of("[a-z]{1,9}"),
     ) -> FromFrontend {
         FromFrontend::Frame(Box::new(FrameState {
             index, time_s, observer_in_display: at, eta,
@@ -57,7 +57,7 @@ prop_compose! {
             optics,
             light: lit.then(Light::default),
             quality: Quality::default(),
-            tool: tool.map(|p| Tool { kind: ToolKind::Light, tip_in_display: p, axis_in_display: at }),
+            volume: volume.map(|path| VolumeRef::Store(path.into())),
             sub_frame: SubFrame::ORDER.get(index as usize % 5).copied(),
             welcomes_planes: index % 3 == 0,
             pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },

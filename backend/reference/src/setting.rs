@@ -48,7 +48,7 @@ impl Setting {
     pub fn new(frame: &FrameState, integrator: Integrator) -> Self {
         let voxel_m = frame.voxel_m();
         let medium = Medium::new(&frame.optics, voxel_m, &Chain::default());
-        let light = frame.light_in_effect();
+        let light = frame.light;
         let brightest = light.map_or(medium.brightest, |light| {
             let own = frame.optics.materials.iter().flat_map(|curve| curve.points()).map(|point| point.1);
             Shading::brightest(own.chain([light.material()]), medium.brightest)

@@ -1,8 +1,8 @@
 //! Volumes, opened for work in this process.
 
 use crate::FrontendError;
-use crate::drive::Looks;
 use crate::scene::{LookChoice, LookName, Scene, VolumeFacts, WishedLook, read_values, verdict};
+use crate::staging::Looks;
 use bricks::BrickSource;
 use protocol::VolumeRef;
 use std::sync::Arc;

@@ -6,10 +6,12 @@ use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
 use crate::cli::{DriveArgs, OutputArg, ReconstructArg};
 use crate::drive::{
-    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, Tracked, Trial, World, run,
+    Desktop, DriveReport, Dump, Hands, Input, Plan, Screens, Sheet, Sink, Status, Tracked, Trial, one_hand,
+    run,
 };
 use crate::report::BackendSummary;
 use crate::scene::Scene;
+use crate::staging::{Piece, Theatre};
 use protocol::Pace;
 use renderer::output::can_write_into;
 use screens::{Acts, Window};
@@ -17,6 +19,7 @@ use std::io::IsTerminal;
 use std::panic::resume_unwind;
 use std::time::Duration;
 use transport::beat::Time;
+use world::Cast;
 
 /// A window that is to be opened, and what it shows.
 struct View {
@@ -41,21 +44,24 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     if !args.quiet && !args.json {
         tell_look(look.as_ref())?;
     }
-    let tracked = args.inputs.as_deref().map(Tracked::start).transpose()?;
+    let inputs = args.inputs.as_deref().map(inputs::Input::load).transpose()?;
+    let tracked = inputs.as_deref().map(Tracked::start).transpose()?;
     let has_sub_frames = args.reconstruct == ReconstructArg::Quincunx;
     // Where nothing is late, nothing needs to be missing.
     let pace = if args.stepped { Pace::Complete } else { args.pace() };
-    let world = World::new(scene, facts, display, pace, looks).with_sub_frames(has_sub_frames);
+    let cast = if tracked.is_some() { one_hand() } else { Cast::default() };
+    let piece = Piece::new(scene, facts, &looks);
+    let theatre = Theatre::of_one(piece, cast, display, pace).with_sub_frames(has_sub_frames);
     if !args.has_desktop() {
-        return play(args, world, tracked, None);
+        return play(args, theatre, tracked, None);
     }
-    let sheet = Sheet::new(world.display());
-    let title = format!("lightloom: {}", world.display().name);
+    let sheet = Sheet::new(theatre.display());
+    let title = format!("lightloom: {}", theatre.display().name);
     let size = sheet.picture();
     let (window_loop, window, acts) = screens::open(&title, size.width, size.height)?;
     let view = View { window, acts, sheet };
     std::thread::scope(|scope| {
-        let show = scope.spawn(|| play(args, world, tracked, Some(view)));
+        let show = scope.spawn(|| play(args, theatre, tracked, Some(view)));
         let shown = window_loop.run().map_err(FrontendError::from);
         let played = show.join().unwrap_or_else(|panic| resume_unwind(panic));
         shown.and(played)
@@ -65,11 +71,11 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
 /// The show itself.
 fn play(
     args: &DriveArgs,
-    mut world: World,
+    mut theatre: Theatre,
     mut tracked: Option<Tracked>,
     view: Option<View>,
 ) -> Result<(), FrontendError> {
-    let display = world.display().clone();
+    let display = theatre.display().clone();
     let backends = Backends::connect(args.drawing.backends, &display)?;
     let wiring = backends.wiring.clone();
     wiring.warning().iter().for_each(|warning| warn(warning));
@@ -99,7 +105,7 @@ fn play(
         at: protocol::Screens { frontend: screens.is_wanted(), outputs: onto_outputs },
     };
     let options = args.drawing.options(None);
-    let mut driving = backends.drive(&options, &world.volume_ref(), &display, &showing)?;
+    let mut driving = backends.drive(&options, &theatre.volume_ref(), &display, &showing)?;
     let mut inputs: Vec<&mut dyn Input> = hands.iter_mut().map(|hands| hands as &mut dyn Input).collect();
     inputs.extend(tracked.iter_mut().map(|tracked| tracked as &mut dyn Input));
     // Where frames must be the same whenever they are drawn, nothing may depend on how long they take.
@@ -108,10 +114,10 @@ fn play(
     let is_talking = !args.quiet && !args.json;
     let mut status = Status::new(is_talking && std::io::stderr().is_terminal());
     let mut tell = |sentence: &str| warn(sentence);
-    let played = run(&mut driving, &mut world, &mut inputs, &mut screens, &plan, &mut status, &mut tell)?;
+    let played = run(&mut driving, &mut theatre, &mut inputs, &mut screens, &plan, &mut status, &mut tell)?;
     drop(status);
     let report = DriveReport {
-        scene: world.name().to_owned(),
+        scene: theatre.name().to_owned(),
         display: display.name.clone(),
         projectors: display.projectors.len(),
         rate_hz,

@@ -1,12 +1,13 @@
 //! A window on a desktop: all projectors' pictures side by side, and the mouse and keys that handle the volume.
 
-use super::{Change, Input, Moment, Sheet, Sink};
+use super::{Input, Request, Sheet, Sink};
 use crate::FrontendError;
 use display_config::Display;
 use glam::DVec3;
 use protocol::ScreenImage;
 use screens::{Act, Acts, Button, Window};
 use std::time::{Duration, Instant};
+use world::{Change, Moment};
 
 /// A drag across this many pixels is a turn by a radian.
 const PIXELS_PER_RADIAN: f64 = 150.0;
@@ -24,6 +25,7 @@ wheel           make it larger or smaller
 c               cut it by a plane that faces the viewers, or no longer
 [ and ]         move the plane
 l               the next look that fits the volume
+n               the next item of an exhibit
 space           let the script stand still, or go on
 r               as the scene has it
 q, Esc          leave
@@ -61,32 +63,33 @@ impl Hands {
         }
     }
 
-    fn change(&self, act: Act) -> Option<Change> {
-        let clip = |steps: f64| Some(Change::MoveClip(steps * self.clip_step_m));
-        match act {
+    fn request(&self, act: Act) -> Option<Request> {
+        let change = match act {
             Act::Drag { button: Button::Left, right_px, down_px } => {
-                Some(Change::Turn { right: right_px / PIXELS_PER_RADIAN, down: down_px / PIXELS_PER_RADIAN })
+                Change::Turn { right: right_px / PIXELS_PER_RADIAN, down: down_px / PIXELS_PER_RADIAN }
             }
             Act::Drag { button: Button::Right, right_px, down_px } => {
-                Some(Change::Move(self.metres_per_pixel * DVec3::new(right_px, -down_px, 0.0)))
+                Change::Move(self.metres_per_pixel * DVec3::new(right_px, -down_px, 0.0))
             }
-            Act::Wheel(notches) => Some(Change::Scale(PER_NOTCH.powf(notches))),
-            Act::Letter('c') => Some(Change::Clip),
-            Act::Letter('[') => clip(-1.0),
-            Act::Letter(']') => clip(1.0),
-            Act::Letter('l') => Some(Change::NextLook),
-            Act::Letter(' ') => Some(Change::Pause),
-            Act::Letter('r') => Some(Change::Reset),
-            Act::Letter('?') => Some(Change::Help),
-            Act::Letter('q') | Act::Leave => Some(Change::Quit),
-            Act::Letter(_) => None,
-        }
+            Act::Wheel(notches) => Change::Scale(PER_NOTCH.powf(notches)),
+            Act::Letter('c') => Change::Clip,
+            Act::Letter('[') => Change::MoveClip(-self.clip_step_m),
+            Act::Letter(']') => Change::MoveClip(self.clip_step_m),
+            Act::Letter('l') => Change::NextLook,
+            Act::Letter(' ') => Change::Pause,
+            Act::Letter('r') => Change::Reset,
+            Act::Letter('?') => return Some(Request::Help),
+            Act::Letter('q') | Act::Leave => return Some(Request::Quit),
+            Act::Letter('n') => Change::NextItem,
+            Act::Letter(_) => return None,
+        };
+        Some(change.into())
     }
 }
 
 impl Input for Hands {
-    fn poll(&mut self, _: Moment, changes: &mut Vec<Change>) {
-        changes.extend(self.acts.take().into_iter().filter_map(|act| self.change(act)));
+    fn poll(&mut self, _: Moment, requests: &mut Vec<Request>) {
+        requests.extend(self.acts.take().into_iter().filter_map(|act| self.request(act)));
     }
 }
 

@@ -2,41 +2,37 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | `world`, `grip` | what has happened to the scene since it was loaded |
-//! | `change`, `input`, `tracked` | what can happen to it, and where that comes from |
+//! | `request`, `input`, `tracked` | what is asked for, and where that comes from |
 //! | `run` | the loop: inputs, world, frames, screens |
 //! | `trial` | which caster is faster |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
 //! | `histogram`, `measures`, `plot`, `status`, `report` | how well the beat is kept |
 
-mod change;
 mod desktop;
 mod dump;
-mod grip;
 mod histogram;
 mod input;
 mod measures;
 mod plot;
 mod report;
+mod request;
 mod run;
 mod screens;
 mod sheet;
 mod status;
 mod tracked;
 mod trial;
-mod world;
 
-pub use change::Change;
 pub use desktop::{Desktop, Hands, KEYS};
 pub use dump::Dump;
 pub use histogram::{Histogram, Quantiles};
-pub use input::{Input, Moment};
+pub use input::Input;
 pub use measures::{BackendBeat, BeatSummary};
 pub use report::DriveReport;
+pub use request::Request;
 pub use run::{End, Plan, Played, run};
 pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
-pub use tracked::Tracked;
+pub use tracked::{Tracked, one_hand};
 pub use trial::Trial;
-pub use world::{Looks, World};

@@ -2,11 +2,13 @@
 
 use super::measures::Measures;
 use super::plot::plot_of_beat;
-use super::{BeatSummary, Change, Input, KEYS, Moment, Screens, Status, Trial, World};
+use super::{BeatSummary, Input, KEYS, Request, Screens, Status, Trial};
 use crate::FrontendError;
+use crate::staging::Theatre;
 use serde::Serialize;
 use std::time::Duration;
 use transport::beat::{Drive, Happening};
+use world::Moment;
 
 /// When a show ends, besides by somebody who ends it, and what it finds out.
 #[derive(Clone, Debug, Default)]
@@ -60,7 +62,7 @@ const MOST_TROUBLES: usize = 100;
 /// A show.
 struct Show<'a, 'b> {
     drive: &'a mut Drive,
-    world: &'a mut World,
+    theatre: &'a mut Theatre,
     inputs: &'a mut [&'b mut dyn Input],
     screens: &'a mut Screens<'b>,
     measures: Measures,
@@ -78,7 +80,7 @@ struct Show<'a, 'b> {
 /// The show cannot go on.
 pub fn run<'b>(
     drive: &mut Drive,
-    world: &mut World,
+    theatre: &mut Theatre,
     inputs: &mut [&'b mut dyn Input],
     screens: &mut Screens<'b>,
     plan: &Plan,
@@ -89,7 +91,7 @@ pub fn run<'b>(
     let began = drive.now();
     let mut show = Show {
         drive,
-        world,
+        theatre,
         inputs,
         screens,
         measures: Measures::default(),
@@ -113,7 +115,7 @@ pub fn run<'b>(
                 if let Some(end) = show.begin(frame, seen_at, now)? {
                     break end;
                 }
-                let look = show.world.look().map(|look| format!(", look {look}")).unwrap_or_default();
+                let look = show.theatre.look().map(|look| format!(", look {look}")).unwrap_or_default();
                 status.tell(now, &look, || show.measures.summary(&show.drive.late(), &show.lost));
             }
             other => show.heed(other, now)?,
@@ -142,27 +144,27 @@ pub fn run<'b>(
 impl Show<'_, '_> {
     /// Asks the inputs, and begins a frame. Why the show ends instead, if it does.
     fn begin(&mut self, frame: u32, seen_at: Duration, now: Duration) -> Result<Option<End>, FrontendError> {
-        let mut changes = Vec::new();
+        let (moment, mut requests) = (Moment { now, seen_at }, Vec::new());
         for input in self.inputs.iter_mut() {
-            input.poll(Moment { now, seen_at }, &mut changes);
+            input.poll(moment, &mut requests);
             input.news().iter().for_each(|sentence| (self.tell)(sentence));
         }
-        for change in changes {
-            match change {
-                Change::Quit => return Ok(Some(End::Left)),
-                Change::Help => (self.tell)(KEYS),
-                change => {
-                    if let (Change::NextLook, Some(trial)) = (change, &mut self.trial) {
-                        trial.restart();
-                    }
-                    self.world.apply(change);
-                }
+        for request in requests {
+            match request {
+                Request::Quit => return Ok(Some(End::Left)),
+                Request::Help => (self.tell)(KEYS),
+                Request::Deed(deed) => self.theatre.apply(&deed),
             }
         }
-        if self.world.is_over() {
+        if self.theatre.is_over() {
             return Ok(Some(End::Script));
         }
-        let mut state = self.world.frame(frame, seen_at)?;
+        let shown = |theatre: &Theatre| (theatre.stage().item, theatre.stage().look);
+        let before = shown(self.theatre);
+        let mut state = self.theatre.frame(frame, moment)?;
+        if let Some(trial) = self.trial.as_mut().filter(|_| shown(self.theatre) != before) {
+            trial.restart();
+        }
         state.welcomes_planes = self.trial.as_mut().is_some_and(|trial| trial.begin(frame));
         self.measures.began(frame, now);
         self.drive.draw(&state)?;

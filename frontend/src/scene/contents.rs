@@ -3,13 +3,13 @@
 use super::band::normalised_band;
 use super::volume::PROCEDURAL_VOXEL_M;
 use super::{
-    Band, Edits, Handling, HeldTool, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError,
-    VolumeFacts, VolumeSource,
+    Band, Edits, Handled, HeldTool, Look, LookWish, Motion, Placement, SceneEnhancer, SceneError, Tool,
+    ToolKind, VolumeFacts, VolumeSource,
 };
 use display_config::{Display, Place};
 use glam::DVec3;
 use optics::{Enhancer, Light, Optics, Quality, Trapezoid, TrapezoidError};
-use protocol::{FrameState, Pace, Tool, ToolKind, VolumeRef};
+use protocol::{FrameState, Pace, VolumeRef};
 use std::ops::Range;
 
 /// A scene, read and checked. Everything that is the same in all frames is here; `motion`
@@ -75,23 +75,23 @@ impl Scene {
         facts: &VolumeFacts,
     ) -> Result<FrameState, SceneError> {
         let time_s = f64::from(index) / self.rate_hz;
-        self.frame_at(index, time_s, &Handling::default(), display, facts)
+        self.frame_at(index, time_s, &Handled::default(), display, facts)
     }
 
-    /// A frame at a time of the scene's clock, seconds, with the volume as somebody handles it. Fails only where the look
+    /// A frame at a time of the scene's clock, seconds, with what people have made of it. Fails only where the look
     /// does not fit the volume's values.
     pub fn frame_at(
         &self,
         index: u32,
         time_s: f64,
-        handling: &Handling,
+        handled: &Handled,
         display: &Display,
         facts: &VolumeFacts,
     ) -> Result<FrameState, SceneError> {
         let spacing_m = self.voxel_size_m.unwrap_or(facts.voxel_size_m());
         let extent_m = facts.dims.as_dvec3() * spacing_m;
-        let scale = self.placement.scale(extent_m, display) * handling.scale;
-        let place = handling.applied(self.placement_at(time_s));
+        let scale = self.placement.scale(extent_m, display) * handled.handling.scale;
+        let place = handled.applied(self.placement_at(time_s));
         let observer = self.observer_m.unwrap_or(display.observer_in_display);
         Ok(FrameState {
             index,
@@ -101,14 +101,14 @@ impl Scene {
             display_from_volume: place.display_from_volume(facts.dims, spacing_m * scale, &facts.frame),
             optics: self.optics_at(
                 time_s,
-                handling.tool,
+                handled,
                 place.centre_m,
                 facts.value_range,
                 extent_m.max_element() * scale,
             )?,
-            light: self.light,
+            light: handled.lit(self.tool_light(time_s, handled.tool)),
             quality: self.quality,
-            tool: self.tool_at(time_s, handling.tool),
+            volume: None,
             pace: Pace::Complete,
             sub_frame: None,
             welcomes_planes: false,
@@ -128,7 +128,13 @@ impl Scene {
         let longest_m =
             (facts.dims.as_dvec3() * self.voxel_size_m.unwrap_or(facts.voxel_size_m())).max_element();
         for time_s in self.edits.times().filter(|&time_s| time_s <= last_s) {
-            self.optics_at(time_s, None, self.centre_at(time_s), facts.value_range, longest_m)?;
+            self.optics_at(
+                time_s,
+                &Handled::default(),
+                self.centre_at(time_s),
+                facts.value_range,
+                longest_m,
+            )?;
         }
         Ok(())
     }
@@ -137,13 +143,15 @@ impl Scene {
     fn optics_at(
         &self,
         time_s: f64,
-        held: Option<HeldTool>,
+        handled: &Handled,
         centre_m: DVec3,
         value_range: (f64, f64),
         longest_m: f64,
     ) -> Result<Optics, SceneError> {
         let look = self.look.edited(&self.edits, time_s);
-        let optics = look.optics(value_range, longest_m, &self.chain_around(centre_m, time_s, held));
+        let own = self.chain_around(centre_m, time_s, handled);
+        let chain: Vec<Enhancer> = handled.carried.iter().copied().chain(own).collect();
+        let optics = look.optics(value_range, longest_m, handled.window, &chain);
         optics.map_err(|reason| self.look_error(value_range, reason))
     }
 
@@ -171,15 +179,27 @@ impl Scene {
 
     /// The enhancers in their places, bands over data values.
     pub(super) fn chain_at(&self, time_s: f64) -> Vec<Enhancer> {
-        self.chain_around(self.centre_at(time_s), time_s, None)
+        self.chain_around(self.centre_at(time_s), time_s, &Handled::default())
     }
 
     /// The enhancers in their places around the volume's centre, bands over data values.
-    fn chain_around(&self, centre_m: DVec3, time_s: f64, held: Option<HeldTool>) -> Vec<Enhancer> {
-        let (tool, picked) = (self.tool_at(time_s, held), self.edits.pick.at(time_s).copied());
-        let presence = held.map_or(1.0, |held| held.presence);
+    fn chain_around(&self, centre_m: DVec3, time_s: f64, handled: &Handled) -> Vec<Enhancer> {
+        let tool = self.tool_at(time_s, handled.tool);
+        let picked = handled.picked.or(self.edits.pick.at(time_s).copied());
+        let presence = handled.tool.map_or(1.0, |held| held.presence);
         let placed = |enhancer: &SceneEnhancer| enhancer.placed(centre_m, tool.as_ref(), presence, picked);
         self.enhancers.iter().map(placed).collect()
+    }
+
+    /// The light after the scene's own tool has had its say.
+    fn tool_light(&self, time_s: f64, held: Option<HeldTool>) -> Option<Light> {
+        let light = self.light?;
+        match self.tool_at(time_s, held) {
+            Some(Tool { kind: ToolKind::Light, axis_in_display, .. }) => {
+                Some(Light { toward_light_in_display: -axis_in_display, ..light })
+            }
+            Some(Tool { kind: ToolKind::Pointer, .. }) | None => Some(light),
+        }
     }
 
     fn tool_at(&self, time_s: f64, held: Option<HeldTool>) -> Option<Tool> {
@@ -191,9 +211,4 @@ impl Scene {
         let axis = self.motion.tool_axis.at(time_s).map(|d| d.0);
         Some(Tool { tip_in_display, axis_in_display: axis.unwrap_or(still.axis_in_display), ..still })
     }
-}
-
-/// A tool that nothing has moved: before the screen, pointing at it.
-pub(super) fn tool_at_rest(kind: ToolKind) -> Tool {
-    Tool { kind, tip_in_display: DVec3::new(0.0, 0.0, 0.5), axis_in_display: DVec3::NEG_Z }
 }

@@ -1,12 +1,9 @@
 //! An enhancer of a scene, before a frame gives it its place.
 
+use super::Tool;
 use super::band::normalised_band;
 use glam::DVec3;
-use optics::{Enhancer, Ramp, Trapezoid, TrapezoidError};
-use protocol::Tool;
-
-/// The context of a clip plane for which nothing else is said: one minus the cosine of the angle to its normal, of 11° and 37°.
-pub const CLIP_CONTEXT: Ramp = Ramp { low: 0.02, high: 0.2 };
+use optics::{Enhancer, Trapezoid, TrapezoidError};
 
 /// What an enhancer goes with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +55,7 @@ impl SceneEnhancer {
 }
 
 /// Takes an enhancer back to a share of what it does.
-fn fade(enhancer: &mut Enhancer, share: f64) {
+pub fn fade(enhancer: &mut Enhancer, share: f64) {
     match enhancer {
         Enhancer::ClipPlane(plane) => plane.strength *= share,
         Enhancer::Probe(probe) => probe.strength *= share,

@@ -1,9 +1,8 @@
 //! A scene file as TOML has it, before it is checked.
 
-use super::{LookName, QualityPreset, VolumeAxis};
+use super::{LookName, QualityPreset, ToolKind, VolumeAxis};
 use display_config::text::ListOf;
 use optics::{ExtinctionUnit, MimdaForm};
-use protocol::ToolKind;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;

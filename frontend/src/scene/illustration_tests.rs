@@ -167,7 +167,7 @@ fn what_cannot_be_illustrated_is_refused_with_line_and_key() {
         (picker.to_owned(), ["line 8: `enhancer.kind`", "add band"]),
         (format!("{picker}band = 'bone'\n"), ["line 9: `enhancer.band`", "add a [[band]]"]),
         (format!("{BANDS}{picker}band = 'bon'\n"), ["line 15: `enhancer.band`", "bone, skin"]),
-        (probe.repeat(4), ["line 14: `enhancer.kind`", "at most 3"]),
+        (probe.repeat(9), ["line 24: `enhancer.kind`", "at most 8"]),
         ("[light]\ndetail_strength = 1\n".to_owned(), ["line 8: `light.detail_strength`", "unsharp"]),
         ("[light]\ndetail = 'sharp'\n".to_owned(), ["line 8: `light.detail`", "unknown variant"]),
         (format!("{key}gamma = 1\n"), ["line 9: `keyframe.gamma`", "[mimda]"]),

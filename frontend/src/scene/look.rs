@@ -4,6 +4,7 @@ use super::Edits;
 use super::enhancer::normalised_enhancer;
 use glam::DVec3;
 use optics::{Curve, CurveError, CurveValue, Enhancer, ExtinctionUnit, Material, Mimda, Optics};
+use world::Window;
 
 /// A scene's look.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,23 +48,25 @@ impl Look {
         }
     }
 
-    /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display. The bands of
-    /// `chain` are over data values. An error is a sentence's part.
+    /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display, through a window of
+    /// values. The bands of `chain` are over data values. An error is a sentence's part.
     pub fn optics(
         &self,
         value_range: (f64, f64),
         longest_m: f64,
+        window: Window,
         chain: &[Enhancer],
     ) -> Result<Optics, String> {
-        let result = match self {
+        let whole = match self {
             Look::InDataUnits(look) => {
-                look.optics(look.domain.unwrap_or_else(|| interval(value_range)), chain)
+                look.optics(look.domain.unwrap_or_else(|| interval(value_range)), &[])?
             }
             Look::Relative { depth_across, colour } => {
-                relative(depth_across, colour, longest_m, interval(value_range), chain)
+                relative(depth_across, colour, longest_m, interval(value_range))?
             }
         };
-        checked(result)
+        let domain = windowed(whole.domain, window);
+        checked(Ok(Optics { domain, enhancers: normalised_chain(chain, domain)?, ..whole }))
     }
 }
 
@@ -72,7 +75,6 @@ fn relative(
     colour: &Curve<DVec3>,
     longest_m: f64,
     domain: (f64, f64),
-    chain: &[Enhancer],
 ) -> Result<Optics, String> {
     let per_metre = depth_across.points().iter().map(|&(s, depth)| (s, depth / longest_m)).collect();
     Ok(Optics {
@@ -83,8 +85,15 @@ fn relative(
         mimda: None,
         refraction: None,
         materials: None,
-        enhancers: normalised_chain(chain, domain)?,
+        enhancers: Vec::new(),
     })
+}
+
+/// The domain in which values look as those of `(low, high)` did before the window moved and was stretched.
+fn windowed((low, high): (f64, f64), Window { shift, stretch }: Window) -> (f64, f64) {
+    let (centre, width) = ((low + high) / 2.0, high - low);
+    let at = |value: f64| value + shift * width + (value - centre) * (stretch - 1.0);
+    (at(low), at(high))
 }
 
 fn normalised_chain(chain: &[Enhancer], domain: (f64, f64)) -> Result<Vec<Enhancer>, String> {
@@ -186,9 +195,26 @@ mod tests {
     #[test]
     fn a_data_value_keeps_its_look_in_any_domain() {
         for domain in [None, Some((-1000.0, 1000.0)), Some((0.0, 100.0))] {
-            let optics = look(domain).optics((-1024.0, 3033.0), 0.7, &[]).unwrap();
+            let optics = look(domain).optics((-1024.0, 3033.0), 0.7, Window::default(), &[]).unwrap();
             let at = |v: f64| optics.extinction.at(optics.normalise(v));
             assert!((at(50.0) - 5.5).abs() < 1e-9, "{domain:?}");
+        }
+    }
+
+    #[test]
+    fn a_window_moves_the_values_that_a_look_shows() {
+        let window = Window { shift: 0.25, stretch: 2.0 };
+        for domain in [None, Some((-1000.0, 1000.0)), Some((0.0, 100.0))] {
+            let (low, high) = domain.unwrap_or((-1024.0, 3033.0));
+            let [still, moved] = [Window::default(), window]
+                .map(|window| look(domain).optics((-1024.0, 3033.0), 0.7, window, &[]).unwrap());
+            assert_eq!(still.domain, (low, high), "to the bit");
+            let (centre, width) = ((low + high) / 2.0, high - low);
+            for value in [low, centre, 0.3 * low + 0.7 * high] {
+                let now = centre + window.shift * width + (value - centre) * window.stretch;
+                let at = |optics: &Optics, v: f64| optics.extinction.at(optics.normalise(v));
+                assert!((at(&moved, now) - at(&still, value)).abs() < 1e-9, "{domain:?} {value}");
+            }
         }
     }
 
@@ -204,13 +230,13 @@ mod tests {
 
     #[test]
     fn a_constant_volume_and_a_broken_one() {
-        let domain = look(None).optics((7.0, 7.0), 0.7, &[]).unwrap().domain;
+        let domain = look(None).optics((7.0, 7.0), 0.7, Window::default(), &[]).unwrap().domain;
         assert_eq!(domain, (6.5, 7.5));
         for value in [1e16, -1e30, 9_223_372_036_854_775_808.0, f64::from(f32::MAX)] {
-            let optics = look(None).optics((value, value), 0.7, &[]).unwrap();
+            let optics = look(None).optics((value, value), 0.7, Window::default(), &[]).unwrap();
             assert_eq!(optics.normalise(value), 0.5, "{value}");
         }
-        let error = look(None).optics((0.0, f64::INFINITY), 0.7, &[]).unwrap_err();
+        let error = look(None).optics((0.0, f64::INFINITY), 0.7, Window::default(), &[]).unwrap_err();
         assert!(error.contains("domain") || error.contains("finite"), "{error}");
     }
 }

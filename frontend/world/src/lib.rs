@@ -8,15 +8,29 @@
 //! | `rules` | what visitors may do, and what time undoes |
 //! | `deed` | what can happen to a world |
 //! | `stage` | what a frame shows of it |
+//! | `turn` | rotations that are the same on every machine |
+//! | `grip`, `easing` | how a volume goes with hands, and to a place |
+//! | `tool_state`, `history` | what is known of a tool, and of what visitors did |
+//! | `world` | what has happened |
+//! | `holding`, `step` | who holds what, and how time passes |
 
 mod cast;
 mod deed;
+mod easing;
+mod grip;
+mod history;
+mod holding;
 mod programme;
 mod rules;
 mod stage;
+mod step;
+mod tool_state;
+mod turn;
+mod world;
 
 pub use cast::{Action, Button, Cast, Dial, DialKind, Sensor, Tool, ToolId, ToolKind, Visitor, VisitorId};
 pub use deed::{Change, Deed, Moment};
 pub use programme::{Item, Preset, Programme};
 pub use rules::{Attract, Rules};
 pub use stage::{Handling, Phase, Refusal, ShownTool, Stage, Window};
+pub use world::World;

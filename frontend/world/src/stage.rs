@@ -1,5 +1,6 @@
 //! What a frame shows of a world.
 
+use crate::turn::{about_x, about_y};
 use crate::{ToolId, ToolKind, VisitorId};
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -46,6 +47,13 @@ impl Default for Handling {
     /// As the scene has it.
     fn default() -> Self {
         Self { turn: DQuat::IDENTITY, shift_m: DVec3::ZERO, scale: 1.0 }
+    }
+}
+
+impl Handling {
+    /// Turned from where its scene puts it, by so many radians about the upright axis and before that about the level one.
+    pub fn turned(right: f64, down: f64) -> Self {
+        Self { turn: about_y(right) * about_x(down), ..Self::default() }
     }
 }
 

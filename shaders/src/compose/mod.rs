@@ -10,7 +10,7 @@
 //! | material | `material/one`, `table` |
 //! | shade | `shade/plain`, `phong`, `unsharp`, `exaggerated` |
 //! | composite | `composite/plain_sample` or `sample`; `over`, or `mimda` with `mimda_paper` or `mimda_consistent` |
-//! | enhance | `enhance/none`, or up to three of the enhancers and the glue of a [`needs::Chain`] |
+//! | enhance | `enhance/none`, or up to eight of the enhancers and the glue of a [`needs::Chain`] |
 //! | way | `way/straight`, or `way/path`, `pair` and `refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 //!

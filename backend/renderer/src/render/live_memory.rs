@@ -41,5 +41,5 @@ impl Live {
 /// A frame as far as rays see it: the tool has had its say, and its own place shows nowhere; numbers do not matter, nor
 /// which pixels were cast.
 pub(super) fn as_seen(frame: &FrameState) -> FrameState {
-    FrameState { index: 0, light: frame.light_in_effect(), tool: None, sub_frame: None, ..frame.clone() }
+    FrameState { index: 0, sub_frame: None, ..frame.clone() }
 }

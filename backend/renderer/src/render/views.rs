@@ -15,7 +15,7 @@ pub(super) fn scene_numbers(display: &Display, frame: &FrameState, shape: &Octre
         voxel_m: frame.voxel_m(),
         resolution: display.resolution(),
     };
-    SceneNumbers::new(place, &frame.optics, frame.light_in_effect(), &frame.quality).rounded()
+    SceneNumbers::new(place, &frame.optics, frame.light, &frame.quality).rounded()
 }
 
 /// The rays of all projectors, as kernels read them.

@@ -167,7 +167,12 @@ fn looks_can_be_made_of_anything() {
         for name in LookName::ALL {
             for dims in [UVec3::ONE, UVec3::new(1, 1, 5000), GRID.dims] {
                 let made = make(name, values, &Grid { dims, ..GRID });
-                let optics = crate::scene::Look::InDataUnits(made.look).optics(range, 0.5, &[]);
+                let optics = crate::scene::Look::InDataUnits(made.look).optics(
+                    range,
+                    0.5,
+                    world::Window::default(),
+                    &[],
+                );
                 assert!(optics.is_ok(), "{name} of {range:?}: {optics:?}");
                 assert!(made.light.is_none_or(|light| light.check().is_ok()), "{name} of {range:?}");
             }

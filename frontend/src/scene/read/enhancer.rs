@@ -3,6 +3,7 @@
 use crate::scene::error::Checked;
 use crate::scene::file::{BandTable, EnhancerTable, Key, Limits, Number, Triple, key};
 use crate::scene::text::SceneText;
+use crate::scene::usual::{AWAY, EDGES, FACING, GRADIENT_MOST, RADIUS_M, THICKNESS_M, TOWARD};
 use crate::scene::{Anchor, Band, CLIP_CONTEXT, SceneEnhancer};
 use ::optics::{
     BandPicker, ClipPlane, Enhancer, EnhancerKind, LayerOpacity, MOST_ENHANCERS, Probe, Ramp, Trapezoid,
@@ -10,19 +11,6 @@ use ::optics::{
 use display_config::text::{brief_text, did_you_mean};
 use glam::DVec3;
 use toml::Spanned;
-
-/// Cosines of the angles to an axis: none of an effect beyond 37°, all of it within 11°.
-const FACING: Ramp = Ramp { low: 0.8, high: 0.98 };
-/// Of the rescaled gradient: homogeneous tissue is not an edge.
-const EDGES: Ramp = Ramp { low: 0.2, high: 0.8 };
-/// The scalar's change over a voxel that counts as the strongest edge, parts of the domain.
-const GRADIENT_MOST: f64 = 0.1;
-/// Metres.
-const THICKNESS_M: f64 = 0.01;
-/// Metres.
-const RADIUS_M: f64 = 0.1;
-const AWAY: f64 = 1.0;
-const TOWARD: f64 = 0.1;
 
 /// Keys that a tool overrides for an enhancer that it carries.
 const OF_THE_TOOL: [&str; 4] = ["point_m", "normal", "centre_m", "axis"];

@@ -6,16 +6,14 @@ mod motion;
 mod optics;
 mod volume;
 
-use super::contents::tool_at_rest;
 use super::error::Checked;
 use super::file::{DisplayTable, FramesTable, SceneFile, ToolTable};
 use super::text::SceneText;
-use super::{Look, LookWish, Scene, SceneEnhancer, SceneError, VolumeSource, WishedLook, builtin};
+use super::{Look, LookWish, Scene, SceneEnhancer, SceneError, Tool, VolumeSource, WishedLook, builtin};
 use ::optics::Enhancer;
 use display_config::text::read_text;
 use glam::DVec3;
 use motion::Changeable;
-use protocol::Tool;
 use std::path::Path;
 
 /// Frames per second: times of frames stay numbers.
@@ -108,7 +106,7 @@ impl SceneText {
     }
 
     fn tool(&self, table: &ToolTable) -> Checked<Tool> {
-        let rest = tool_at_rest(table.kind);
+        let rest = Tool::at_rest(table.kind);
         let tip = self.optional_point(&table.tip_m)?;
         let axis = table.axis.as_ref().map(|axis| self.direction(axis)).transpose()?;
         Ok(Tool {

@@ -23,7 +23,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// Enhancers in a chain at most.
-pub const MOST_ENHANCERS: usize = 3;
+pub const MOST_ENHANCERS: usize = 8;
 
 /// The table of enhancers, given to a macro: the type of each, and the stem of its WGSL module and of its twin. Whatever
 /// must have an entry for each is made from it, so none can be forgotten.

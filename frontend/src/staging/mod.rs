@@ -1,0 +1,17 @@
+//! How the stage of a world becomes frames: its scenes, its tools, and what is drawn of these.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `piece` | a scene that is ready to be shown, in all its looks |
+//! | `carried` | what tools carry |
+//! | `theatre` | a world with its pieces: things that happen in, frames out |
+//! | `check_number` | whether two frames are the same |
+
+mod carried;
+mod check_number;
+mod piece;
+mod theatre;
+
+pub use check_number::check_number;
+pub use piece::{Looks, Piece};
+pub use theatre::{Ensemble, Theatre};

@@ -1,0 +1,425 @@
+//! The world: what has happened, and what a frame shows of it.
+
+use crate::cast::{Action, Cast, ToolId, VisitorId};
+use crate::deed::{Change, Deed, Moment};
+use crate::easing::Easing;
+use crate::grip::Body;
+use crate::history::{Before, History, NoUndo};
+use crate::holding::{Holding, WindowHolding};
+use crate::programme::{Item, Programme};
+use crate::rules::Rules;
+use crate::stage::{Handling, Phase, Refusal, ShownTool, Stage, Window};
+use crate::tool_state::ToolState;
+use crate::turn::{about_x, about_y};
+use glam::DVec3;
+use inputs::{Event, What};
+use std::time::Duration;
+
+/// How long somebody is told that something was refused.
+const TOLD_FOR: Duration = Duration::from_millis(1500);
+/// How long a volume takes to a placement that somebody prepared.
+const TO_PRESET: Duration = Duration::from_millis(600);
+/// The same to where it was before a deed.
+const TO_BEFORE: Duration = Duration::from_millis(300);
+/// The same to where its scene has it, when nobody is there.
+const TO_REST: Duration = Duration::from_secs(2);
+
+/// A world. The same deeds at the same moments give the same stage.
+#[derive(Clone, Debug)]
+pub struct World {
+    pub(crate) cast: Cast,
+    pub(crate) programme: Programme,
+    pub(crate) rules: Rules,
+    pub(crate) tools: Vec<ToolState>,
+    pub(crate) stage: Stage,
+    /// Who holds the volume.
+    pub(crate) holding: Option<Holding>,
+    /// Who moves the window of values.
+    pub(crate) window_holding: Option<WindowHolding>,
+    /// Tools that want the volume while another visitor has it.
+    pub(crate) waiting: Vec<ToolId>,
+    pub(crate) history: History,
+    pub(crate) easing: Option<Easing>,
+    /// Whose dials move the volume, or with true the window of values, and when they last did.
+    pub(crate) dialling: Option<((VisitorId, bool), Duration)>,
+    refusals: Vec<(Refusal, Duration)>,
+    pub(crate) is_paused: bool,
+    /// The moment of the last step.
+    pub(crate) moment: Option<Moment>,
+    /// When somebody last did something.
+    pub(crate) busy_at: Duration,
+    /// Whether time has undone what was done until then.
+    pub(crate) is_undone: bool,
+    /// When the item began.
+    pub(crate) item_began: Duration,
+    /// Where the scene has the volume's centre, metres, display frame.
+    pub(crate) home_m: DVec3,
+}
+
+impl World {
+    /// A world in which nothing has happened yet. The programme has at least one item.
+    pub fn new(cast: Cast, programme: Programme, rules: Rules) -> Self {
+        assert!(!programme.0.is_empty(), "a programme has at least one item");
+        let stage = Stage {
+            item: 0,
+            script_s: 0.0,
+            handling: Handling::default(),
+            look: None,
+            band: None,
+            window: Window::default(),
+            clip_m: None,
+            tools: Vec::new(),
+            held_by: None,
+            phase: Phase::Open,
+            refusals: Vec::new(),
+        };
+        Self {
+            tools: cast.tools.iter().map(ToolState::new).collect(),
+            cast,
+            programme,
+            rules,
+            stage,
+            holding: None,
+            window_holding: None,
+            waiting: Vec::new(),
+            history: History::default(),
+            easing: None,
+            dialling: None,
+            refusals: Vec::new(),
+            is_paused: false,
+            moment: None,
+            busy_at: Duration::ZERO,
+            is_undone: true,
+            item_began: Duration::ZERO,
+            home_m: DVec3::ZERO,
+        }
+    }
+
+    /// What this frame shows.
+    pub fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    pub(crate) fn item(&self) -> &Item {
+        &self.programme.0[self.stage.item]
+    }
+
+    pub(crate) fn now(&self) -> Duration {
+        self.moment.map_or(Duration::ZERO, |moment| moment.now)
+    }
+
+    /// Something happens.
+    pub fn apply(&mut self, deed: &Deed) {
+        match deed {
+            Deed::Event(event) => self.apply_event(event),
+            Deed::Change(change) => {
+                self.is_busy();
+                self.apply_change(*change);
+            }
+        }
+    }
+
+    fn apply_event(&mut self, event: &Event) {
+        match &event.what {
+            What::Pose { sensor, pose } => {
+                let here = (event.source, *sensor);
+                if pose.is_some() && !self.tools.iter().any(|tool| tool.sensor() == Some(here)) {
+                    let free = self.tools.iter_mut().find(|tool| tool.sensor().is_none());
+                    free.into_iter().for_each(|tool| tool.bind(event.source, *sensor));
+                }
+                for (state, tool) in self.tools.iter_mut().zip(&self.cast.tools) {
+                    if state.sensor() == Some(here) {
+                        state.push(tool, event.measured(), *pose);
+                    }
+                }
+            }
+            What::Button { index, is_down } => self.apply_button(event, *index, *is_down),
+            What::Axis { index, value } => {
+                for (state, tool) in self.tools.iter_mut().zip(&self.cast.tools) {
+                    let is_own = state.is_of(event.source);
+                    for (out, dial) in state.dials.iter_mut().zip(&tool.dials) {
+                        if is_own && dial.index == *index {
+                            *out = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
+                        }
+                    }
+                }
+            }
+            What::Found(_) => {}
+            What::Lost(_) => {
+                for place in 0..self.tools.len() {
+                    if self.tools[place].is_of(event.source) {
+                        self.tools[place].down.clear();
+                        self.tools[place].dials.fill(0.0);
+                        self.let_go(ToolId(place as u16));
+                    }
+                }
+            }
+        }
+    }
+
+    fn apply_button(&mut self, event: &Event, index: u8, is_down: bool) {
+        for place in 0..self.tools.len() {
+            if !self.tools[place].is_of(event.source) {
+                continue;
+            }
+            let changes = match is_down {
+                true => self.tools[place].down.insert(index),
+                false => self.tools[place].down.remove(&index),
+            };
+            let action = self.cast.tools[place].buttons.iter().find(|button| button.index == index);
+            let (Some(action), true) = (action.map(|button| button.action), changes) else { continue };
+            let tool = ToolId(place as u16);
+            if is_down {
+                self.is_busy();
+                self.press(tool, action);
+            } else {
+                self.release(tool, action);
+            }
+        }
+    }
+
+    fn press(&mut self, tool: ToolId, action: Action) {
+        let visitor = self.holder_of(tool);
+        match action {
+            Action::Grab => self.grab(tool),
+            Action::Window => self.hold_window(tool),
+            Action::NextKind => {
+                let (kinds, state) =
+                    (&self.cast.tools[usize::from(tool.0)].kinds, &mut self.tools[usize::from(tool.0)]);
+                self.history.push(visitor, Before::Kind(tool, state.kind));
+                state.kind = (state.kind + 1) % kinds.len().max(1);
+            }
+            Action::NextLook | Action::PreviousLook => {
+                if self.may_change_look(visitor) {
+                    self.history.push(visitor, Before::Look(self.stage.look, self.stage.window));
+                    self.turn_look(action == Action::NextLook);
+                }
+            }
+            Action::NextBand => {
+                self.history.push(visitor, Before::Band(self.stage.band));
+                let bands = self.item().bands;
+                self.stage.band = (bands > 0).then(|| self.stage.band.map_or(0, |band| (band + 1) % bands));
+            }
+            Action::NextPreset => self.next_preset(visitor),
+            Action::Undo => self.undo(visitor),
+            Action::Reset => {
+                if self.may_move(visitor) {
+                    self.history.push(visitor, Before::Handling(self.stage.handling));
+                    self.ease(Handling::default(), TO_BEFORE);
+                    self.forget_looks();
+                }
+            }
+            Action::NextItem => {
+                if self.may_move(visitor) {
+                    self.next_item();
+                }
+            }
+        }
+    }
+
+    fn release(&mut self, tool: ToolId, action: Action) {
+        match action {
+            Action::Grab => self.let_go_of_volume(tool),
+            Action::Window => {
+                self.window_holding = self.window_holding.filter(|holding| holding.tool != tool);
+            }
+            _ => {}
+        }
+    }
+
+    /// Whose tool it is.
+    pub(crate) fn holder_of(&self, tool: ToolId) -> VisitorId {
+        self.cast.tools[usize::from(tool.0)].holder
+    }
+
+    /// Whether a visitor may move the volume; if not, they are told who has it.
+    pub(crate) fn may_move(&mut self, visitor: VisitorId) -> bool {
+        match self.stage.held_by {
+            Some(held_by) if held_by != visitor => {
+                self.refuse(Refusal::Held { wanted_by: visitor, held_by });
+                false
+            }
+            _ => true,
+        }
+    }
+
+    pub(crate) fn may_change_look(&mut self, visitor: VisitorId) -> bool {
+        match self.window_holding.map(|holding| self.holder_of(holding.tool)) {
+            Some(held_by) if held_by != visitor => {
+                self.refuse(Refusal::Held { wanted_by: visitor, held_by });
+                false
+            }
+            _ => true,
+        }
+    }
+
+    pub(crate) fn refuse(&mut self, refusal: Refusal) {
+        let until = self.now() + TOLD_FOR;
+        self.refusals.retain(|known| known.0 != refusal);
+        self.refusals.push((refusal, until));
+    }
+
+    /// Refusals that somebody is still told of.
+    pub(crate) fn told_refusals(&mut self) -> Vec<Refusal> {
+        let now = self.now();
+        self.refusals.retain(|told| told.1 > now);
+        self.refusals.iter().map(|told| told.0).collect()
+    }
+
+    fn turn_look(&mut self, onward: bool) {
+        let looks = self.item().looks;
+        if looks == 0 {
+            return;
+        }
+        let step = if onward { 1 } else { looks - 1 };
+        let first = if onward { 0 } else { looks - 1 };
+        self.stage.look = Some(self.stage.look.map_or(first, |look| (look + step) % looks));
+        (self.stage.window, self.window_holding) = (Window::default(), None);
+    }
+
+    fn next_preset(&mut self, visitor: VisitorId) {
+        let presets = &self.item().presets;
+        let here = presets.iter().position(|preset| self.aim() == self.limited(preset.handling));
+        let Some(preset) = presets.get(here.map_or(0, |here| (here + 1) % presets.len())) else { return };
+        let (handling, look) = (preset.handling, preset.look);
+        if !self.may_move(visitor) || !self.may_change_look(visitor) {
+            return;
+        }
+        self.history.push(visitor, Before::Look(self.stage.look, self.stage.window));
+        self.history.push(visitor, Before::Handling(self.stage.handling));
+        self.ease(handling, TO_PRESET);
+        if look != self.stage.look {
+            (self.stage.look, self.stage.window) = (look, Window::default());
+        }
+    }
+
+    fn undo(&mut self, visitor: VisitorId) {
+        // Whoever holds something has it.
+        if !self.may_move(visitor) || !self.may_change_look(visitor) {
+            return;
+        }
+        match self.history.undo(visitor) {
+            Ok(Before::Handling(handling)) => self.ease(handling, TO_BEFORE),
+            Ok(Before::Look(look, window)) => (self.stage.look, self.stage.window) = (look, window),
+            Ok(Before::Window(window)) => self.stage.window = window,
+            Ok(Before::Band(band)) => self.stage.band = band,
+            Ok(Before::Kind(tool, kind)) => self.tools[usize::from(tool.0)].kind = kind,
+            Err(NoUndo::Nothing) => {}
+            Err(NoUndo::ChangedBy(changed_by)) => {
+                self.refuse(Refusal::ChangedSince { wanted_by: visitor, changed_by });
+            }
+        }
+    }
+
+    /// What mouse and keys do. These give way to nobody, and what is held stays held from where it is then.
+    fn apply_change(&mut self, change: Change) {
+        let mut handling = self.stage.handling;
+        match change {
+            Change::Turn { right, down } => {
+                handling.turn = (about_y(right) * about_x(down) * handling.turn).normalize();
+            }
+            Change::Move(by_m) => handling.shift_m += by_m,
+            Change::Scale(factor) => handling.scale *= factor,
+            Change::Clip => self.stage.clip_m = if self.stage.clip_m.is_some() { None } else { Some(0.0) },
+            Change::MoveClip(by_m) => {
+                let farthest_m = self.rules.farthest_m;
+                let moved = |at_m: f64| (at_m + by_m).clamp(-farthest_m, farthest_m);
+                self.stage.clip_m = self.stage.clip_m.map(moved);
+            }
+            Change::NextLook => self.turn_look(true),
+            Change::NextItem => self.next_item(),
+            Change::Pause => self.is_paused = !self.is_paused,
+            Change::Reset => {
+                handling = Handling::default();
+                self.forget_looks();
+                (self.stage.clip_m, self.is_paused) = (None, false);
+                self.holding = None;
+            }
+        }
+        if handling != self.stage.handling && handling.shift_m.is_finite() && handling.scale.is_finite() {
+            self.easing = None;
+            self.stage.handling = self.limited(handling);
+            self.regrip();
+        }
+    }
+
+    fn forget_looks(&mut self) {
+        (self.stage.look, self.stage.band, self.stage.window) = (None, None, Window::default());
+        self.window_holding = None;
+    }
+
+    /// The volume goes there within a time.
+    pub(crate) fn ease(&mut self, to: Handling, length: Duration) {
+        self.easing = Some(Easing::new(self.stage.handling, self.limited(to), self.now(), length));
+        self.holding = None;
+    }
+
+    /// Where the volume is, or goes.
+    fn aim(&self) -> Handling {
+        self.easing.as_ref().map_or(self.stage.handling, Easing::aim)
+    }
+
+    /// A handling within the rules.
+    pub(crate) fn limited(&self, handling: Handling) -> Handling {
+        Handling {
+            turn: handling.turn.normalize(),
+            shift_m: handling.shift_m.clamp_length_max(self.rules.farthest_m),
+            scale: handling.scale.clamp(self.rules.scales.0, self.rules.scales.1),
+        }
+    }
+
+    pub(crate) fn body(&self) -> Body {
+        Body::new(self.stage.handling, self.home_m)
+    }
+
+    /// Somebody does something.
+    pub(crate) fn is_busy(&mut self) {
+        (self.busy_at, self.is_undone) = (self.now(), false);
+        self.stage.phase = Phase::Open;
+    }
+
+    /// The next item begins, as its scene has it.
+    pub(crate) fn next_item(&mut self) {
+        let stage = &mut self.stage;
+        stage.item = (stage.item + 1) % self.programme.0.len();
+        (stage.script_s, stage.handling, stage.clip_m) = (0.0, Handling::default(), None);
+        self.forget_looks();
+        (self.holding, self.easing, self.dialling) = (None, None, None);
+        self.waiting.clear();
+        self.history.clear();
+        self.item_began = self.now();
+    }
+
+    /// Time undoes what visitors did.
+    pub(crate) fn rest(&mut self) {
+        self.ease(Handling::default(), TO_REST);
+        self.forget_looks();
+        self.stage.clip_m = None;
+        self.tools.iter_mut().for_each(|tool| tool.kind = 0);
+        self.history.clear();
+        self.is_undone = true;
+    }
+
+    /// The tools of this frame.
+    pub(crate) fn shown_tools(&self) -> Vec<ShownTool> {
+        let each = self.tools.iter().zip(&self.cast.tools).zip(0..);
+        let shown = each.filter_map(|((state, tool), number)| {
+            let (hand, presence) = state.shown?;
+            let id = ToolId(number);
+            Some(ShownTool {
+                tool: id,
+                kind: state.kind_of(tool),
+                tip_m: hand.tip_m,
+                rotation: hand.rotation,
+                presence,
+                grabs: self.holding.as_ref().is_some_and(|holding| holding.is_by(id)),
+                moves_window: self.window_holding.is_some_and(|holding| holding.tool == id),
+            })
+        });
+        shown.collect()
+    }
+}
+
+#[cfg(test)]
+#[path = "world_tests.rs"]
+mod tests;
