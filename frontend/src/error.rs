@@ -68,6 +68,12 @@ pub enum FrontendError {
         /// How many there are.
         count: u32,
     },
+    /// A tape cannot be written or read.
+    #[error(transparent)]
+    Tape(#[from] tape::TapeError),
+    /// The exhibit is wrong; a line for each fault.
+    #[error("{0}")]
+    Exhibit(String),
     /// The input file is wrong, or a source cannot be started.
     #[error(transparent)]
     Inputs(#[from] inputs::InputError),

@@ -18,6 +18,23 @@ pub struct DriveArgs {
     /// A display: a preset's name (see `lightloom displays`) or a .toml file.
     #[arg(long, value_name = "DISPLAY", default_value = "holo72")]
     pub display: String,
+    /// Trackers and controllers, as `lightloom inputs` reads them: the first sensor of which a pose comes is the scene's `[tool]`.
+    #[arg(long, value_name = "INPUTS.toml")]
+    pub inputs: Option<PathBuf>,
+    /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub look: Option<LookName>,
+    /// Quality, overriding the scene's.
+    #[arg(long, value_enum)]
+    pub quality: Option<QualityPreset>,
+    /// How it is shown.
+    #[command(flatten)]
+    pub show: ShowArgs,
+}
+
+/// How a display is driven.
+#[derive(Clone, Debug, Args)]
+pub struct ShowArgs {
     /// What draws the pictures.
     #[command(flatten)]
     pub drawing: BackendArgs,
@@ -27,9 +44,6 @@ pub struct DriveArgs {
     /// A window on this desktop as well, wherever else the pictures go. Alone it is the same as --output desktop.
     #[arg(long)]
     pub desktop: bool,
-    /// Trackers and controllers, as `lightloom inputs` reads them: the first sensor of which a pose comes is the scene's `[tool]`.
-    #[arg(long, value_name = "INPUTS.toml")]
-    pub inputs: Option<PathBuf>,
     /// Frames per second instead of the display's.
     #[arg(long, value_name = "HZ", value_parser = rate, allow_hyphen_values = true)]
     pub rate: Option<f64>,
@@ -43,12 +57,6 @@ pub struct DriveArgs {
     /// End after so many seconds.
     #[arg(long = "for", value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub time: Option<Duration>,
-    /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
-    #[arg(long, value_name = "NAME", value_enum)]
-    pub look: Option<LookName>,
-    /// Quality, overriding the scene's.
-    #[arg(long, value_enum)]
-    pub quality: Option<QualityPreset>,
     /// Time in which detail appears or disappears; 0 means at once. [default: 0.4]
     #[arg(long, value_name = "SECONDS", value_parser = fade, allow_hyphen_values = true)]
     pub fade: Option<f64>,
@@ -62,6 +70,13 @@ pub struct DriveArgs {
     /// however many back-ends draw them. For --dump.
     #[arg(long)]
     pub stepped: bool,
+    /// Play a tape in place of inputs: what reached the world when it was recorded. With --stepped its frames are made again
+    /// one by one, and a warning tells if they are not what they were.
+    #[arg(long, value_name = "TAPE.mcap")]
+    pub tape: Option<PathBuf>,
+    /// Keep everything that reaches the world on this tape.
+    #[arg(long, value_name = "TAPE.mcap")]
+    pub record: Option<PathBuf>,
     /// Folder for the report of the show; created if missing.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -93,7 +108,7 @@ pub enum ReconstructArg {
     Off,
 }
 
-impl DriveArgs {
+impl ShowArgs {
     /// Whether there is a window on this desktop.
     pub fn has_desktop(&self) -> bool {
         self.desktop || self.output == OutputArg::Desktop

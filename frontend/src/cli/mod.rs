@@ -5,6 +5,7 @@ mod backends;
 mod calibrate;
 mod debug_view;
 mod drive;
+mod exhibit;
 mod export;
 mod gallery;
 mod import;
@@ -16,6 +17,7 @@ mod outputs;
 mod parse;
 mod replay;
 mod simulate;
+mod tape;
 #[cfg(test)]
 mod tests;
 mod verify;
@@ -24,7 +26,8 @@ pub use accuracy::AccuracyArgs;
 pub use backends::{BackendArgs, DeviceArg, FilterArg};
 pub use calibrate::{CalibrateArgs, CalibrateSubject, TrackerArgs};
 pub use debug_view::DebugViewArg;
-pub use drive::{DriveArgs, OutputArg, ReconstructArg};
+pub use drive::{DriveArgs, OutputArg, ReconstructArg, ShowArgs};
+pub use exhibit::ExhibitArgs;
 pub use export::ExportArgs;
 pub use gallery::GalleryArgs;
 pub use import::{BitsArg, CodecArg, EndianArg, ImportArgs, PickArgs, RawArgs};
@@ -35,6 +38,7 @@ pub use looks::LooksArgs;
 pub use outputs::OutputsArgs;
 pub use replay::{DiskArg, FetchOrderArg, ReplayArgs};
 pub use simulate::SimulateArgs;
+pub use tape::{TableArg, TapeAction, TapeArgs};
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};
@@ -55,6 +59,10 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Drive a display: frame after frame, at its rate, with all projectors in step.
     Drive(DriveArgs),
+    /// Run an exhibit: several visitors with tools, a programme, all day.
+    Exhibit(ExhibitArgs),
+    /// Say what is on a tape of a show, cut it, or write it as a table.
+    Tape(TapeArgs),
     /// Show each illustrative technique off and on, as eyes in front of a display see it, on one page.
     Gallery(GalleryArgs),
     /// Show a volume in every look of the library, on one page.

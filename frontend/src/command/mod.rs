@@ -4,6 +4,7 @@ mod accuracy;
 mod calibrate;
 mod displays;
 mod drive;
+mod exhibit;
 mod export;
 mod gallery;
 mod import;
@@ -14,8 +15,10 @@ mod looks;
 mod outputs;
 mod replay;
 mod say;
+mod show;
 mod simulate;
 mod table;
+mod tape;
 mod verify;
 
 pub use say::print;
@@ -26,13 +29,21 @@ use crate::{FrontendError, adapter};
 /// Does what the command line asks for. Back-ends that a launcher started and that have nothing to draw are let go
 /// before that.
 pub fn run(command: &Command) -> Result<(), FrontendError> {
-    if !matches!(command, Command::Simulate(_) | Command::Drive(_) | Command::Gallery(_) | Command::Looks(_))
-    {
+    if !matches!(
+        command,
+        Command::Simulate(_)
+            | Command::Drive(_)
+            | Command::Exhibit(_)
+            | Command::Gallery(_)
+            | Command::Looks(_)
+    ) {
         adapter::dismiss_backends()?;
     }
     match command {
         Command::Simulate(args) => simulate::simulate(args),
         Command::Drive(args) => drive::drive(args),
+        Command::Exhibit(args) => exhibit::exhibit(args),
+        Command::Tape(args) => tape::tape(args),
         Command::Gallery(args) => gallery::gallery(args),
         Command::Looks(args) => looks::looks(args),
         Command::Import(args) => import::import(args),

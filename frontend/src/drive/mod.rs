@@ -2,37 +2,44 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | `request`, `input`, `tracked` | what is asked for, and where that comes from |
+//! | `request`, `input`, `tracked`, `taped` | what is asked for, and where that comes from |
+//! | `recorder`, `bulletin` | what keeps a record, and the state of things |
 //! | `run` | the loop: inputs, world, frames, screens |
 //! | `trial` | which caster is faster |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
 //! | `histogram`, `measures`, `plot`, `status`, `report` | how well the beat is kept |
 
+mod bulletin;
 mod desktop;
 mod dump;
 mod histogram;
 mod input;
 mod measures;
 mod plot;
+mod recorder;
 mod report;
 mod request;
 mod run;
 mod screens;
 mod sheet;
 mod status;
+mod taped;
 mod tracked;
 mod trial;
 
+pub use bulletin::Bulletin;
 pub use desktop::{Desktop, Hands, KEYS};
 pub use dump::Dump;
 pub use histogram::{Histogram, Quantiles};
 pub use input::Input;
 pub use measures::{BackendBeat, BeatSummary};
+pub use recorder::Recorder;
 pub use report::DriveReport;
 pub use request::Request;
-pub use run::{End, Plan, Played, run};
+pub use run::{Desk, End, Plan, Played, run};
 pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
+pub use taped::Taped;
 pub use tracked::{Tracked, one_hand};
 pub use trial::Trial;

@@ -2,7 +2,7 @@
 
 use super::measures::Measures;
 use super::plot::plot_of_beat;
-use super::{BeatSummary, Input, KEYS, Request, Screens, Status, Trial};
+use super::{BeatSummary, Input, KEYS, Recorder, Request, Screens, Status, Trial};
 use crate::FrontendError;
 use crate::staging::Theatre;
 use serde::Serialize;
@@ -59,11 +59,21 @@ pub struct Played {
 /// Troubles that are kept.
 const MOST_TROUBLES: usize = 100;
 
+/// What comes into a show, and what is kept of it.
+pub struct Desk<'a, 'b> {
+    /// What is asked before each frame.
+    pub inputs: Vec<&'a mut dyn Input>,
+    /// What keeps a record.
+    pub recorders: Vec<&'a mut dyn Recorder>,
+    /// Told in sentences what goes wrong, and what keys there are.
+    pub tell: &'b mut dyn FnMut(&str),
+}
+
 /// A show.
 struct Show<'a, 'b> {
     drive: &'a mut Drive,
     theatre: &'a mut Theatre,
-    inputs: &'a mut [&'b mut dyn Input],
+    desk: Desk<'a, 'b>,
     screens: &'a mut Screens<'b>,
     measures: Measures,
     trial: Option<Trial>,
@@ -71,35 +81,32 @@ struct Show<'a, 'b> {
     troubles: Vec<String>,
     /// Of each back-end's latest frame.
     latest: Vec<(String, String)>,
-    tell: &'a mut dyn FnMut(&str),
 }
 
-/// Drives a display until its end. `tell` is told in sentences what goes wrong, and what keys there are.
+/// Drives a display until its end.
 ///
 /// # Errors
 /// The show cannot go on.
-pub fn run<'b>(
-    drive: &mut Drive,
-    theatre: &mut Theatre,
-    inputs: &mut [&'b mut dyn Input],
-    screens: &mut Screens<'b>,
+pub fn run<'a, 'b>(
+    drive: &'a mut Drive,
+    theatre: &'a mut Theatre,
+    desk: Desk<'a, 'b>,
+    screens: &'a mut Screens<'b>,
     plan: &Plan,
     status: &mut Status,
-    tell: &mut dyn FnMut(&str),
 ) -> Result<Played, FrontendError> {
     let backends = drive.devices().len();
     let began = drive.now();
     let mut show = Show {
         drive,
         theatre,
-        inputs,
+        desk,
         screens,
         measures: Measures::default(),
         trial: plan.trial.clone(),
         lost: vec![0; backends],
         troubles: Vec::new(),
         latest: vec![Default::default(); backends],
-        tell,
     };
     let end = loop {
         let happening = show.drive.await_next()?;
@@ -144,16 +151,21 @@ pub fn run<'b>(
 impl Show<'_, '_> {
     /// Asks the inputs, and begins a frame. Why the show ends instead, if it does.
     fn begin(&mut self, frame: u32, seen_at: Duration, now: Duration) -> Result<Option<End>, FrontendError> {
-        let (moment, mut requests) = (Moment { now, seen_at }, Vec::new());
-        for input in self.inputs.iter_mut() {
+        let (moment, mut requests, mut news) = (self.moment(now, seen_at), Vec::new(), Vec::new());
+        for input in &mut self.desk.inputs {
             input.poll(moment, &mut requests);
-            input.news().iter().for_each(|sentence| (self.tell)(sentence));
+            news.extend(input.news());
         }
+        news.extend(self.desk.recorders.iter_mut().flat_map(|recorder| recorder.news()));
+        news.iter().for_each(|sentence| self.say(moment.now, sentence));
         for request in requests {
             match request {
                 Request::Quit => return Ok(Some(End::Left)),
-                Request::Help => (self.tell)(KEYS),
-                Request::Deed(deed) => self.theatre.apply(&deed),
+                Request::Help => (self.desk.tell)(KEYS),
+                Request::Deed(deed) => {
+                    self.desk.recorders.iter_mut().for_each(|recorder| recorder.deed(moment.now, &deed));
+                    self.theatre.apply(&deed);
+                }
             }
         }
         if self.theatre.is_over() {
@@ -162,6 +174,13 @@ impl Show<'_, '_> {
         let shown = |theatre: &Theatre| (theatre.stage().item, theatre.stage().look);
         let before = shown(self.theatre);
         let mut state = self.theatre.frame(frame, moment)?;
+        self.desk.inputs.iter_mut().for_each(|input| input.made(&state));
+        let counts: Vec<_> = self.desk.inputs.iter().flat_map(|input| input.counts()).collect();
+        let beat = || self.measures.summary(&self.drive.late(), &self.lost);
+        for recorder in &mut self.desk.recorders {
+            recorder.inputs(counts.clone());
+            recorder.frame(&state, moment, self.theatre, &beat)?;
+        }
         if let Some(trial) = self.trial.as_mut().filter(|_| shown(self.theatre) != before) {
             trial.restart();
         }
@@ -169,6 +188,18 @@ impl Show<'_, '_> {
         self.measures.began(frame, now);
         self.drive.draw(&state)?;
         Ok(None)
+    }
+
+    /// The moment of the frame that is due: that of the display's clock, unless an input has its own.
+    fn moment(&mut self, now: Duration, seen_at: Duration) -> Moment {
+        let own = self.desk.inputs.iter_mut().find_map(|input| input.moment());
+        own.unwrap_or(Moment { now, seen_at })
+    }
+
+    /// Tells a sentence, and keeps it.
+    fn say(&mut self, now: Duration, sentence: &str) {
+        (self.desk.tell)(sentence);
+        self.desk.recorders.iter_mut().for_each(|recorder| recorder.said(now, sentence));
     }
 
     fn heed(&mut self, happening: Happening, now: Duration) -> Result<(), FrontendError> {
@@ -224,7 +255,8 @@ impl Show<'_, '_> {
     /// Tells what has become of a back-end: its name, and what follows that in a sentence.
     fn trouble(&mut self, backend: usize, rest: &str) {
         let sentence = self.drive.name(backend) + rest;
-        (self.tell)(&sentence);
+        let now = self.drive.now();
+        self.say(now, &sentence);
         if self.troubles.len() == MOST_TROUBLES {
             self.troubles.remove(0);
         }

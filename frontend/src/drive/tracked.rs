@@ -2,6 +2,7 @@
 
 use super::{Input, Request};
 use crate::FrontendError;
+use exhibit::InputStatus;
 use glam::{DQuat, DVec3};
 use inputs::{Hub, What};
 use world::{Action, Button, Cast, Deed, Moment, Sensor, Tool, ToolKind, Visitor, VisitorId};
@@ -35,6 +36,16 @@ impl Input for Tracked {
             }
             requests.push(Request::Deed(Deed::Event(event)));
         }
+    }
+
+    fn counts(&self) -> Vec<InputStatus> {
+        let counted = self.names.iter().zip(self.hub.counts());
+        let status = counted.map(|(name, counts)| InputStatus {
+            name: name.clone(),
+            messages: counts.messages,
+            refused: counts.refused.values().sum(),
+        });
+        status.collect()
     }
 
     fn news(&mut self) -> Vec<String> {

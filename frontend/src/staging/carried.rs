@@ -16,6 +16,16 @@ fn enhancer_kind(kind: ToolKind) -> Option<EnhancerKind> {
     }
 }
 
+/// Whether tools of a kind carry an enhancer.
+pub fn carries(kind: ToolKind) -> bool {
+    enhancer_kind(kind).is_some()
+}
+
+/// Whether that looks at a band of values.
+pub fn needs_band(kind: ToolKind) -> bool {
+    enhancer_kind(kind).is_some_and(EnhancerKind::needs_band)
+}
+
 /// A tool as scenes know them.
 pub(super) fn held(tool: &ShownTool) -> HeldTool {
     HeldTool { tip_m: tool.tip_m, rotation: tool.rotation, presence: tool.presence }

@@ -12,6 +12,7 @@ mod check_number;
 mod piece;
 mod theatre;
 
+pub use carried::{carries, needs_band};
 pub use check_number::check_number;
 pub use piece::{Looks, Piece};
 pub use theatre::{Ensemble, Theatre};

@@ -86,6 +86,11 @@ impl Theatre {
         self.piece().name()
     }
 
+    /// What visitors read of it.
+    pub fn title(&self) -> &str {
+        self.world.title()
+    }
+
     /// Its volume.
     pub fn volume_ref(&self) -> VolumeRef {
         self.piece().volume_ref()

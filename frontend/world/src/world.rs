@@ -100,6 +100,11 @@ impl World {
         &self.stage
     }
 
+    /// What visitors read of the item that is shown.
+    pub fn title(&self) -> &str {
+        &self.item().title
+    }
+
     pub(crate) fn item(&self) -> &Item {
         &self.programme.0[self.stage.item]
     }

@@ -1,0 +1,123 @@
+//! A tape that is played.
+
+use super::{Input, Request};
+use crate::FrontendError;
+use crate::staging::check_number;
+use protocol::FrameState;
+use std::collections::VecDeque;
+use std::path::Path;
+use std::time::Duration;
+use tape::{Frame, Head, Record, Tape};
+use world::{Deed, Moment};
+
+/// A tape.
+pub struct Taped {
+    head: Head,
+    /// What it has of each frame: what happened before it, and the frame.
+    frames: VecDeque<(Vec<Deed>, Frame)>,
+    /// Whether its frames are made again one by one; otherwise they come when they came.
+    by_frame: bool,
+    /// When its first frame was made, and when that is played.
+    began: Option<(Duration, Duration)>,
+    /// The frame that is being made again.
+    expected: Option<Frame>,
+    /// Frames that are not what they were.
+    different: u64,
+    news: Vec<String>,
+}
+
+impl Taped {
+    /// Reads a tape. One that ends early is played as far as it goes.
+    ///
+    /// # Errors
+    /// It is no tape.
+    pub fn open(path: &Path, by_frame: bool) -> Result<Self, FrontendError> {
+        let tape = Tape::open(path)?;
+        let (mut frames, mut deeds, mut news) = (VecDeque::new(), Vec::new(), Vec::new());
+        for record in tape.records() {
+            match record {
+                Ok(Record::Deed(deed)) => deeds.push(deed),
+                Ok(Record::Frame(frame)) => frames.push_back((std::mem::take(&mut deeds), frame)),
+                Ok(Record::Said(_)) => {}
+                Err(error) => news.push(error.to_string()),
+            }
+        }
+        let head = tape.head().clone();
+        Ok(Self { head, frames, by_frame, began: None, expected: None, different: 0, news })
+    }
+
+    /// What the tape says of itself.
+    pub fn head(&self) -> &Head {
+        &self.head
+    }
+
+    /// Tells which files are not what they were when it was recorded.
+    pub fn compare_files(&mut self) {
+        for file in &self.head.files {
+            if std::fs::read(&file.name).is_ok_and(|bytes| bytes != file.bytes) {
+                self.news.push(format!("{} is not what it was when the tape was recorded", file.name));
+            }
+        }
+    }
+}
+
+impl Input for Taped {
+    fn moment(&mut self) -> Option<Moment> {
+        let (_, frame) = self.frames.front().filter(|_| self.by_frame)?;
+        Some(frame.moment())
+    }
+
+    fn poll(&mut self, moment: Moment, requests: &mut Vec<Request>) {
+        if self.frames.is_empty() {
+            requests.push(Request::Quit);
+        }
+        if self.by_frame {
+            let next = self.frames.pop_front();
+            self.expected = next.as_ref().map(|next| next.1);
+            requests.extend(next.into_iter().flat_map(|next| next.0).map(Request::Deed));
+            return;
+        }
+        while let Some((_, frame)) = self.frames.front() {
+            let was = frame.moment().now;
+            let (first, played) = *self.began.get_or_insert((was, moment.now));
+            if was.saturating_sub(first) > moment.now.saturating_sub(played) {
+                break;
+            }
+            let deeds = self.frames.pop_front().into_iter().flat_map(|next| next.0);
+            requests.extend(deeds.map(|deed| Request::Deed(later(deed, first, played))));
+        }
+    }
+
+    fn made(&mut self, frame: &FrameState) {
+        let Some(expected) = self.expected.take() else { return };
+        if check_number(frame).is_ok_and(|check| check == expected.check) {
+            return;
+        }
+        self.different += 1;
+        if self.different == 1 {
+            let number = expected.frame;
+            self.news.push(format!(
+                "frame {number} of the tape is not what it was: its scene, its display or this program has changed"
+            ));
+        }
+    }
+
+    fn news(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.news)
+    }
+}
+
+/// A deed on another clock, on which `first` is `played`.
+fn later(deed: Deed, first: Duration, played: Duration) -> Deed {
+    let moved = |time: Duration| (time + played).saturating_sub(first);
+    match deed {
+        Deed::Event(mut event) => {
+            event.received = moved(event.received);
+            if let Some(inputs::DeviceTime::InStep(time)) = &mut event.device_time {
+                *time = moved(*time);
+            }
+            Deed::Event(event)
+        }
+        change => change,
+    }
+}
