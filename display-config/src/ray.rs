@@ -69,6 +69,13 @@ impl BeamLaw {
         self.b
     }
 
+    /// What a length at a depth is divided by where it lands on the screen: across, B (1 − m) + m, and up, m. Linear in z; a
+    /// depth at which either is not positive has no upright image.
+    pub fn divisors(&self, z_m: f64) -> DVec2 {
+        let toward_observer = z_m / self.observer_z;
+        DVec2::new(1.0 + (self.b - 1.0) * toward_observer, 1.0 - toward_observer)
+    }
+
     /// O: where the ray through a screen point starts.
     pub fn origin(&self, screen: DVec2) -> DVec3 {
         DVec3::new(self.a + self.b * screen.x, self.observer_y, self.observer_z)

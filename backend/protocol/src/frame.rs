@@ -1,6 +1,6 @@
 //! The state of one frame: all that a back-end must know to draw it.
 
-use crate::VolumeRef;
+use crate::{Mark, VolumeRef};
 use glam::{DAffine3, DVec3};
 use optics::{DebugView, Light, Optics, Quality};
 use serde::{Deserialize, Serialize};
@@ -85,6 +85,8 @@ pub struct FrameState {
     pub welcomes_planes: bool,
     /// What is shown of the working set instead of the pictures.
     pub debug: Option<DebugView>,
+    /// What is drawn over the pictures, one after the other.
+    pub marks: Vec<Mark>,
 }
 
 impl FrameState {
@@ -106,6 +108,7 @@ impl FrameState {
             sub_frame: None,
             welcomes_planes: false,
             debug: None,
+            marks: Vec::new(),
         }
     }
 

@@ -4,6 +4,7 @@ mod draw;
 mod frame;
 mod image;
 mod maps;
+mod mark;
 mod message;
 mod report;
 mod setup;
@@ -13,6 +14,7 @@ pub mod wire;
 pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
 pub use frame::{FrameState, Pace, SubFrame};
 pub use image::{ProjectorImage, ScreenImage};
+pub use mark::{Mark, MarkShape, Paint};
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{Caster, FrameReport, Stages, Upkeep};
 pub use setup::{

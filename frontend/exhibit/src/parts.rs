@@ -252,7 +252,7 @@ impl Reader<'_> {
         let mut rules = Rules { scales: (0.25, 4.0), ..Rules::default() };
         if let Some((line, raw)) = limits.and_then(|entry| self.entry::<RawLimits>("limits", entry)) {
             let [least, most] = raw.scales.unwrap_or([rules.scales.0, rules.scales.1]);
-            if least > 0.0 && least <= 1.0 && most >= 1.0 && most <= 1e3 {
+            if least > 0.0 && least <= 1.0 && (1.0..=1e3).contains(&most) {
                 rules.scales = (least, most);
             } else {
                 self.wrong(line, "`scales` must be from above 0 to 1 and from 1 to 1000, such as [0.25, 4]");

@@ -113,6 +113,7 @@ impl Scene {
             sub_frame: None,
             welcomes_planes: false,
             debug: None,
+            marks: Vec::new(),
         })
     }
 

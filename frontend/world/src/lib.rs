@@ -12,12 +12,14 @@
 //! | `grip`, `easing` | how a volume goes with hands, and to a place |
 //! | `tool_state`, `history` | what is known of a tool, and of what visitors did |
 //! | `world` | what has happened |
+//! | `happen` | what an input reports, done to it |
 //! | `holding`, `step` | who holds what, and how time passes |
 
 mod cast;
 mod deed;
 mod easing;
 mod grip;
+mod happen;
 mod history;
 mod holding;
 mod programme;

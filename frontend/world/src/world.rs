@@ -1,6 +1,6 @@
 //! The world: what has happened, and what a frame shows of it.
 
-use crate::cast::{Action, Cast, ToolId, VisitorId};
+use crate::cast::{Cast, ToolId, VisitorId};
 use crate::deed::{Change, Deed, Moment};
 use crate::easing::Easing;
 use crate::grip::Body;
@@ -12,7 +12,6 @@ use crate::stage::{Handling, Phase, Refusal, ShownTool, Stage, Window};
 use crate::tool_state::ToolState;
 use crate::turn::{about_x, about_y};
 use glam::DVec3;
-use inputs::{Event, What};
 use std::time::Duration;
 
 /// How long somebody is told that something was refused.
@@ -20,7 +19,7 @@ const TOLD_FOR: Duration = Duration::from_millis(1500);
 /// How long a volume takes to a placement that somebody prepared.
 const TO_PRESET: Duration = Duration::from_millis(600);
 /// The same to where it was before a deed.
-const TO_BEFORE: Duration = Duration::from_millis(300);
+pub(crate) const TO_BEFORE: Duration = Duration::from_millis(300);
 /// The same to where its scene has it, when nobody is there.
 const TO_REST: Duration = Duration::from_secs(2);
 
@@ -124,114 +123,6 @@ impl World {
         }
     }
 
-    fn apply_event(&mut self, event: &Event) {
-        match &event.what {
-            What::Pose { sensor, pose } => {
-                let here = (event.source, *sensor);
-                if pose.is_some() && !self.tools.iter().any(|tool| tool.sensor() == Some(here)) {
-                    let free = self.tools.iter_mut().find(|tool| tool.sensor().is_none());
-                    free.into_iter().for_each(|tool| tool.bind(event.source, *sensor));
-                }
-                for (state, tool) in self.tools.iter_mut().zip(&self.cast.tools) {
-                    if state.sensor() == Some(here) {
-                        state.push(tool, event.measured(), *pose);
-                    }
-                }
-            }
-            What::Button { index, is_down } => self.apply_button(event, *index, *is_down),
-            What::Axis { index, value } => {
-                for (state, tool) in self.tools.iter_mut().zip(&self.cast.tools) {
-                    let is_own = state.is_of(event.source);
-                    for (out, dial) in state.dials.iter_mut().zip(&tool.dials) {
-                        if is_own && dial.index == *index {
-                            *out = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
-                        }
-                    }
-                }
-            }
-            What::Found(_) => {}
-            What::Lost(_) => {
-                for place in 0..self.tools.len() {
-                    if self.tools[place].is_of(event.source) {
-                        self.tools[place].down.clear();
-                        self.tools[place].dials.fill(0.0);
-                        self.let_go(ToolId(place as u16));
-                    }
-                }
-            }
-        }
-    }
-
-    fn apply_button(&mut self, event: &Event, index: u8, is_down: bool) {
-        for place in 0..self.tools.len() {
-            if !self.tools[place].is_of(event.source) {
-                continue;
-            }
-            let changes = match is_down {
-                true => self.tools[place].down.insert(index),
-                false => self.tools[place].down.remove(&index),
-            };
-            let action = self.cast.tools[place].buttons.iter().find(|button| button.index == index);
-            let (Some(action), true) = (action.map(|button| button.action), changes) else { continue };
-            let tool = ToolId(place as u16);
-            if is_down {
-                self.is_busy();
-                self.press(tool, action);
-            } else {
-                self.release(tool, action);
-            }
-        }
-    }
-
-    fn press(&mut self, tool: ToolId, action: Action) {
-        let visitor = self.holder_of(tool);
-        match action {
-            Action::Grab => self.grab(tool),
-            Action::Window => self.hold_window(tool),
-            Action::NextKind => {
-                let (kinds, state) =
-                    (&self.cast.tools[usize::from(tool.0)].kinds, &mut self.tools[usize::from(tool.0)]);
-                self.history.push(visitor, Before::Kind(tool, state.kind));
-                state.kind = (state.kind + 1) % kinds.len().max(1);
-            }
-            Action::NextLook | Action::PreviousLook => {
-                if self.may_change_look(visitor) {
-                    self.history.push(visitor, Before::Look(self.stage.look, self.stage.window));
-                    self.turn_look(action == Action::NextLook);
-                }
-            }
-            Action::NextBand => {
-                self.history.push(visitor, Before::Band(self.stage.band));
-                let bands = self.item().bands;
-                self.stage.band = (bands > 0).then(|| self.stage.band.map_or(0, |band| (band + 1) % bands));
-            }
-            Action::NextPreset => self.next_preset(visitor),
-            Action::Undo => self.undo(visitor),
-            Action::Reset => {
-                if self.may_move(visitor) {
-                    self.history.push(visitor, Before::Handling(self.stage.handling));
-                    self.ease(Handling::default(), TO_BEFORE);
-                    self.forget_looks();
-                }
-            }
-            Action::NextItem => {
-                if self.may_move(visitor) {
-                    self.next_item();
-                }
-            }
-        }
-    }
-
-    fn release(&mut self, tool: ToolId, action: Action) {
-        match action {
-            Action::Grab => self.let_go_of_volume(tool),
-            Action::Window => {
-                self.window_holding = self.window_holding.filter(|holding| holding.tool != tool);
-            }
-            _ => {}
-        }
-    }
-
     /// Whose tool it is.
     pub(crate) fn holder_of(&self, tool: ToolId) -> VisitorId {
         self.cast.tools[usize::from(tool.0)].holder
@@ -271,7 +162,7 @@ impl World {
         self.refusals.iter().map(|told| told.0).collect()
     }
 
-    fn turn_look(&mut self, onward: bool) {
+    pub(crate) fn turn_look(&mut self, onward: bool) {
         let looks = self.item().looks;
         if looks == 0 {
             return;
@@ -282,7 +173,7 @@ impl World {
         (self.stage.window, self.window_holding) = (Window::default(), None);
     }
 
-    fn next_preset(&mut self, visitor: VisitorId) {
+    pub(crate) fn next_preset(&mut self, visitor: VisitorId) {
         let presets = &self.item().presets;
         let here = presets.iter().position(|preset| self.aim() == self.limited(preset.handling));
         let Some(preset) = presets.get(here.map_or(0, |here| (here + 1) % presets.len())) else { return };
@@ -298,7 +189,7 @@ impl World {
         }
     }
 
-    fn undo(&mut self, visitor: VisitorId) {
+    pub(crate) fn undo(&mut self, visitor: VisitorId) {
         // Whoever holds something has it.
         if !self.may_move(visitor) || !self.may_change_look(visitor) {
             return;
@@ -348,7 +239,7 @@ impl World {
         }
     }
 
-    fn forget_looks(&mut self) {
+    pub(crate) fn forget_looks(&mut self) {
         (self.stage.look, self.stage.band, self.stage.window) = (None, None, Window::default());
         self.window_holding = None;
     }

@@ -9,7 +9,6 @@ use std::process::Command;
 /// uses the tests.
 pub const CRATES: [(&str, &str, &[&str]); 23] = [
     ("display-config", "display-config", &[]),
-    ("overlay", "display-config/overlay", &["display-config"]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
     ("needs", "shaders/needs", &["layout", "optics"]),
@@ -19,6 +18,7 @@ pub const CRATES: [(&str, &str, &[&str]); 23] = [
     ("bricks", "backend/bricks", &["display-config", "layout", "optics"]),
     ("volumes", "backend/volumes", &["bricks"]),
     ("protocol", "backend/protocol", &["display-config", "optics"]),
+    ("overlay", "backend/overlay", &["display-config", "protocol"]),
     ("reference", "backend/reference", &["bricks", "display-config", "optics", "protocol"]),
     // Its own tests compare it with the reference.
     (
@@ -30,6 +30,7 @@ pub const CRATES: [(&str, &str, &[&str]); 23] = [
             "layout",
             "needs",
             "optics",
+            "overlay",
             "planes",
             "protocol",
             "reference",
@@ -56,29 +57,35 @@ pub const CRATES: [(&str, &str, &[&str]); 23] = [
             "backend",
             "bricks",
             "display-config",
+            "exhibit",
             "inputs",
             "optics",
+            "overlay",
             "protocol",
             "reference",
             "renderer",
             "screens",
+            "tape",
             "tracking",
             "transport",
             "twin",
             "volumes",
+            "world",
         ],
     ),
     ("twin-f64", "tests/twin-f64", &["twin"]),
 ];
 pub const TESTS: &str = "lightloom-tests";
 /// Crates that one crate alone may depend on.
-const PRIVATE: [(&str, &str); 6] = [
+const PRIVATE: [(&str, &str); 8] = [
     ("wgpu", "renderer"),
     ("mpi", "transport"),
     ("bincode", "protocol"),
     ("fearless_simd", "planes"),
     ("winit", "screens"),
     ("softbuffer", "screens"),
+    ("cosmic-text", "overlay"),
+    ("zeno", "overlay"),
 ];
 /// The only places where the paths of a crate may begin: a folder ends in a slash.
 const CONFINED: [(&str, &[&str]); 3] = [

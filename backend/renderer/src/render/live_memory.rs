@@ -38,8 +38,7 @@ impl Live {
     }
 }
 
-/// A frame as far as rays see it: the tool has had its say, and its own place shows nowhere; numbers do not matter, nor
-/// which pixels were cast.
+/// A frame as far as rays see it: numbers do not matter, nor which pixels were cast, nor what is drawn over them.
 pub(super) fn as_seen(frame: &FrameState) -> FrameState {
-    FrameState { index: 0, sub_frame: None, ..frame.clone() }
+    FrameState { index: 0, sub_frame: None, marks: Vec::new(), ..frame.clone() }
 }

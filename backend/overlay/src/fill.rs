@@ -1,0 +1,71 @@
+//! Polygons as a colour over a picture.
+
+use crate::polygon::cut;
+use glam::{DVec2, UVec2};
+use protocol::Paint;
+use zeno::{Command, Fill, Format, Mask, Vector};
+
+/// What lies further outside a picture is cut off first: the rasteriser's numbers are not made for great ones.
+const MARGIN_PX: f64 = 2.0;
+
+/// How much of each pixel polygons cover together, in a part of a picture.
+#[derive(Debug, Default)]
+pub(crate) struct Coverage {
+    /// Its first column and row.
+    pub(crate) first: UVec2,
+    /// Columns and rows.
+    pub(crate) size: UVec2,
+    /// 255 for the whole pixel, rows from the top.
+    pub(crate) shares: Vec<u8>,
+}
+
+impl Coverage {
+    /// Of polygons of which those that overlap turn the same way, in a picture of this size. None where they are all outside.
+    pub(crate) fn of(polygons: &[Vec<DVec2>], picture: UVec2) -> Option<Self> {
+        let most = picture.as_dvec2() + MARGIN_PX;
+        let inside = |polygon: &Vec<DVec2>| {
+            let polygon = cut(polygon, |p| p.x + MARGIN_PX);
+            let polygon = cut(&polygon, |p| p.y + MARGIN_PX);
+            let polygon = cut(&polygon, |p| most.x - p.x);
+            cut(&polygon, |p| most.y - p.y)
+        };
+        let polygons: Vec<_> = polygons.iter().map(inside).filter(|polygon| polygon.len() > 2).collect();
+        let corners = || polygons.iter().flatten().copied();
+        let first = corners().reduce(DVec2::min)?.floor().max(DVec2::ZERO).as_uvec2();
+        let last = corners().reduce(DVec2::max)?.ceil().max(DVec2::ZERO).as_uvec2().min(picture);
+        let size = last.saturating_sub(first);
+        if size.min_element() == 0 {
+            return None;
+        }
+        let mut commands = Vec::new();
+        for polygon in &polygons {
+            for (i, corner) in polygon.iter().enumerate() {
+                let at = (corner - first.as_dvec2()).as_vec2();
+                let at = Vector::new(at.x, at.y);
+                commands.push(if i == 0 { Command::MoveTo(at) } else { Command::LineTo(at) });
+            }
+            commands.push(Command::Close);
+        }
+        let mut shares = vec![0; size.x as usize * size.y as usize];
+        Mask::new(commands.as_slice())
+            .style(Fill::NonZero)
+            .format(Format::Alpha)
+            .size(size.x, size.y)
+            .render_into(&mut shares, None);
+        Some(Self { first, size, shares })
+    }
+
+    /// Lays an even colour over a picture of this width, of linear colours that are premultiplied by their opacity.
+    pub(crate) fn lay_over(&self, paint: Paint, rgba: &mut [f32], width: u32) {
+        let rows = self.shares.chunks_exact(self.size.x as usize).zip(self.first.y as usize..);
+        for (shares, y) in rows {
+            let from = 4 * (y * width as usize + self.first.x as usize);
+            let pixels = rgba[from..].chunks_exact_mut(4).zip(shares);
+            for (pixel, &share) in pixels.filter(|(_, share)| **share > 0) {
+                let opacity = paint.opacity * f32::from(share) / 255.0;
+                let colour = paint.rgb.into_iter().map(|part| part * opacity).chain([opacity]);
+                pixel.iter_mut().zip(colour).for_each(|(part, over)| *part = over + (1.0 - opacity) * *part);
+            }
+        }
+    }
+}
