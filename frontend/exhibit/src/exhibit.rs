@@ -27,8 +27,21 @@ pub struct Exhibit {
     pub inputs: Vec<inputs::Input>,
     /// Where what happens is kept; None where it is not.
     pub tape: Option<TapeWish>,
+    /// What is drawn over the volume.
+    pub marks: MarkWish,
     /// The files that it was read from.
     pub files: Vec<PathBuf>,
+}
+
+/// What is drawn over the volume: everything, where the file says nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MarkWish {
+    /// Tools, where they are.
+    pub tools: bool,
+    /// Beside them, whose they are and what, and what their holders could not have.
+    pub names: bool,
+    /// Below the volume, what is shown.
+    pub captions: bool,
 }
 
 /// An item of the programme.

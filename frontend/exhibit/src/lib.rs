@@ -17,7 +17,7 @@ mod raw;
 mod read;
 mod status;
 
-pub use exhibit::{Exhibit, ItemWish, Looks, PresetWish, TapeWish};
+pub use exhibit::{Exhibit, ItemWish, Looks, MarkWish, PresetWish, TapeWish};
 pub use fault::Fault;
 pub use log::{Log, LogLimits, time_text};
 pub use status::{InputStatus, State, Status, StatusFile};

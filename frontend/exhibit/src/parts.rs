@@ -1,8 +1,9 @@
 //! The parts of an exhibit file.
 
-use crate::exhibit::{ItemWish, Looks, PresetWish, TapeWish};
+use crate::exhibit::{ItemWish, Looks, MarkWish, PresetWish, TapeWish};
 use crate::raw::{
-    RawFilter, RawIdle, RawItem, RawLimits, RawLooks, RawPreset, RawTape, RawTip, RawTool, RawVisitor,
+    RawFilter, RawIdle, RawItem, RawLimits, RawLooks, RawMarks, RawPreset, RawTape, RawTip, RawTool,
+    RawVisitor,
 };
 use crate::read::Reader;
 use display_config::text::{brief_text, did_you_mean};
@@ -275,6 +276,14 @@ impl Reader<'_> {
         self.within(line, key, seconds, 1.0..=LONGEST_S).map(Duration::from_secs_f64)
     }
 
+    pub(crate) fn marks(&mut self, entry: Option<&Spanned<Value>>) -> MarkWish {
+        let raw = entry
+            .and_then(|entry| self.entry::<RawMarks>("marks", entry))
+            .map_or_else(RawMarks::default, |(_, raw)| raw);
+        let on = |wish: Option<bool>| wish.unwrap_or(true);
+        MarkWish { tools: on(raw.tools), names: on(raw.names), captions: on(raw.captions) }
+    }
+
     pub(crate) fn tape(&mut self, entry: Option<&Spanned<Value>>) -> Option<TapeWish> {
         let (line, raw) = self.entry::<RawTape>("tape", entry?)?;
         let (part_mb, keep_parts) = (raw.part_mb.unwrap_or(PART_MB), raw.keep_parts.unwrap_or(KEEP_PARTS));
@@ -291,7 +300,7 @@ fn linear_colour(text: &str) -> Option<[f64; 3]> {
     let mut colour = [0.0; 3];
     for (channel, i) in colour.iter_mut().zip([0, 2, 4]) {
         let code = f64::from(u8::from_str_radix(&digits[i..i + 2], 16).ok()?) / 255.0;
-        *channel = if code <= 0.040_45 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) };
+        *channel = if code <= 0.040_45 { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) };
     }
     Some(colour)
 }

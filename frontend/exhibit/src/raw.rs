@@ -23,11 +23,14 @@ pub struct RawFile {
     pub idle: Option<Spanned<Value>>,
     pub limits: Option<Spanned<Value>>,
     pub tape: Option<Spanned<Value>>,
+    pub marks: Option<Spanned<Value>>,
 }
 
 /// The keys of the file.
-pub const KEYS: [&str; 11] =
-    ["title", "display", "inputs", "rate_hz", "quality", "item", "visitor", "tool", "idle", "limits", "tape"];
+pub const KEYS: [&str; 12] = [
+    "title", "display", "inputs", "rate_hz", "quality", "item", "visitor", "tool", "idle", "limits", "tape",
+    "marks",
+];
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -120,6 +123,14 @@ pub struct RawLimits {
     pub scales: Option<[f64; 2]>,
     pub farthest_m: Option<f64>,
     pub longest_hold_s: Option<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RawMarks {
+    pub tools: Option<bool>,
+    pub names: Option<bool>,
+    pub captions: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -134,6 +134,7 @@ impl Reader<'_> {
         let cast = self.cast(&raw.visitor, &raw.tool, &inputs);
         let rules = self.rules(raw.idle.as_ref(), raw.limits.as_ref());
         let tape = self.tape(raw.tape.as_ref());
+        let marks = self.marks(raw.marks.as_ref());
         Exhibit {
             title: raw.title.unwrap_or_else(|| "exhibit".to_owned()),
             file: self.file.to_owned(),
@@ -145,6 +146,7 @@ impl Reader<'_> {
             rules,
             inputs,
             tape,
+            marks,
             files: std::iter::once(PathBuf::from(self.file)).chain(inputs_file).collect(),
         }
     }

@@ -8,6 +8,7 @@ use clap::ValueEnum;
 use display_config::Display;
 use display_config::text::{brief_text, did_you_mean};
 use optics::MOST_ENHANCERS;
+use overlay::unknown_characters;
 use world::{Item, Preset};
 
 /// What finds out what is wrong with an exhibit besides its text.
@@ -27,6 +28,7 @@ pub fn open_exhibit(exhibit: &Exhibit) -> Result<(Ensemble, Display), Vec<Fault>
         Ok(display) => opening.display = Some(display),
         Err(error) => opening.wrong(None, format!("`display` cannot be used: {error}")),
     }
+    opening.check_texts();
     let quality = exhibit.quality.as_deref().and_then(|name| opening.quality(name));
     let pieces: Vec<_> = exhibit
         .items
@@ -48,6 +50,30 @@ pub fn open_exhibit(exhibit: &Exhibit) -> Result<(Ensemble, Display), Vec<Fault>
 impl Opening<'_> {
     fn wrong(&mut self, line: Option<usize>, what: String) {
         self.faults.push(Fault { file: self.exhibit.file.clone(), line, what });
+    }
+
+    /// Whether all that is written over the volume can be.
+    fn check_texts(&mut self) {
+        let exhibit = self.exhibit;
+        let mut texts: Vec<&str> = Vec::new();
+        if exhibit.marks.captions {
+            texts.extend(exhibit.items.iter().filter_map(|item| item.title.as_deref()));
+            texts.extend(exhibit.rules.attract.iter().map(|attract| attract.caption.as_str()));
+        }
+        if exhibit.marks.names {
+            texts.extend(exhibit.cast.visitors.iter().map(|visitor| visitor.name.as_str()));
+        }
+        for text in texts {
+            let unknown = unknown_characters(text);
+            if !unknown.is_empty() {
+                let unknown: String = unknown.into_iter().take(8).collect();
+                let text = brief_text(text).into_owned();
+                self.wrong(None, format!(
+                    "{text} cannot be written over the volume: there are no letters for \"{unknown}\"; use Latin, Greek or \
+                     Cyrillic ones, or leave it out with `names = false` or `captions = false` under [marks]"
+                ));
+            }
+        }
     }
 
     fn quality(&mut self, name: &str) -> Option<QualityPreset> {

@@ -7,8 +7,8 @@ use crate::FrontendError;
 use crate::adapter;
 use crate::cli::{ExhibitArgs, ReconstructArg};
 use crate::drive::{Bulletin, Recorder};
-use crate::staging::Theatre;
-use ::exhibit::{Exhibit, Fault, State, TapeWish};
+use crate::staging::{MarkChoice, Theatre};
+use ::exhibit::{Exhibit, Fault, MarkWish, State, TapeWish};
 use std::path::PathBuf;
 use std::time::SystemTime;
 use tape::Limits;
@@ -24,7 +24,9 @@ pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
     }
     let (exhibit, ensemble, display) = opened.map_err(|faults| FrontendError::Exhibit(lines(&faults)))?;
     check(&args.show)?;
+    let MarkWish { tools, names, captions } = exhibit.marks;
     let theatre = Theatre::new(ensemble, display, pace(&args.show))
+        .with_marks(MarkChoice { tools, names, captions })
         .with_sub_frames(args.show.reconstruct == ReconstructArg::Quincunx);
     let taped = taped(&args.show)?;
     let scenes = exhibit.items.iter().map(|item| PathBuf::from(&item.scene));

@@ -4,15 +4,18 @@
 //! | --- | --- |
 //! | `piece` | a scene that is ready to be shown, in all its looks |
 //! | `carried` | what tools carry |
+//! | `marks` | what is drawn of tools, and written |
 //! | `theatre` | a world with its pieces: things that happen in, frames out |
 //! | `check_number` | whether two frames are the same |
 
 mod carried;
 mod check_number;
+mod marks;
 mod piece;
 mod theatre;
 
 pub use carried::{carries, needs_band};
 pub use check_number::check_number;
+pub use marks::MarkChoice;
 pub use piece::{Looks, Piece};
 pub use theatre::{Ensemble, Theatre};

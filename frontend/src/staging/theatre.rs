@@ -1,6 +1,7 @@
 //! A world with its pieces: things that happen in, frames out.
 
 use super::carried::{carried, held, light};
+use super::marks::{Artist, MarkChoice};
 use super::piece::Piece;
 use crate::scene::{CLIP_CONTEXT, Handled, HeldTool, LookName, SceneError};
 use display_config::Display;
@@ -35,6 +36,7 @@ pub struct Theatre {
     display: Display,
     pace: Pace,
     has_sub_frames: bool,
+    marks: MarkChoice,
     /// Whether the first tool holds that of the scene.
     lends_tool: bool,
     /// Where that is, once anybody has ever held it.
@@ -49,8 +51,17 @@ impl Theatre {
         let Ensemble { cast, rules, pieces } = ensemble;
         let (pieces, items) = pieces.into_iter().unzip();
         let world = World::new(cast, Programme(items), rules);
-        let seen_at = Duration::ZERO;
-        Self { world, pieces, display, pace, has_sub_frames: true, lends_tool: false, lent: None, seen_at }
+        Self {
+            world,
+            pieces,
+            display,
+            pace,
+            has_sub_frames: true,
+            marks: MarkChoice::NONE,
+            lends_tool: false,
+            lent: None,
+            seen_at: Duration::ZERO,
+        }
     }
 
     /// One piece, as its scene is, with one tool in one hand, which holds that of the scene.
@@ -65,6 +76,12 @@ impl Theatre {
     #[must_use]
     pub fn with_sub_frames(self, has_sub_frames: bool) -> Self {
         Self { has_sub_frames, ..self }
+    }
+
+    /// This is drawn over its frames, which without it are the volume alone.
+    #[must_use]
+    pub fn with_marks(self, marks: MarkChoice) -> Self {
+        Self { marks, ..self }
     }
 
     /// The display that it is shown on.
@@ -140,6 +157,14 @@ impl Theatre {
         handled.carried.extend(self.clip_plane(stage).filter(|_| room > 0));
         let room = room - handled.carried.len();
         handled.carried.extend(carried(stage, piece, room));
+        let artist = Artist {
+            choice: self.marks,
+            display: &self.display,
+            cast: self.world.cast(),
+            stage,
+            carried: &handled.carried,
+            caption: self.world.caption(),
+        };
         let frame = scene.frame_at(index, stage.script_s, &handled, &self.display, piece.facts())?;
         Ok(FrameState {
             // The working set's clock goes on while the script stands still.
@@ -147,6 +172,7 @@ impl Theatre {
             volume: Some(piece.volume_ref()),
             pace: self.pace,
             sub_frame: self.has_sub_frames.then(|| SubFrame::of_frame(index)),
+            marks: artist.marks(),
             ..frame
         })
     }

@@ -8,6 +8,7 @@ use bricks::procedural::ProceduralVolume;
 use glam::{DQuat, UVec3};
 use inputs::{Event, Pose, SourceId, What};
 use proptest::prelude::*;
+use protocol::{Mark, MarkShape};
 use world::{Change, ToolKind};
 
 const PACE: Pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.0 };
@@ -178,6 +179,58 @@ fn each_tool_carries_what_it_is_and_the_scene_says_what_that_looks_like() {
     assert!(radii.iter().all(|probe| probe.0 == 0.03), "{radii:?}");
     assert!((radii[1].1 - radii[0].1 - 0.04).abs() < 1e-9, "each is where its tool is: {radii:?}");
     assert_eq!(frame.light.unwrap().toward_light_in_display, DVec3::Z, "the light is in a hand");
+}
+
+/// The texts of a frame's marks.
+fn written(frame: &FrameState) -> Vec<&str> {
+    let mut texts = Vec::new();
+    for mark in &frame.marks {
+        if let MarkShape::Label { text, .. } = &mark.shape {
+            texts.push(text.as_str());
+        }
+    }
+    texts
+}
+
+#[test]
+fn tools_are_drawn_where_they_are_and_names_say_whose() {
+    let piece = piece_of("name = 'Shells'\n[volume]\nsource = 'procedural:shells@32'\n").for_tools();
+    let item = piece.item(Vec::new(), None);
+    let kinds = [ToolKind::Pointer, ToolKind::ClipPlane];
+    let ensemble = Ensemble { cast: cast_of(&kinds), rules: Rules::default(), pieces: vec![(piece, item)] };
+    let all = MarkChoice { tools: true, names: true, captions: true };
+    let bare = Theatre::new(ensemble, Display::load("desk8").unwrap(), PACE);
+    let mut theatre = bare.clone().with_marks(all);
+    assert_eq!(written(&seen(&mut theatre, 0)), ["Shells"]);
+    let mut bare = bare;
+    for at_ms in (0..=600).step_by(20) {
+        for sensor in 0..2 {
+            let pose = Pose::new(DVec3::new(0.05 * f64::from(sensor), 0.02, 0.1), DQuat::IDENTITY);
+            let event = Event {
+                source: SourceId(0),
+                device_time: None,
+                received: ms(at_ms),
+                what: What::Pose { sensor, pose },
+            };
+            [&mut theatre, &mut bare].map(|theatre| theatre.apply(&Deed::Event(event)));
+        }
+    }
+    let frame = seen(&mut theatre, 610);
+    let names = written(&frame);
+    assert!(
+        names.len() == 3 && names[1].ends_with(": pointer") && names[2].ends_with(": clip plane"),
+        "{names:?}"
+    );
+    let tip = DVec3::new(0.05, 0.02, 0.1);
+    let ends_at_tip = |mark: &Mark| match &mark.shape {
+        MarkShape::Stroke { points_in_display, .. } => {
+            points_in_display.last().is_some_and(|end| end.distance(tip) < 1e-9)
+        }
+        _ => false,
+    };
+    assert!(frame.marks.iter().any(ends_at_tip), "no line ends at the tip");
+    // They are drawn over the same volume.
+    assert_eq!(FrameState { marks: Vec::new(), ..frame }, seen(&mut bare, 610));
 }
 
 fn changes() -> impl Strategy<Value = Deed> {

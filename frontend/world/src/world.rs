@@ -104,6 +104,19 @@ impl World {
         &self.item().title
     }
 
+    /// What is written below it: its title, or, while nobody is there, what asks for somebody.
+    pub fn caption(&self) -> &str {
+        let asks = self.rules.attract.as_ref().filter(|_| self.stage.phase == Phase::Attract);
+        asks.map(|attract| attract.caption.as_str())
+            .filter(|caption| !caption.is_empty())
+            .unwrap_or(self.title())
+    }
+
+    /// Who takes part.
+    pub fn cast(&self) -> &Cast {
+        &self.cast
+    }
+
     pub(crate) fn item(&self) -> &Item {
         &self.programme.0[self.stage.item]
     }

@@ -12,6 +12,7 @@ use crate::device::{CacheWish, ChosenDevice, Device, open_device};
 use crate::present::Finisher;
 use crate::working_set::{Loader, PANTRY_BYTES, WorkingSet};
 use bricks::{BrickSource, NodeKey};
+use overlay::Pen;
 use protocol::{DeviceInfo, RendererOptions};
 use std::sync::Arc;
 
@@ -29,6 +30,7 @@ pub(super) struct Engine {
     pub(super) easing: Easing,
     pub(super) known: Known,
     pub(super) recording: Recording,
+    pub(super) pen: Pen,
 }
 
 impl Engine {
@@ -62,6 +64,7 @@ impl Engine {
             easing: Easing::default(),
             known: Known::default(),
             recording: Recording::default(),
+            pen: Pen::default(),
         };
         Ok((engine, info))
     }

@@ -5,7 +5,8 @@ use super::engine::Engine;
 use super::work::Work;
 use crate::device::{DeviceError, DevicePicture, FinishJob, ShowJob};
 use crate::present::Raster;
-use protocol::{ProjectorImage, ScreenImage};
+use overlay::View;
+use protocol::{FrameState, ProjectorImage, ScreenImage};
 use std::time::Instant;
 
 /// One of them.
@@ -23,13 +24,13 @@ impl Engine {
         &mut self,
         work: &mut Work,
         sink: &mut dyn FnMut(T),
-        take: impl Fn(&mut Self, &Final) -> Result<T, DeviceError>,
+        take: impl Fn(&mut Self, &FrameState, &Final) -> Result<T, DeviceError>,
     ) -> Result<(), DeviceError> {
         for projector in std::mem::take(&mut work.finals) {
             let started = Instant::now();
             let Some(view) = work.view_of(projector) else { continue };
             let (size, picture) = (work.setting.rays[view].raster, self.show(work, projector, view)?);
-            let taken = take(self, &Final { projector, view, size, picture })?;
+            let taken = take(self, &work.frame, &Final { projector, view, size, picture })?;
             work.account.stages.readback_ms += milliseconds(started);
             sink(taken);
         }
@@ -55,17 +56,35 @@ impl Engine {
     }
 
     /// Its linear colours.
-    pub(super) fn colours(&mut self, of: &Final) -> Result<ProjectorImage, DeviceError> {
+    pub(super) fn colours(&mut self, frame: &FrameState, of: &Final) -> Result<ProjectorImage, DeviceError> {
         let &Final { projector, size: [width, height], picture, .. } = of;
-        let rgba = self.device.picture(picture)?.into_owned();
+        let mut rgba = self.device.picture(picture)?.into_owned();
+        self.mark(frame, projector, &mut rgba);
         Ok(ProjectorImage { projector, width, height, rgba })
     }
 
     /// The codes that its projector shows it with.
-    pub(super) fn codes(&mut self, of: &Final) -> Result<ScreenImage, DeviceError> {
+    pub(super) fn codes(&mut self, frame: &FrameState, of: &Final) -> Result<ScreenImage, DeviceError> {
         let &Final { projector, view, size: [width, height], picture } = of;
-        let (raster, finisher) = (Raster::of([width, height]), &self.finishers[view]);
-        let rgb = self.device.codes(&FinishJob { picture, raster, view, finisher })?;
+        let rgb = if frame.marks.is_empty() {
+            let (raster, finisher) = (Raster::of([width, height]), &self.finishers[view]);
+            self.device.codes(&FinishJob { picture, raster, view, finisher })?
+        } else {
+            let rgba = self.colours(frame, of)?.rgba;
+            self.finishers[view].codes(&rgba)
+        };
         Ok(ScreenImage { projector, width, height, rgb })
+    }
+
+    /// Draws a frame's marks over a picture. What rays see of it is not touched: the next frame goes on from that.
+    fn mark(&mut self, frame: &FrameState, projector: u32, rgba: &mut [f32]) {
+        if frame.marks.is_empty() {
+            return;
+        }
+        let (display, index) = (&self.options.display, projector as usize);
+        // A frame whose rays are not its display's was refused before.
+        let law = display.beam_law(index, frame.observer_in_display, frame.eta).ok();
+        let view = law.and_then(|law| View::new(law, &display.projectors[index].raster));
+        view.iter().for_each(|view| self.pen.draw(&frame.marks, view, rgba));
     }
 }
