@@ -47,9 +47,21 @@ prop_compose! {
 }
 
 prop_compose! {
+    fn mark()(points in vec(point(), 0..4), radius_m in any::<f64>(), text in ".*", kind in 0..3, rgb in any::<[f32; 3]>()) -> Mark {
+        let paint = Paint { rgb, opacity: 0.5 };
+        let shape = match kind {
+            0 => MarkShape::Stroke { points_in_display: points, radius_m },
+            1 => MarkShape::Sheet { corners_in_display: points },
+            _ => MarkShape::Label { text, base_in_display: DVec3::X, em_m: radius_m, backing: (rgb[0] > 0.0).then_some(paint) },
+        };
+        Mark { shape, paint }
+    }
+}
+
+prop_compose! {
     fn frame()(
         index in any::<u32>(), time_s in any::<f64>(), at in point(), eta in 0.0..1.0, optics in optics(),
-        lit in any::<bool>(), volume in proptest::option::of("[a-z]{1,9}"),
+        lit in any::<bool>(), volume in proptest::option::of("[a-z]{1,9}"), marks in vec(mark(), 0..4),
     ) -> FromFrontend {
         FromFrontend::Frame(Box::new(FrameState {
             index, time_s, observer_in_display: at, eta,
@@ -62,6 +74,7 @@ prop_compose! {
             welcomes_planes: index % 3 == 0,
             pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },
             debug: DebugView::ALL.get(index as usize % 5).copied(),
+            marks,
         }))
     }
 }

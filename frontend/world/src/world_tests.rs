@@ -1,13 +1,13 @@
 //! Laws of a world, and what random visitors do to it.
 
 use super::*;
-use crate::cast::{Button, Dial, DialKind, Sensor, Tool, ToolKind, Visitor};
+use crate::cast::{Action, Button, Dial, DialKind, Sensor, Tool, ToolKind, Visitor};
 use crate::grip::Hand;
 use crate::history::MOST_DEEDS;
 use crate::programme::Preset;
 use crate::rules::Attract;
 use glam::DQuat;
-use inputs::{Pose, SourceId};
+use inputs::{Event, Pose, SourceId, What};
 use proptest::prelude::*;
 use tracking::{RigidTransform, TrackSettings};
 

@@ -13,6 +13,7 @@ mod calibrated;
 mod careless;
 mod comeback;
 mod drive;
+mod exhibit;
 mod export;
 mod idle_backends;
 mod import;

@@ -1,0 +1,202 @@
+//! Exhibits as a museum runs them, and their tapes.
+
+use lightloom_tests::program::{
+    LIMIT, Pictures, assert_same, cluster, lightloom, pictures, run, small_display, start,
+};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::thread::sleep;
+use std::time::Duration;
+
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/exhibit/examples/");
+
+/// Two volumes, each for half a second, and two visitors with wands that move by themselves.
+const TWO_ITEMS: &str = "\
+title = 'Two'
+display = 'small4.toml'
+inputs = 'wands.toml'
+quality = 'draft'
+
+[[item]]
+title = 'One'
+scene = 'procedural:shells@64'
+time_s = 0.5
+
+[[item]]
+title = 'Other'
+scene = 'procedural:sparse-vessels@64'
+time_s = 0.5
+
+[[visitor]]
+name = 'Ada'
+
+[[visitor]]
+name = 'Ben'
+
+[[tool]]
+name = 'knife'
+visitor = 'Ada'
+input = 'first'
+kinds = ['clip-plane']
+
+[[tool]]
+name = 'finger'
+visitor = 'Ben'
+input = 'second'
+kinds = ['pointer']
+";
+
+struct Museum {
+    folder: tempfile::TempDir,
+    file: String,
+}
+
+impl Museum {
+    fn new(text: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        small_display(folder.path());
+        let wand = |name: &str, file: &str| {
+            format!("[[input]]\nname = '{name}'\nkind = 'script'\nfile = '{EXAMPLES}{file}'\n")
+        };
+        fs::write(folder.path().join("wands.toml"), wand("first", "ada.toml") + &wand("second", "cem.toml"))
+            .unwrap();
+        let file = folder.path().join("exhibit.toml");
+        fs::write(&file, text).unwrap();
+        Self { file: file.to_string_lossy().into_owned(), folder }
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.folder.path().join(name).to_string_lossy().into_owned()
+    }
+
+    fn arguments(&self, dump: &str, more: &[&str]) -> Vec<String> {
+        let fixed = [
+            "exhibit",
+            &self.file,
+            "--output",
+            "none",
+            "--stepped",
+            "--rate",
+            "10",
+            "--device",
+            "cpu",
+            "--quiet",
+        ];
+        let dump = ["--dump".to_owned(), self.path(dump)];
+        fixed
+            .map(str::to_owned)
+            .into_iter()
+            .chain(dump)
+            .chain(more.iter().map(|&one| one.to_owned()))
+            .collect()
+    }
+
+    /// What screens showed, frame by frame, and what was said besides.
+    fn shown(&self, dump: &str, more: &[&str]) -> (Pictures, String) {
+        let ran = run(&mut lightloom(&self.arguments(dump, more))).succeeded();
+        (pictures(Path::new(&self.path(dump))), ran.stderr)
+    }
+}
+
+#[test]
+fn the_examples_have_no_fault() {
+    for name in ["laptop.toml", "tracked.toml"] {
+        let ran = run(&mut lightloom(&["exhibit", &format!("{EXAMPLES}{name}"), "--check"])).succeeded();
+        assert_eq!(ran.stdout.trim(), "nothing is wrong with it", "{name}");
+    }
+}
+
+#[test]
+fn a_check_says_all_that_is_wrong_at_once() {
+    let text = TWO_ITEMS
+        .replace("'small4.toml'", "'desk9'")
+        .replace("'procedural:shells@64'", "'procedural:shels@64'")
+        .replace("name = 'Ben'", "name = '本'")
+        .replace("input = 'second'", "input = 'secnd'");
+    let museum = Museum::new(&text);
+    let ran = run(&mut lightloom(&["exhibit", &museum.file, "--check", "--json"]));
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    let faults: Value = serde_json::from_str(&ran.stdout).expect("--json prints JSON and nothing else");
+    let said = faults.to_string();
+    // What the file says alone is told first.
+    assert!(said.contains("secnd"), "{said}");
+    let museum =
+        Museum::new(&text.replace("'secnd'", "'second'").replace("visitor = 'Ben'", "visitor = '本'"));
+    let ran = run(&mut lightloom(&["exhibit", &museum.file, "--check"]));
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    for part in ["desk9", "shels", "there are no letters for \"本\""] {
+        assert!(ran.stdout.contains(part), "{part} is missing in: {}", ran.stdout);
+    }
+    // Nothing opens.
+    run(&mut lightloom(&["exhibit", &museum.file, "--output", "none", "--frames", "1"])).refused(&["desk9"]);
+}
+
+#[test]
+fn a_tape_shows_the_same_again_in_one_process_and_in_many() {
+    let museum = Museum::new(TWO_ITEMS);
+    let tape = museum.path("day.mcap");
+    let (first, _) = museum.shown("first", &["--frames", "12", "--record", &tape]);
+    assert_eq!(first.len(), 12 * first.keys().filter(|name| name.starts_with("frame-000000")).count());
+    let info = run(&mut lightloom(&["tape", "info", &tape])).succeeded().stdout;
+    assert!(info.contains("12 frames") && info.contains("it is whole"), "{info}");
+    let (again, said) = museum.shown("again", &["--tape", &tape]);
+    assert_same("played again", &first, &again);
+    assert!(!said.contains("is not what it was"), "{said}");
+    if let Some(mut command) = cluster(&museum.arguments("cluster", &["--tape", &tape]), 4) {
+        start(&mut command).finish(LIMIT).succeeded();
+        assert_same("played by four back-ends", &first, &pictures(Path::new(&museum.path("cluster"))));
+    }
+    // Without its end it still plays, as far as it goes.
+    let bytes = fs::read(&tape).unwrap();
+    let cut = museum.path("cut.mcap");
+    fs::write(&cut, &bytes[..bytes.len() * 2 / 3]).unwrap();
+    let info = run(&mut lightloom(&["tape", "info", &cut])).stdout;
+    assert!(!info.contains("it is whole"), "{info}");
+}
+
+/// Another volume is shown as it is in a show of its own, with nothing left of the one before.
+#[test]
+fn a_programme_goes_on_to_other_volumes() {
+    let still = TWO_ITEMS.split("[[visitor]]").next().unwrap().replace("inputs = 'wands.toml'\n", "")
+        + "[marks]\ncaptions = false\n";
+    let (both, _) = Museum::new(&still).shown("both", &["--frames", "9"]);
+    let alone = {
+        let (before, other) = still.split_once("[[item]]").unwrap();
+        let (_, other) = other.split_once("[[item]]").unwrap();
+        format!("{before}[[item]]{other}")
+    };
+    let (alone, _) = Museum::new(&alone).shown("alone", &["--frames", "4"]);
+    let frame = |pictures: &Pictures, number: usize| -> Vec<Vec<u8>> {
+        let name = format!("frame-{number:06}");
+        pictures.iter().filter(|(path, _)| path.starts_with(&name)).map(|(_, bytes)| bytes.clone()).collect()
+    };
+    assert!(!frame(&both, 8).is_empty());
+    assert_eq!(frame(&both, 8), frame(&alone, 3), "the second volume is not what it is alone");
+    assert_ne!(frame(&both, 8), frame(&both, 3));
+}
+
+#[test]
+fn a_supervisor_reads_how_it_goes() {
+    let museum = Museum::new(TWO_ITEMS);
+    let (status, log) = (museum.path("status.json"), museum.path("day.log"));
+    let arguments =
+        ["exhibit", &museum.file, "--output", "none", "--device", "cpu", "--status", &status, "--log", &log];
+    let running = start(&mut lightloom(&arguments));
+    let read = || -> Option<Value> { serde_json::from_slice(&fs::read(&status).ok()?).ok() };
+    for _ in 0..200 {
+        if read().is_some_and(|status| status["frames"].as_u64() > Some(0)) {
+            break;
+        }
+        sleep(Duration::from_millis(100));
+    }
+    let now = read().expect("a status file");
+    assert!(now["state"] == "open" || now["state"] == "attract", "{now}");
+    assert_eq!(now["process"], running.process());
+    assert_eq!(now["inputs"].as_array().unwrap().len(), 2, "{now}");
+    assert!(Command::new("kill").args(["-INT", &running.process().to_string()]).status().unwrap().success());
+    running.finish(LIMIT).succeeded();
+    assert_eq!(read().unwrap()["state"], json!("ended"));
+    assert!(fs::read_to_string(&log).unwrap().lines().count() >= 2);
+}
