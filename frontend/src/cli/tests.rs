@@ -25,13 +25,16 @@ fn every_number_may_begin_with_a_minus() {
     let words = [
         "DIR",
         "DISPLAY",
+        "FILE",
         "INPUTS.toml",
         "NAME",
         "NAME,…",
         "OUT.lloom",
         "SCENE.toml",
+        "STATUS.json",
         "STORE.lloom",
         "SERIES",
+        "TAPE.mcap",
         "TRACKER.toml",
         "TYPE",
     ];

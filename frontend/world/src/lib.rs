@@ -13,7 +13,8 @@
 //! | `tool_state`, `history` | what is known of a tool, and of what visitors did |
 //! | `world` | what has happened |
 //! | `happen` | what an input reports, done to it |
-//! | `holding`, `step` | who holds what, and how time passes |
+//! | `holding`, `hold` | who holds what, and how that comes and goes |
+//! | `step` | how time passes |
 
 mod cast;
 mod deed;
@@ -21,6 +22,7 @@ mod easing;
 mod grip;
 mod happen;
 mod history;
+mod hold;
 mod holding;
 mod programme;
 mod rules;

@@ -127,7 +127,7 @@ impl Play {
             }
             let moment = Moment { now: self.now, seen_at: self.now + 2 * FRAME };
             self.world.step(moment, |_, script_s| DVec3::new(0.01 * script_s.sin(), 0.0, 0.0));
-            assert_eq!(faults(&self.world), Vec::<String>::new());
+            assert_eq!(random::faults(&self.world), Vec::<String>::new());
         }
         self.world.stage()
     }
@@ -144,53 +144,6 @@ impl Play {
         play.wait(1);
         play
     }
-}
-
-/// What must not be, whatever anybody does.
-fn faults(world: &World) -> Vec<String> {
-    let (stage, item) = (world.stage(), world.item());
-    let Handling { turn, shift_m, scale } = stage.handling;
-    let (least, most) = world.rules.scales;
-    let holders: Vec<VisitorId> =
-        stage.tools.iter().filter(|tool| tool.grabs).map(|tool| world.holder_of(tool.tool)).collect();
-    let is_sorted = stage.tools.windows(2).all(|pair| pair[0].tool < pair[1].tool);
-    let laws = [
-        ("all is finite", turn.is_finite() && shift_m.is_finite() && scale.is_finite()),
-        ("a turn has length 1", (turn.length() - 1.0).abs() < 1e-12),
-        ("sizes keep their limits", (least..=most).contains(&scale)),
-        ("places keep their limit", shift_m.length() <= world.rules.farthest_m * (1.0 + 1e-12)),
-        ("the item is there", stage.item < world.programme.0.len()),
-        ("the look is there", stage.look.is_none_or(|look| look < item.looks.max(2))),
-        ("the band is there", stage.band.is_none_or(|band| band < item.bands)),
-        ("a window shows something", stage.window.stretch > 0.01 && stage.window.shift.abs() < 3.0),
-        ("who holds it has a tool that does", stage.held_by.is_none() == holders.is_empty()),
-        ("one visitor holds it", holders.iter().all(|&holder| Some(holder) == stage.held_by)),
-        ("with two hands at most", holders.len() <= 2),
-        ("tools are in order", is_sorted),
-        ("tools that are shown are there", stage.tools.iter().all(|tool| tool.presence > 0.0)),
-        ("nothing grows", world.history.len() <= MOST_DEEDS && world.waiting.len() <= 6),
-        ("time goes on", stage.script_s >= 0.0 && stage.script_s.is_finite()),
-    ];
-    laws.into_iter().filter(|law| !law.1).map(|law| law.0.to_owned()).collect()
-}
-
-#[test]
-fn the_laws_find_what_is_against_them() {
-    let spoiled = |spoil: fn(&mut World)| {
-        let mut play = Play::of_two();
-        play.button(0, GRAB, true);
-        play.go_on(2);
-        spoil(&mut play.world);
-        faults(&play.world)
-    };
-    assert!(spoiled(|_| {}).is_empty());
-    assert!(!spoiled(|world| world.stage.handling.scale = f64::NAN).is_empty());
-    assert!(!spoiled(|world| world.stage.handling.turn.x = 0.5).is_empty());
-    assert!(!spoiled(|world| world.stage.held_by = None).is_empty());
-    assert!(!spoiled(|world| world.stage.held_by = Some(VisitorId(1))).is_empty());
-    assert!(!spoiled(|world| world.stage.tools[0].presence = 0.0).is_empty());
-    assert!(!spoiled(|world| world.stage.band = Some(9)).is_empty());
-    assert!(!spoiled(|world| world.waiting = vec![ToolId(1); 7]).is_empty());
 }
 
 #[test]
@@ -387,81 +340,5 @@ fn an_item_that_is_due_waits_for_who_holds_it() {
     assert_eq!(play.go_on(2).item, 1, "it is twice due");
 }
 
-/// What a random visitor does next.
-fn doing() -> impl Strategy<Value = (usize, u8, [f64; 4])> {
-    (0..6_usize, 0..20_u8, [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0, -1.0..1.0])
-}
-
-fn run(doings: &[(usize, u8, [f64; 4])]) -> Vec<Stage> {
-    let mut play = Play::new(rules());
-    let mut stages = Vec::new();
-    for &(tool, what, [x, y, z, w]) in doings {
-        match what {
-            0..=9 => play.button(tool, what, w > 0.0),
-            10..=13 => {
-                let rotation = DQuat::from_xyzw(x, y, z, w + 1.5).normalize();
-                play.hands[tool] = Some(Hand { tip_m: DVec3::new(x, y, z), rotation });
-            }
-            14 => play.hands[tool] = None,
-            15 => play.event(tool, What::Lost("gone".to_owned())),
-            16 => play.event(tool, What::Axis { index: (4.0 * z.abs()) as u8, value: 2.0 * w }),
-            17 => {
-                let changes = [
-                    Change::Turn { right: x, down: y },
-                    Change::Move(DVec3::new(x, y, z)),
-                    Change::Scale(2.0 * w.abs()),
-                    Change::Clip,
-                    Change::MoveClip(x),
-                    Change::NextLook,
-                    Change::NextItem,
-                    Change::Pause,
-                    Change::Reset,
-                ];
-                let change = changes[((changes.len() as f64 * z.abs()) as usize).min(changes.len() - 1)];
-                play.world.apply(&Deed::Change(change));
-            }
-            18 => play.now += Duration::from_secs_f64(10.0 * w.abs()),
-            _ => play.event(tool, What::Pose { sensor: (9.0 * w.abs()) as u8, pose: None }),
-        }
-        let frames = 1 + (4.0 * y.abs()) as u32;
-        stages.push(play.go_on(frames).clone());
-    }
-    stages
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
-
-    /// Each step is looked at by [`faults`]; and the same deeds give the same stages.
-    #[test]
-    fn nothing_that_random_visitors_do_is_against_the_laws(doings in prop::collection::vec(doing(), 0..300)) {
-        prop_assert_eq!(run(&doings), run(&doings));
-    }
-}
-
-#[test]
-fn no_trigonometry_of_the_system_is_used() {
-    let sources = [
-        include_str!("world.rs"),
-        include_str!("step.rs"),
-        include_str!("holding.rs"),
-        include_str!("grip.rs").split("#[cfg(test)]").next().unwrap(),
-        include_str!("turn.rs").split("#[cfg(test)]").next().unwrap(),
-        include_str!("easing.rs"),
-        include_str!("tool_state.rs"),
-    ];
-    let systems = [
-        ".sin()",
-        ".cos()",
-        ".exp()",
-        ".powf(",
-        ".ln()",
-        "from_rotation_",
-        "slerp",
-        "angle_between",
-        "axis_angle",
-    ];
-    for name in systems {
-        assert!(sources.iter().all(|source| !source.contains(name)), "{name} differs between C libraries");
-    }
-}
+#[path = "random_tests.rs"]
+mod random;

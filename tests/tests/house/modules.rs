@@ -27,6 +27,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "calibrate",
             "simulate",
             "gallery",
+            "staging",
             "drive",
             "monitor",
             "adapter",

@@ -11,10 +11,9 @@ use std::collections::BTreeSet;
 const KINDS: [&str; 7] = ["fn", "const", "static", "struct", "enum", "trait", "type"];
 
 /// Names that no product uses yet, or ever, with the reason; the list can only shrink.
-const KNOWN: [(&str, &str); 4] = [
+const KNOWN: [(&str, &str); 3] = [
     ("FinishTruth", "the codes of projectors in f64, which the renderer's are compared with"),
     ("plainly", "row planes without wide instructions, which tests compare with those that have them"),
-    ("screen_from_point", "the inverse of the ray, which overlays need; its law is tested beside the ray's"),
     ("segmented", "the paper's own, step-dependent compositing: the reference offers it to be compared with"),
 ];
 
