@@ -212,7 +212,8 @@ fn tools_are_drawn_where_they_are_and_names_say_whose() {
                 received: ms(at_ms),
                 what: What::Pose { sensor, pose },
             };
-            [&mut theatre, &mut bare].map(|theatre| theatre.apply(&Deed::Event(event.clone())));
+            theatre.apply(&Deed::Event(event.clone()));
+            bare.apply(&Deed::Event(event));
         }
     }
     let frame = seen(&mut theatre, 610);

@@ -151,10 +151,9 @@ impl Tape {
 
     fn begin_part(&mut self, now: Duration) {
         self.head.part += 1;
-        if let Some(gone) = self.limits.keep_parts.and_then(|keep| self.head.part.checked_sub(keep as u32)) {
-            if gone > 0 {
-                let _ = std::fs::remove_file(self.path_of(gone));
-            }
+        let gone = self.limits.keep_parts.and_then(|keep| self.head.part.checked_sub(keep as u32));
+        if let Some(gone) = gone.filter(|&gone| gone > 0) {
+            let _ = std::fs::remove_file(self.path_of(gone));
         }
         match Part::create(&self.path_of(self.head.part), &self.head) {
             Ok(mut part) => {

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/exhibit/examples/");
 
-/// Two volumes, each for a second, and two visitors with wands that move by themselves.
+/// Two volumes, each for a second, or two while somebody does things, and two visitors with wands that move by themselves.
 const TWO_ITEMS: &str = "\
 title = 'Two'
 display = 'small4.toml'
@@ -137,10 +137,10 @@ fn a_check_says_all_that_is_wrong_at_once() {
 fn a_tape_shows_the_same_again_in_one_process_and_in_many() {
     let museum = Museum::new(TWO_ITEMS);
     let tape = museum.path("day.mcap");
-    let (first, _) = museum.shown("first", &["--frames", "14", "--record", &tape]);
-    assert_eq!(first.len(), 14 * first.keys().filter(|name| name.starts_with("frame-000000")).count());
+    let (first, _) = museum.shown("first", &["--frames", "24", "--record", &tape]);
+    assert_eq!(first.len(), 24 * first.keys().filter(|name| name.starts_with("frame-000000")).count());
     let info = run(&mut lightloom(&["tape", "info", &tape])).succeeded().stdout;
-    assert!(info.contains("14 frames") && info.contains("it is whole"), "{info}");
+    assert!(info.contains("24 frames") && info.contains("it is whole"), "{info}");
     let (again, said) = museum.shown("again", &["--tape", &tape]);
     assert_same("played again", &first, &again);
     assert!(!said.contains("is not what it was"), "{said}");
@@ -161,7 +161,7 @@ fn a_tape_shows_the_same_again_in_one_process_and_in_many() {
 fn a_programme_goes_on_to_other_volumes() {
     let still = TWO_ITEMS.split("[[visitor]]").next().unwrap().replace("inputs = 'wands.toml'\n", "")
         + "[marks]\ncaptions = false\n";
-    let (both, _) = Museum::new(&still).shown("both", &["--frames", "14"]);
+    let (both, _) = Museum::new(&still).shown("both", &["--frames", "25"]);
     let alone = {
         let (before, other) = still.split_once("[[item]]").unwrap();
         let (_, other) = other.split_once("[[item]]").unwrap();
@@ -172,9 +172,9 @@ fn a_programme_goes_on_to_other_volumes() {
         let name = format!("frame-{number:06}");
         pictures.iter().filter(|(path, _)| path.starts_with(&name)).map(|(_, bytes)| bytes.clone()).collect()
     };
-    assert!(!frame(&both, 13).is_empty());
-    assert_eq!(frame(&both, 13), frame(&alone, 4), "the second volume is not what it is alone");
-    assert_ne!(frame(&both, 13), frame(&both, 3));
+    assert!(!frame(&both, 24).is_empty());
+    assert_eq!(frame(&both, 24), frame(&alone, 4), "the second volume is not what it is alone");
+    assert_ne!(frame(&both, 24), frame(&both, 3));
 }
 
 #[test]
