@@ -30,7 +30,9 @@ fn main() -> Result<(), FrontendError> {
 
     // A job writes each picture as soon as it is final.
     let (frames, pace, debug, eyes) = (0..1, Pace::Complete, None, Vec::new());
-    let job = Job { scene, facts, display, frames, pace, debug, eyes, out, exr: false, calibrated: false };
+    let remade = Default::default();
+    let job =
+        Job { scene, facts, display, frames, remade, pace, debug, eyes, out, exr: false, calibrated: false };
     Job::prepare_output(&job.out)?;
     let drawn = job.run(drawing.source.as_mut(), &mut Progress::new(false));
     let frames = drawing.finish(drawn)?;

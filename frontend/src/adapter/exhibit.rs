@@ -18,6 +18,12 @@ struct Opening<'a> {
     faults: Vec<Fault>,
 }
 
+/// Whether a file is an exhibit's, and not a scene's: it has items.
+pub fn is_exhibit(path: &str) -> bool {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    path.ends_with(".toml") && text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("item"))
+}
+
 /// Opens all that an exhibit names.
 ///
 /// # Errors

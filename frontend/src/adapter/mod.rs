@@ -13,7 +13,7 @@ mod volume;
 
 pub use backends::{BackendOptions, Backends, Drawing, Showing, dismiss_backends};
 pub use display::{check_outputs, load_display, preset_displays};
-pub use exhibit::open_exhibit;
+pub use exhibit::{is_exhibit, open_exhibit};
 pub use export::{ExportSummary, export};
 pub use import::{ImportRequest, ImportSummary, RawRequest, Skipped, import};
 pub use levels::LevelSummary;

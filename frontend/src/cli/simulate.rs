@@ -12,9 +12,9 @@ use std::path::PathBuf;
 pub struct SimulateArgs {
     /// A .toml scene, a .lloom store, procedural:NAME or procedural:NAME@VOXELS with shells, marschner-lobb or sparse-vessels.
     pub scene: String,
-    /// A display: a preset's name (see `lightloom displays`) or a .toml file.
-    #[arg(long, value_name = "DISPLAY", default_value = "holo72")]
-    pub display: String,
+    /// A display: a preset's name (see `lightloom displays`) or a .toml file. [default: holo72; that of an exhibit]
+    #[arg(long, value_name = "DISPLAY")]
+    pub display: Option<String>,
     /// Folder for pictures and report; created if missing.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -36,6 +36,9 @@ pub struct SimulateArgs {
     /// Quality, overriding the scene's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
+    /// What was made of the scene, or of an exhibit in its place, when this tape was recorded. Without --frames, its last frame.
+    #[arg(long, value_name = "TAPE.mcap")]
+    pub tape: Option<PathBuf>,
     /// Frames A to B − 1 of the scene instead of all.
     #[arg(long, value_name = "A..B", value_parser = frame_range, allow_hyphen_values = true)]
     pub frames: Option<(u32, u32)>,

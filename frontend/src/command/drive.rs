@@ -5,7 +5,7 @@ use super::show::{Show, check, show, taped};
 use crate::FrontendError;
 use crate::adapter;
 use crate::cli::{DriveArgs, ReconstructArg};
-use crate::drive::one_hand;
+use crate::drive::{Taped, one_hand};
 use crate::scene::Scene;
 use crate::staging::{Piece, Theatre};
 use protocol::Pace;
@@ -28,10 +28,10 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     }
     let inputs = args.inputs.as_deref().map(inputs::Input::load).transpose()?.unwrap_or_default();
     let taped = taped(&args.show)?;
-    let is_tracked = !inputs.is_empty() || taped.as_ref().is_some_and(|tape| !tape.head().sources.is_empty());
-    let cast = if is_tracked { one_hand() } else { Cast::default() };
+    let is_tracked = !inputs.is_empty() || taped.as_ref().is_some_and(Taped::has_inputs);
     let title = scene.name.clone();
-    let theatre = Theatre::of_one(Piece::new(scene, facts, &looks), cast, display, pace(&args.show))
+    let piece = Piece::new(scene, facts, &looks);
+    let theatre = Theatre::of_one(piece, cast(is_tracked), display, pace(&args.show))
         .with_sub_frames(args.show.reconstruct == ReconstructArg::Quincunx);
     let of_inputs = args.inputs.clone();
     let names = [&args.scene, &args.display].map(PathBuf::from);
@@ -39,6 +39,11 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     let record = args.show.record.clone().map(|path| (path, Limits::default()));
     let made = Show { title, theatre, inputs, files, rate_hz: None, record, recorders: Vec::new() };
     show(&args.show, made, taped)
+}
+
+/// Who takes part in a show of one scene.
+pub(super) fn cast(is_tracked: bool) -> Cast {
+    if is_tracked { one_hand() } else { Cast::default() }
 }
 
 /// How frames get their detail: where nothing is late, nothing needs to be missing.

@@ -24,9 +24,8 @@ pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
     }
     let (exhibit, ensemble, display) = opened.map_err(|faults| FrontendError::Exhibit(lines(&faults)))?;
     check(&args.show)?;
-    let MarkWish { tools, names, captions } = exhibit.marks;
     let theatre = Theatre::new(ensemble, display, pace(&args.show))
-        .with_marks(MarkChoice { tools, names, captions })
+        .with_marks(marks(&exhibit))
         .with_sub_frames(args.show.reconstruct == ReconstructArg::Quincunx);
     let taped = taped(&args.show)?;
     let scenes = exhibit.items.iter().map(|item| PathBuf::from(&item.scene));
@@ -57,6 +56,12 @@ pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
     shown
 }
 
+/// What is drawn over the volume.
+pub(super) fn marks(exhibit: &Exhibit) -> MarkChoice {
+    let MarkWish { tools, names, captions } = exhibit.marks;
+    MarkChoice { tools, names, captions }
+}
+
 /// The tape of a show that begins now: named by the time.
 fn tape_of_today(wish: &TapeWish) -> Result<(PathBuf, Limits), FrontendError> {
     let name = ::exhibit::time_text(SystemTime::now()).replace(':', "-");
@@ -65,7 +70,8 @@ fn tape_of_today(wish: &TapeWish) -> Result<(PathBuf, Limits), FrontendError> {
     Ok((wish.folder.join(format!("{name}.mcap")), limits))
 }
 
-fn lines(faults: &[Fault]) -> String {
+/// All of them, a line each.
+pub(super) fn lines(faults: &[Fault]) -> String {
     faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
 }
 

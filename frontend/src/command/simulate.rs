@@ -1,16 +1,28 @@
 //! `lightloom simulate`.
 
+use super::drive::cast;
+use super::exhibit::{lines, marks};
 use super::look::{ask_for_look, tell_look};
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter::{self, Backends, TraceFolder};
 use crate::cli::SimulateArgs;
+use crate::drive::{Remade, Taped, remake};
 use crate::progress::Progress;
 use crate::report::{self, BackendSummary, Report, units};
-use crate::scene::Scene;
+use crate::scene::{LookChoice, Scene, VolumeFacts};
 use crate::simulate::{Eye, Job};
+use crate::staging::{Piece, Theatre};
+use ::exhibit::Exhibit;
+use display_config::Display;
+use protocol::{FrameState, Pace};
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 use std::time::Instant;
+
+/// Where neither the command line nor an exhibit names one.
+const DEFAULT_DISPLAY: &str = "holo72";
 
 /// Renders, writes and reports. All that can be wrong with the arguments is found before any back-end starts.
 pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
@@ -19,16 +31,14 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     if traces.is_some() && !args.live.live {
         return Err(FrontendError::TraceOfCompleteFrames);
     }
-    let mut scene = Scene::load(&args.scene)?;
-    scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
-    let display = adapter::load_display(&args.display)?;
-    ask_for_look(&mut scene, args.look);
-    let (facts, look) = adapter::meet_volume(&mut scene)?;
-    let frames = frames(args, &scene)?;
-    scene.check_frames(frames.clone(), &display, &facts)?;
+    let Subject { scene, facts, look, display, frames, remade } = match &args.tape {
+        Some(tape) => of_tape(args, tape)?,
+        None => of_scene(args)?,
+    };
     let saved = args.save_scene.as_deref().map(|path| scene.saved(&args.scene, path)).transpose()?;
     let job = Job {
         frames,
+        remade,
         pace: args.live.pace(),
         debug: args.debug_view.map(Into::into),
         eyes: args.eyes.iter().map(|&eye| Eye::before(&display, eye)).collect::<Result<_, _>>()?,
@@ -48,7 +58,9 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
     let wiring = backends.wiring.clone();
     wiring.warning().iter().for_each(|warning| warn(warning));
     let options = args.drawing.options(traces);
-    let mut drawing = backends.start(&options, &job.scene.volume_ref(), &job.display)?;
+    let first = job.remade.values().next().and_then(|frame| frame.volume.clone());
+    let volume = first.unwrap_or_else(|| job.scene.volume_ref());
+    let mut drawing = backends.start(&options, &volume, &job.display)?;
     let mut progress = Progress::new(!args.quiet && !args.json);
     let drawn = job.run(drawing.source.as_mut(), &mut progress);
     let drawn = drawing.finish(drawn);
@@ -60,6 +72,55 @@ pub(super) fn simulate(args: &SimulateArgs) -> Result<(), FrontendError> {
         tell_look(look.as_ref())?;
     }
     tell(args, &report)
+}
+
+/// What is drawn.
+struct Subject {
+    scene: Scene,
+    facts: VolumeFacts,
+    look: Option<LookChoice>,
+    display: Display,
+    frames: Range<u32>,
+    remade: BTreeMap<u32, FrameState>,
+}
+
+/// The scene as it is.
+fn of_scene(args: &SimulateArgs) -> Result<Subject, FrontendError> {
+    let mut scene = Scene::load(&args.scene)?;
+    scene.quality = args.quality.map_or(scene.quality, |preset| preset.quality());
+    let display = adapter::load_display(args.display.as_deref().unwrap_or(DEFAULT_DISPLAY))?;
+    ask_for_look(&mut scene, args.look);
+    let (facts, look) = adapter::meet_volume(&mut scene)?;
+    let frames = frames(args, &scene)?;
+    scene.check_frames(frames.clone(), &display, &facts)?;
+    Ok(Subject { scene, facts, look, display, frames, remade: BTreeMap::new() })
+}
+
+/// What was made of a scene, or of an exhibit, when a tape was recorded.
+fn of_tape(args: &SimulateArgs, tape: &Path) -> Result<Subject, FrontendError> {
+    let display = args.display.as_deref().map(adapter::load_display).transpose()?;
+    let (mut theatre, look) = if adapter::is_exhibit(&args.scene) {
+        let opened = Exhibit::load(Path::new(&args.scene))
+            .and_then(|exhibit| Ok((adapter::open_exhibit(&exhibit)?, exhibit)));
+        let ((ensemble, own), exhibit) = opened.map_err(|faults| FrontendError::Exhibit(lines(&faults)))?;
+        let theatre = Theatre::new(ensemble, display.unwrap_or(own), Pace::Complete);
+        (theatre.with_marks(marks(&exhibit)), None)
+    } else {
+        let Subject { scene, facts, look, display, .. } =
+            of_scene(&SimulateArgs { frames: None, ..args.clone() })?;
+        let looks = adapter::looks_of(&scene, look.as_ref())?;
+        let is_tracked = Taped::open(tape, true)?.has_inputs();
+        let piece = Piece::new(scene, facts, &looks);
+        (Theatre::of_one(piece, cast(is_tracked), display, Pace::Complete), look)
+    };
+    theatre = theatre.with_sub_frames(false);
+    let Remade { frames: remade, news } = remake(tape, args.frames, &mut theatre)?;
+    news.iter().for_each(|news| warn(news));
+    let ends = remade.keys().next().zip(remade.keys().next_back());
+    let frames = ends.map_or(0..0, |(&first, &last)| first..last + 1);
+    let (scene, facts, display) =
+        (theatre.scene().clone(), theatre.facts().clone(), theatre.display().clone());
+    Ok(Subject { scene, facts, look, display, frames, remade })
 }
 
 fn frames(args: &SimulateArgs, scene: &Scene) -> Result<Range<u32>, FrontendError> {

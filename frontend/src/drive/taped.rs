@@ -2,9 +2,9 @@
 
 use super::{Input, Request};
 use crate::FrontendError;
-use crate::staging::check_number;
+use crate::staging::{Theatre, check_number};
 use protocol::FrameState;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 use std::time::Duration;
 use tape::{Frame, Head, Record, Tape};
@@ -46,9 +46,9 @@ impl Taped {
         Ok(Self { head, frames, by_frame, began: None, expected: None, different: 0, news })
     }
 
-    /// What the tape says of itself.
-    pub fn head(&self) -> &Head {
-        &self.head
+    /// Whether it was recorded with trackers or controllers.
+    pub fn has_inputs(&self) -> bool {
+        !self.head.sources.is_empty()
     }
 
     /// Tells which files are not what they were when it was recorded.
@@ -59,6 +59,49 @@ impl Taped {
             }
         }
     }
+}
+
+/// Frames of a tape, made again.
+pub struct Remade {
+    /// By their place on the tape.
+    pub frames: BTreeMap<u32, FrameState>,
+    /// What is to be said of them.
+    pub news: Vec<String>,
+}
+
+/// Makes frames of a tape again, those of a range, or the last one: all that happened before them happens in a theatre.
+///
+/// # Errors
+/// It is no tape, has no such frames, or the theatre cannot make them.
+pub fn remake(
+    path: &Path,
+    range: Option<(u32, u32)>,
+    theatre: &mut Theatre,
+) -> Result<Remade, FrontendError> {
+    let mut tape = Taped::open(path, true)?;
+    tape.compare_files();
+    let count = tape.frames.len().try_into().unwrap_or(u32::MAX);
+    let (first, end) = range.unwrap_or((count.saturating_sub(1), count));
+    if end > count || first >= end {
+        return Err(FrontendError::Frames { first, end, count });
+    }
+    let mut frames = BTreeMap::new();
+    for place in 0..end {
+        let (mut requests, moment) = (Vec::new(), tape.moment());
+        let Some(moment) = moment else { break };
+        tape.poll(moment, &mut requests);
+        for request in requests {
+            if let Request::Deed(deed) = request {
+                theatre.apply(&deed);
+            }
+        }
+        let frame = theatre.frame(place, moment)?;
+        tape.made(&frame);
+        if place >= first {
+            frames.insert(place, frame);
+        }
+    }
+    Ok(Remade { frames, news: tape.news() })
 }
 
 impl Input for Taped {

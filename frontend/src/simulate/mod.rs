@@ -17,6 +17,7 @@ use earlier::remove_earlier_run;
 use optics::DebugView;
 use protocol::{Draw, FrameState, Pace};
 use renderer::output::can_write_into;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -31,6 +32,8 @@ pub struct Job {
     pub display: Display,
     /// Which frames of the scene. Each is made when it is drawn, since a long run of them takes much memory.
     pub frames: Range<u32>,
+    /// Those of them that are not as the scene has them, by their numbers: what visitors made of it.
+    pub remade: BTreeMap<u32, FrameState>,
     /// How they get their detail.
     pub pace: Pace,
     /// What they show of the working set instead of the pictures.
@@ -74,7 +77,10 @@ impl Job {
     }
 
     fn frame(&self, index: u32) -> Result<FrameState, FrontendError> {
-        let frame = self.scene.frame(index, &self.display, &self.facts)?;
+        let frame = match self.remade.get(&index) {
+            Some(frame) => frame.clone(),
+            None => self.scene.frame(index, &self.display, &self.facts)?,
+        };
         Ok(FrameState { pace: self.pace, debug: self.debug, ..frame })
     }
 

@@ -137,6 +137,7 @@ fn job(out: &Path, projectors: u32, frames: u32, weights: impl Fn(usize) -> f64 
         facts: facts(),
         display,
         frames: 0..frames,
+        remade: Default::default(),
         pace: Pace::Complete,
         debug: None,
         eyes: vec![Eye { position_m: DVec3::new(2.0, 0.0, 3.0), plan, warning }],
@@ -340,7 +341,7 @@ fn calibrated_codes_lie_beside_the_pictures_and_change_nothing_else() {
         job.run(&mut source(4), &mut Progress::new(false)).unwrap();
         let path = folder.path().join("frame-0000");
         let read = |name: String| (name.clone(), std::fs::read(path.join(name)).unwrap());
-        files(&path).into_iter().map(read).collect::<std::collections::BTreeMap<_, _>>()
+        files(&path).into_iter().map(read).collect::<BTreeMap<_, _>>()
     });
     let (codes, others): (Vec<_>, Vec<_>) =
         calibrated.into_iter().partition(|(name, _)| name.starts_with("calibrated-"));

@@ -3,7 +3,7 @@
 use super::carried::{carried, held, light};
 use super::marks::{Artist, MarkChoice};
 use super::piece::Piece;
-use crate::scene::{CLIP_CONTEXT, Handled, HeldTool, LookName, SceneError};
+use crate::scene::{CLIP_CONTEXT, Handled, HeldTool, LookName, Scene, SceneError, VolumeFacts};
 use display_config::Display;
 use glam::DVec3;
 use optics::{ClipPlane, Enhancer, MOST_ENHANCERS};
@@ -106,6 +106,16 @@ impl Theatre {
     /// What visitors read of it.
     pub fn title(&self) -> &str {
         self.world.title()
+    }
+
+    /// The scene that is shown, in its look.
+    pub fn scene(&self) -> &Scene {
+        self.piece().scene(self.world.stage().look)
+    }
+
+    /// What its volume is.
+    pub fn facts(&self) -> &VolumeFacts {
+        self.piece().facts()
     }
 
     /// Its volume.
