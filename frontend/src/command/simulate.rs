@@ -118,8 +118,7 @@ fn of_tape(args: &SimulateArgs, tape: &Path) -> Result<Subject, FrontendError> {
     news.iter().for_each(|news| warn(news));
     let ends = remade.keys().next().zip(remade.keys().next_back());
     let frames = ends.map_or(0..0, |(&first, &last)| first..last + 1);
-    let (scene, facts, display) =
-        (theatre.scene().clone(), theatre.facts().clone(), theatre.display().clone());
+    let (scene, facts, display) = (theatre.scene().clone(), *theatre.facts(), theatre.display().clone());
     Ok(Subject { scene, facts, look, display, frames, remade })
 }
 
