@@ -46,6 +46,7 @@ to_m = [3.6, 0.0, -6.0]
 width_px = 480
 height_px = 270
 covers = 'screen'
+backends = 1
 ";
 
 /// The head under a veil of skin that hides most of the bone.
