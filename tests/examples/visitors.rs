@@ -99,14 +99,16 @@ struct Cast(Vec<Visitor>);
 struct Visitor(&'static str, &'static str, &'static str, [f64; 3], [f64; 2]);
 
 impl Cast {
-    /// Writes an exhibit of the head with these, and its files.
+    /// Writes an exhibit of the head with these on a tiny display, which suffices for a tape, and its files.
     fn write(&self, folder: &Path, head: &Path) -> Result<String, String> {
         let put =
             |name: &str, text: String| fs::write(folder.join(name), text).map_err(|error| error.to_string());
         put("display.toml", DISPLAY.to_owned())?;
+        let tiny = DISPLAY.replace("count = 72", "count = 2").replace("width_px = 480", "width_px = 16");
+        put("tiny.toml", tiny.replace("height_px = 270", "height_px = 9"))?;
         put("head.toml", format!("name = 'Head'\n[volume]\nsource = '{}'\n{HEAD}", head.display()))?;
         let (mut exhibit, mut inputs) = (
-            "title = 'Head'\ndisplay = 'display.toml'\ninputs = 'wands.toml'\n[[item]]\ntitle = 'A head in computed tomography'\nscene = 'head.toml'\n".to_owned(),
+            "title = 'Head'\ndisplay = 'tiny.toml'\ninputs = 'wands.toml'\n[[item]]\ntitle = 'A head in computed tomography'\nscene = 'head.toml'\n".to_owned(),
             String::new(),
         );
         for &Visitor(name, colour, kind, tip, turn) in &self.0 {
@@ -126,11 +128,22 @@ impl Cast {
         let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
         let exhibit = self.write(folder.path(), head)?;
         let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-        let (tape, out) = (path("day.mcap"), path("out"));
+        let (tape, out, display) = (path("day.mcap"), path("out"), path("display.toml"));
         let show = ["exhibit", &exhibit, "--output", "none", "--stepped", "--rate", "10", "--frames", "8"];
         succeed(&[&show[..], &["--record", &tape, "--quiet", "--device", "cpu"]].concat())?;
-        let mut draw =
-            vec!["simulate", &exhibit, "--tape", &tape, "--out", &out, "--quiet", "--device", "cpu"];
+        let mut draw = vec![
+            "simulate",
+            &exhibit,
+            "--display",
+            &display,
+            "--tape",
+            &tape,
+            "--out",
+            &out,
+            "--quiet",
+            "--device",
+            "cpu",
+        ];
         draw.extend(EYES.iter().flat_map(|(_, at)| ["--eye", at]));
         succeed(&draw)?;
         let eye = |number: usize| {

@@ -7,7 +7,9 @@ use lightloom_tests::draw::{self, Drawn, With};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES, band_picker, clip_plane, layer_opacity, probe};
 use lightloom_tests::twin_scene::{TwinScene, view};
-use optics::{BandPicker, ClipPlane, Curve, Enhancer, LayerOpacity, Mimda, MimdaForm, Probe, Ramp};
+use optics::{
+    BandPicker, ClipPlane, Curve, Enhancer, LayerOpacity, MOST_ENHANCERS, Mimda, MimdaForm, Probe, Ramp,
+};
 use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
 use std::sync::Arc;
 use twin::Real;
@@ -295,5 +297,54 @@ fn order_matters_exactly_where_the_reference_says_so() {
             println!("{name}: a device    {errors}");
             assert_eq!(!SAME_TO_ROUNDING.hold(&errors), matters, "{name}: {errors}");
         }
+    }
+}
+
+/// Three visitors with two tools each, beside the scene's own two: as many links as a chain may have, each of which acts.
+#[test]
+fn the_longest_chain_tells_the_same_picture() {
+    let _turn = draw::turn();
+    let display = test_display();
+    let base = techniques::with(&techniques::bumps(&display), TECHNIQUES[10].0);
+    let at = |x: f64, y: f64| {
+        let centre_in_display = DVec3::new(x, y, 0.06);
+        Enhancer::Probe(Probe { centre_in_display, radius_m: 0.05, ..probe() })
+    };
+    let cut = |normal: DVec3, point_in_display: DVec3| {
+        let normal_in_display = normal.normalize();
+        Enhancer::ClipPlane(ClipPlane { point_in_display, normal_in_display, ..clip_plane() })
+    };
+    let chain = vec![
+        cut(DVec3::new(0.3, 0.2, 1.0), DVec3::new(0.0, 0.0, 0.05)),
+        cut(DVec3::new(1.0, 0.0, 0.4), DVec3::new(0.07, 0.0, 0.0)),
+        Enhancer::BandPicker(band_picker([0.35, 0.4, 0.5, 0.7])),
+        Enhancer::LayerOpacity(layer_opacity([0.3, 0.4, 0.6, 0.8])),
+        at(-0.05, 0.0),
+        at(0.03, 0.03),
+        at(0.0, -0.05),
+        at(-0.03, 0.06),
+    ];
+    assert_eq!(chain.len(), MOST_ENHANCERS);
+    let told = |chain: &[Enhancer]| {
+        let mut scene = TestScene { name: "eight links", ..base.clone() };
+        scene.frame.optics.enhancers = chain.to_vec();
+        scene
+    };
+    let scene = told(&chain);
+    let truth = compare::traced(&display, &scene.frame, &scene.source, &PROJECTORS, 4);
+    let pictures: Vec<_> = draw::devices().into_iter().map(|d| draw_on(&display, &scene, d)).collect();
+    for picture in &pictures {
+        let errors = compare::errors(&picture.images, &truth);
+        println!("eight links: {errors}");
+        assert!(KEPT_IN_A_PROBE.hold(&errors), "{errors}");
+        assert!(SAME_TO_ROUNDING.hold(&errors_between(&picture.images, &pictures[0].images)));
+    }
+    for left in 0..chain.len() {
+        let mut chain = chain.clone();
+        chain.remove(left);
+        let without = draw_on(&display, &told(&chain), DeviceChoice::Cpu);
+        let errors = errors_between(&without.images, &pictures[0].images);
+        println!("without link {left}: {errors}");
+        assert!(!SAME_TO_ROUNDING.hold(&errors), "link {left} does nothing: {errors}");
     }
 }
