@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 /// Seconds of a show.
 const SECONDS: u64 = 120;
 /// Pixels of a picture on the page.
-const SIZE: [u32; 2] = [480, 270];
+const SIZE: [u32; 2] = [400, 225];
 /// In front of the display, and 20° aside of that.
 const EYES: [(&str, &str); 2] = [("holder", "0,0,3"), ("bystander", "1.026,0,2.819")];
 /// The tools of the page: what one can be, and what is said of it.
@@ -35,7 +35,7 @@ const DISPLAY: &str = "\
 name = 'holo72 in little'
 screen_width_m = 1.60
 screen_height_m = 0.90
-pixel_size_m = 0.0033
+pixel_size_m = 0.004
 angular_accuracy_deg = 0.8
 observer_m = [0.0, 0.0, 3.0]
 eta = 1.0
@@ -43,8 +43,8 @@ eta = 1.0
 count = 72
 from_m = [-3.6, 0.0, -6.0]
 to_m = [3.6, 0.0, -6.0]
-width_px = 480
-height_px = 270
+width_px = 400
+height_px = 225
 covers = 'screen'
 backends = 1
 ";
@@ -85,11 +85,10 @@ band = 'skin'
 ";
 
 /// A wand that is held still: its tip, metres, and its turn about the upright axis as sine and cosine of half of it.
-fn wand(name: &str, tip: [f64; 3], turn: [f64; 2]) -> String {
-    let [sin, cos] = turn;
-    format!(
-        "[[step]]\nat_s = 0.0\npose = {{ sensor = 0, position_m = {tip:?}, orientation = [0.0, {sin:?}, 0.0, {cos:?}] }}\n# {name}\n"
-    )
+fn wand(tip: [f64; 3], [sin, cos]: [f64; 2]) -> String {
+    let pose = format!("{{ sensor = 0, position_m = {tip:?}, orientation = [0.0, {sin:?}, 0.0, {cos:?}] }}");
+    let step = |at_s: &str| format!("[[step]]\nat_s = {at_s}\npose = {pose}\n");
+    format!("rate_hz = 60\nrepeat = true\n{}{}", step("0.0"), step("1.0"))
 }
 
 /// Visitors, each with a wand of one kind that is held still.
@@ -104,8 +103,8 @@ impl Cast {
         let put =
             |name: &str, text: String| fs::write(folder.join(name), text).map_err(|error| error.to_string());
         put("display.toml", DISPLAY.to_owned())?;
-        let tiny = DISPLAY.replace("count = 72", "count = 2").replace("width_px = 480", "width_px = 16");
-        put("tiny.toml", tiny.replace("height_px = 270", "height_px = 9"))?;
+        let tiny = DISPLAY.replace("count = 72", "count = 2").replace("width_px = 400", "width_px = 16");
+        put("tiny.toml", tiny.replace("height_px = 225", "height_px = 9"))?;
         put("head.toml", format!("name = 'Head'\n[volume]\nsource = '{}'\n{HEAD}", head.display()))?;
         let (mut exhibit, mut inputs) = (
             "title = 'Head'\ndisplay = 'tiny.toml'\ninputs = 'wands.toml'\n[[item]]\ntitle = 'A head in computed tomography'\nscene = 'head.toml'\n".to_owned(),
@@ -116,7 +115,7 @@ impl Cast {
                 "[[visitor]]\nname = '{name}'\ncolour = '{colour}'\n[[tool]]\nname = 'wand of {name}'\nvisitor = '{name}'\ninput = '{name}'\nkinds = ['{kind}']\n"
             );
             inputs += &format!("[[input]]\nname = '{name}'\nkind = 'script'\npath = '{name}.toml'\n");
-            put(&format!("{name}.toml"), wand(name, tip, turn))?;
+            put(&format!("{name}.toml"), wand(tip, turn))?;
         }
         put("wands.toml", inputs)?;
         put("exhibit.toml", exhibit)?;
@@ -129,7 +128,7 @@ impl Cast {
         let exhibit = self.write(folder.path(), head)?;
         let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
         let (tape, out, display) = (path("day.mcap"), path("out"), path("display.toml"));
-        let show = ["exhibit", &exhibit, "--output", "none", "--stepped", "--rate", "10", "--frames", "8"];
+        let show = ["exhibit", &exhibit, "--output", "none", "--stepped", "--rate", "10", "--frames", "30"];
         succeed(&[&show[..], &["--record", &tape, "--quiet", "--device", "cpu"]].concat())?;
         let mut draw = vec![
             "simulate",
@@ -147,7 +146,7 @@ impl Cast {
         draw.extend(EYES.iter().flat_map(|(_, at)| ["--eye", at]));
         succeed(&draw)?;
         let eye = |number: usize| {
-            let path = Path::new(&out).join(format!("frame-0007/eye-{number}.png"));
+            let path = Path::new(&out).join(format!("frame-0029/eye-{number}.png"));
             image::open(&path)
                 .map(|picture| picture.to_rgb8())
                 .map_err(|error| format!("{}: {error}", path.display()))
