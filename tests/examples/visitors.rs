@@ -234,7 +234,7 @@ fn show(seconds: u64) -> Result<(), String> {
             first = last.clone();
         }
     }
-    let ran = running.finish(Duration::from_secs(60));
+    let ran = running.finish(Duration::from_secs(seconds + 60));
     let report: Value =
         serde_json::from_str(&ran.stdout).map_err(|error| format!("{error}: {}", ran.stderr))?;
     let (Some(first), Some(last)) = (first, last) else {
