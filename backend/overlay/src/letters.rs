@@ -156,6 +156,18 @@ impl Font {
         buffer.shape_until_scroll(&mut self.system, false);
         buffer
     }
+
+    /// Characters of a text for which it has no letters.
+    fn unknown(&mut self, text: &str) -> Vec<char> {
+        let buffer = self.shape(text);
+        let missing =
+            buffer.layout_runs().flat_map(|run| run.glyphs.iter().filter(|glyph| glyph.glyph_id == 0));
+        let mut unknown: Vec<char> =
+            missing.filter_map(|glyph| text.get(glyph.start..)?.chars().next()).collect();
+        unknown.sort_unstable();
+        unknown.dedup();
+        unknown
+    }
 }
 
 /// Outlines of a glyph at a place.
@@ -180,16 +192,11 @@ fn contours(commands: &[Command], at: DVec2) -> Vec<(DVec2, Vec<Part>)> {
     out
 }
 
-/// Characters of a text that cannot be drawn: the font has no letters for them.
-pub fn unknown_characters(text: &str) -> Vec<char> {
+/// Texts that cannot be drawn whole, each with the characters for which the font has no letters.
+pub fn unknown_characters<'a>(texts: impl IntoIterator<Item = &'a str>) -> Vec<(&'a str, Vec<char>)> {
     let mut font = Font::new();
-    let buffer = font.shape(text);
-    let missing = buffer.layout_runs().flat_map(|run| run.glyphs.iter().filter(|glyph| glyph.glyph_id == 0));
-    let mut unknown: Vec<char> =
-        missing.filter_map(|glyph| text.get(glyph.start..)?.chars().next()).collect();
-    unknown.sort_unstable();
-    unknown.dedup();
-    unknown
+    let each = texts.into_iter().map(|text| (text, font.unknown(text)));
+    each.filter(|(_, unknown)| !unknown.is_empty()).collect()
 }
 
 #[cfg(test)]
@@ -216,7 +223,7 @@ mod tests {
 
     #[test]
     fn letters_that_the_font_lacks_are_named() {
-        assert!(unknown_characters("Grüße an Ωμέγα и Жук, 0–9").is_empty());
-        assert_eq!(unknown_characters("CT 断層 a"), ['層', '断']);
+        let texts = ["Grüße an Ωμέγα и Жук, 0–9", "CT 断層 a"];
+        assert_eq!(unknown_characters(texts), [("CT 断層 a", vec!['層', '断'])]);
     }
 }

@@ -1,11 +1,8 @@
 //! Flat surfaces as polygons of pixels.
 
 use crate::polygon::cut;
-use crate::view::{FLAT_PX, View};
+use crate::view::{FLAT_PX, MOST_HALVINGS, View};
 use glam::{DVec2, DVec3};
-
-/// An edge is halved this often at most.
-const MOST_HALVINGS: u32 = 12;
 
 /// The picture of a surface, with as many corners as bent edges need. None beyond the horizon of a calibration.
 pub(crate) fn polygon(corners: &[DVec3], view: &View) -> Option<Vec<DVec2>> {

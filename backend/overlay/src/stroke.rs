@@ -1,12 +1,9 @@
 //! Lines as polygons of pixels.
 
 use crate::polygon::{cut_line, hull};
-use crate::view::{FLAT_PX, View};
+use crate::view::{FLAT_PX, MOST_HALVINGS, View};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
-
-/// A line is halved this often at most: 4096 pieces.
-const MOST_HALVINGS: u32 = 12;
 
 /// Convex polygons, all turning one way, whose union is the picture of a stroke: the discs about the ends of each piece of it,
 /// and what lies between.
@@ -58,45 +55,8 @@ fn disc(centre: DVec3, radius_m: f64, view: &View) -> Option<Vec<DVec2>> {
     // An arc stands above its chord by r (1 − cos(π / n)).
     let corners = (TAU / 2.0 / (2.0 * FLAT_PX / radius_px.max(1.0)).sqrt()).ceil().clamp(8.0, 512.0);
     let corner = |i: u32| {
-        let (sin, cos) = sin_cos(f64::from(i) / corners);
+        let (sin, cos) = libm::sincos(f64::from(i) / corners * TAU);
         view.pixel(centre + radius_m * DVec3::new(cos, sin, 0.0))
     };
     (0..corners as u32).map(corner).collect()
-}
-
-/// Sine and cosine of a part of a full turn, by sums and products alone, so that they are the same on every machine.
-fn sin_cos(turns: f64) -> (f64, f64) {
-    // In quarter turns about the nearest multiple of one; series to the eighteenth power of at most π/4.
-    let quarters = (4.0 * turns).round();
-    let x = (turns - quarters / 4.0) * TAU;
-    let series = |first: f64, from: u32| {
-        let (mut term, mut sum) = (first, first);
-        for n in (from..from + 16).step_by(2) {
-            term *= -x * x / f64::from(n * (n + 1));
-            sum += term;
-        }
-        sum
-    };
-    let (sin, cos) = (series(x, 2), series(1.0, 1));
-    match quarters as i64 & 3 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sines_are_right() {
-        for i in 0..=1000 {
-            let turns = f64::from(i) / 1000.0;
-            let (sin, cos) = sin_cos(turns);
-            let (true_sin, true_cos) = (turns * TAU).sin_cos();
-            assert!((sin - true_sin).abs() < 1e-15 && (cos - true_cos).abs() < 1e-15, "{turns}");
-        }
-    }
 }

@@ -8,6 +8,8 @@ const MOST_MAGNIFIED: f64 = 20.0;
 
 /// The pieces of an edge may be off by this, pixels.
 pub(crate) const FLAT_PX: f64 = 0.05;
+/// An edge is halved this often at most: 4096 pieces.
+pub(crate) const MOST_HALVINGS: u32 = 12;
 
 /// Where points of the display frame land in the picture of a projector.
 #[derive(Clone, Debug)]

@@ -44,6 +44,11 @@ pub struct MarkWish {
     pub captions: bool,
 }
 
+impl MarkWish {
+    /// Nothing is.
+    pub const NONE: Self = Self { tools: false, names: false, captions: false };
+}
+
 /// An item of the programme.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ItemWish {

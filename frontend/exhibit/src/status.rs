@@ -1,5 +1,6 @@
 //! How an exhibit goes, in a file that is always whole.
 
+use crate::log::time_text;
 use serde::Serialize;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -59,6 +60,30 @@ pub struct Status {
     pub troubles: Vec<String>,
 }
 
+impl Status {
+    /// That of an exhibit of this process which starts now.
+    pub fn starting(title: &str, version: &str, now: SystemTime) -> Self {
+        let now = time_text(now);
+        Self {
+            state: State::Starting,
+            written: now.clone(),
+            began: now,
+            process: std::process::id(),
+            version: version.to_owned(),
+            title: title.to_owned(),
+            item: String::new(),
+            frames: 0,
+            late: 0,
+            lost: 0,
+            inputs: Vec::new(),
+            memory_mb: None,
+            open_files: None,
+            disk_mb: None,
+            troubles: Vec::new(),
+        }
+    }
+}
+
 /// What is known of a source.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct InputStatus {
@@ -108,23 +133,7 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
 
     fn status(frames: u64) -> Status {
-        Status {
-            state: State::Open,
-            written: String::new(),
-            began: String::new(),
-            process: 1,
-            version: String::new(),
-            title: "x".repeat(20_000),
-            item: String::new(),
-            frames,
-            late: 0,
-            lost: 0,
-            inputs: Vec::new(),
-            memory_mb: None,
-            open_files: None,
-            disk_mb: None,
-            troubles: Vec::new(),
-        }
+        Status { frames, ..Status::starting(&"x".repeat(20_000), "", SystemTime::UNIX_EPOCH) }
     }
 
     #[test]

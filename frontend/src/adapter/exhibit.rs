@@ -69,16 +69,13 @@ impl Opening<'_> {
         if exhibit.marks.names {
             texts.extend(exhibit.cast.visitors.iter().map(|visitor| visitor.name.as_str()));
         }
-        for text in texts {
-            let unknown = unknown_characters(text);
-            if !unknown.is_empty() {
-                let unknown: String = unknown.into_iter().take(8).collect();
-                let text = brief_text(text).into_owned();
-                self.wrong(None, format!(
+        for (text, unknown) in unknown_characters(texts) {
+            let unknown: String = unknown.into_iter().take(8).collect();
+            let text = brief_text(text).into_owned();
+            self.wrong(None, format!(
                     "{text} cannot be written over the volume: there are no letters for \"{unknown}\"; use Latin, Greek or \
                      Cyrillic ones, or leave it out with `names = false` or `captions = false` under [marks]"
                 ));
-            }
         }
     }
 

@@ -7,25 +7,23 @@ use crate::FrontendError;
 use crate::adapter;
 use crate::cli::{ExhibitArgs, ReconstructArg};
 use crate::drive::{Bulletin, Recorder};
-use crate::staging::{MarkChoice, Theatre};
-use ::exhibit::{Exhibit, Fault, MarkWish, State, TapeWish};
-use std::path::PathBuf;
+use crate::staging::{Ensemble, Theatre};
+use ::exhibit::{Exhibit, Fault, State, TapeWish};
+use display_config::Display;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 use tape::Limits;
 
 /// Runs an exhibit. All that can be wrong with it is found before any back-end starts.
 pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
-    let opened = Exhibit::load(&args.file).and_then(|exhibit| {
-        let (ensemble, display) = adapter::open_exhibit(&exhibit)?;
-        Ok((exhibit, ensemble, display))
-    });
+    let opened = load(&args.file);
     if args.check {
         return tell_faults(opened.err().unwrap_or_default(), args.show.json);
     }
-    let (exhibit, ensemble, display) = opened.map_err(|faults| FrontendError::Exhibit(lines(&faults)))?;
+    let (exhibit, ensemble, display) = opened.map_err(refused)?;
     check(&args.show)?;
     let theatre = Theatre::new(ensemble, display, pace(&args.show))
-        .with_marks(marks(&exhibit))
+        .with_marks(exhibit.marks)
         .with_sub_frames(args.show.reconstruct == ReconstructArg::Quincunx);
     let taped = taped(&args.show)?;
     let scenes = exhibit.items.iter().map(|item| PathBuf::from(&item.scene));
@@ -56,12 +54,6 @@ pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
     shown
 }
 
-/// What is drawn over the volume.
-pub(super) fn marks(exhibit: &Exhibit) -> MarkChoice {
-    let MarkWish { tools, names, captions } = exhibit.marks;
-    MarkChoice { tools, names, captions }
-}
-
 /// The tape of a show that begins now: named by the time.
 fn tape_of_today(wish: &TapeWish) -> Result<(PathBuf, Limits), FrontendError> {
     let name = ::exhibit::time_text(SystemTime::now()).replace(':', "-");
@@ -70,8 +62,20 @@ fn tape_of_today(wish: &TapeWish) -> Result<(PathBuf, Limits), FrontendError> {
     Ok((wish.folder.join(format!("{name}.mcap")), limits))
 }
 
+/// An exhibit with all that it names.
+pub(super) fn load(file: &Path) -> Result<(Exhibit, Ensemble, Display), Vec<Fault>> {
+    let exhibit = Exhibit::load(file)?;
+    let (ensemble, display) = adapter::open_exhibit(&exhibit)?;
+    Ok((exhibit, ensemble, display))
+}
+
+/// It cannot be shown.
+pub(super) fn refused(faults: Vec<Fault>) -> FrontendError {
+    FrontendError::Exhibit(lines(&faults))
+}
+
 /// All of them, a line each.
-pub(super) fn lines(faults: &[Fault]) -> String {
+fn lines(faults: &[Fault]) -> String {
     faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
 }
 

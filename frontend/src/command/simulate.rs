@@ -1,19 +1,18 @@
 //! `lightloom simulate`.
 
 use super::drive::cast;
-use super::exhibit::{lines, marks};
+use super::exhibit::{load, refused};
 use super::look::{ask_for_look, tell_look};
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter::{self, Backends, TraceFolder};
 use crate::cli::SimulateArgs;
-use crate::drive::{Remade, Taped, remake};
+use crate::drive::{Remade, Taped};
 use crate::progress::Progress;
 use crate::report::{self, BackendSummary, Report, units};
 use crate::scene::{LookChoice, Scene, VolumeFacts};
 use crate::simulate::{Eye, Job};
 use crate::staging::{Piece, Theatre};
-use ::exhibit::Exhibit;
 use display_config::Display;
 use protocol::{FrameState, Pace};
 use std::collections::BTreeMap;
@@ -99,22 +98,20 @@ fn of_scene(args: &SimulateArgs) -> Result<Subject, FrontendError> {
 /// What was made of a scene, or of an exhibit, when a tape was recorded.
 fn of_tape(args: &SimulateArgs, tape: &Path) -> Result<Subject, FrontendError> {
     let display = args.display.as_deref().map(adapter::load_display).transpose()?;
+    let tape = Taped::open(tape, true)?;
     let (mut theatre, look) = if adapter::is_exhibit(&args.scene) {
-        let opened = Exhibit::load(Path::new(&args.scene))
-            .and_then(|exhibit| Ok((adapter::open_exhibit(&exhibit)?, exhibit)));
-        let ((ensemble, own), exhibit) = opened.map_err(|faults| FrontendError::Exhibit(lines(&faults)))?;
+        let (exhibit, ensemble, own) = load(Path::new(&args.scene)).map_err(refused)?;
         let theatre = Theatre::new(ensemble, display.unwrap_or(own), Pace::Complete);
-        (theatre.with_marks(marks(&exhibit)), None)
+        (theatre.with_marks(exhibit.marks), None)
     } else {
         let Subject { scene, facts, look, display, .. } =
             of_scene(&SimulateArgs { frames: None, ..args.clone() })?;
         let looks = adapter::looks_of(&scene, look.as_ref())?;
-        let is_tracked = Taped::open(tape, true)?.has_inputs();
         let piece = Piece::new(scene, facts, &looks);
-        (Theatre::of_one(piece, cast(is_tracked), display, Pace::Complete), look)
+        (Theatre::of_one(piece, cast(tape.has_inputs()), display, Pace::Complete), look)
     };
     theatre = theatre.with_sub_frames(false);
-    let Remade { frames: remade, news } = remake(tape, args.frames, &mut theatre)?;
+    let Remade { frames: remade, news } = tape.remake(args.frames, &mut theatre)?;
     news.iter().for_each(|news| warn(news));
     let ends = remade.keys().next().zip(remade.keys().next_back());
     let frames = ends.map_or(0..0, |(&first, &last)| first..last + 1);

@@ -43,28 +43,10 @@ impl Bulletin {
             Log::open(path, LogLimits::default())
                 .map_err(|source| OutputError::Write { path: path.to_owned(), source })
         });
-        let now = time_text(SystemTime::now());
-        let status_now = Status {
-            state: State::Starting,
-            written: now.clone(),
-            began: now,
-            process: std::process::id(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            title: title.to_owned(),
-            item: String::new(),
-            frames: 0,
-            late: 0,
-            lost: 0,
-            inputs: Vec::new(),
-            memory_mb: None,
-            open_files: None,
-            disk_mb: None,
-            troubles: Vec::new(),
-        };
         Ok(Self {
             log: opened.transpose()?,
             file: status.map(StatusFile::new),
-            status: status_now,
+            status: Status::starting(title, env!("CARGO_PKG_VERSION"), SystemTime::now()),
             disk,
             troubles: VecDeque::new(),
             item: None,

@@ -40,6 +40,6 @@ pub use run::{Desk, End, Plan, Played, run};
 pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
-pub use taped::{Remade, Taped, remake};
+pub use taped::{Remade, Taped};
 pub use tracked::{Tracked, one_hand};
 pub use trial::Trial;

@@ -51,6 +51,40 @@ impl Taped {
         !self.head.sources.is_empty()
     }
 
+    /// Makes frames of a tape again, those of a range, or the last one: all that happened before them happens in a theatre.
+    ///
+    /// # Errors
+    /// It has no such frames, or the theatre cannot make them.
+    pub fn remake(
+        mut self,
+        range: Option<(u32, u32)>,
+        theatre: &mut Theatre,
+    ) -> Result<Remade, FrontendError> {
+        self.compare_files();
+        let count = self.frames.len().try_into().unwrap_or(u32::MAX);
+        let (first, end) = range.unwrap_or((count.saturating_sub(1), count));
+        if end > count || first >= end {
+            return Err(FrontendError::Frames { first, end, count });
+        }
+        let mut frames = BTreeMap::new();
+        for place in 0..end {
+            let (mut requests, moment) = (Vec::new(), self.moment());
+            let Some(moment) = moment else { break };
+            self.poll(moment, &mut requests);
+            for request in requests {
+                if let Request::Deed(deed) = request {
+                    theatre.apply(&deed);
+                }
+            }
+            let frame = theatre.frame(place, moment)?;
+            self.made(&frame);
+            if place >= first {
+                frames.insert(place, frame);
+            }
+        }
+        Ok(Remade { frames, news: self.news() })
+    }
+
     /// Tells which files are not what they were when it was recorded.
     pub fn compare_files(&mut self) {
         for file in &self.head.files {
@@ -67,41 +101,6 @@ pub struct Remade {
     pub frames: BTreeMap<u32, FrameState>,
     /// What is to be said of them.
     pub news: Vec<String>,
-}
-
-/// Makes frames of a tape again, those of a range, or the last one: all that happened before them happens in a theatre.
-///
-/// # Errors
-/// It is no tape, has no such frames, or the theatre cannot make them.
-pub fn remake(
-    path: &Path,
-    range: Option<(u32, u32)>,
-    theatre: &mut Theatre,
-) -> Result<Remade, FrontendError> {
-    let mut tape = Taped::open(path, true)?;
-    tape.compare_files();
-    let count = tape.frames.len().try_into().unwrap_or(u32::MAX);
-    let (first, end) = range.unwrap_or((count.saturating_sub(1), count));
-    if end > count || first >= end {
-        return Err(FrontendError::Frames { first, end, count });
-    }
-    let mut frames = BTreeMap::new();
-    for place in 0..end {
-        let (mut requests, moment) = (Vec::new(), tape.moment());
-        let Some(moment) = moment else { break };
-        tape.poll(moment, &mut requests);
-        for request in requests {
-            if let Request::Deed(deed) = request {
-                theatre.apply(&deed);
-            }
-        }
-        let frame = theatre.frame(place, moment)?;
-        tape.made(&frame);
-        if place >= first {
-            frames.insert(place, frame);
-        }
-    }
-    Ok(Remade { frames, news: tape.news() })
 }
 
 impl Input for Taped {

@@ -2,6 +2,7 @@
 
 use super::carried::held;
 use display_config::Display;
+use exhibit::MarkWish;
 use glam::{DQuat, DVec3};
 use optics::Enhancer;
 use protocol::{Mark, MarkShape, Paint};
@@ -24,25 +25,9 @@ const BACKING: Paint = Paint { rgb: [0.0; 3], opacity: 0.6 };
 /// What is written of nobody.
 const WHITE: [f32; 3] = [0.9; 3];
 
-/// What is drawn over the volume.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MarkChoice {
-    /// Tools, where they are.
-    pub tools: bool,
-    /// Beside them, whose they are and what, and what their holders could not have.
-    pub names: bool,
-    /// Below the volume, what is shown.
-    pub captions: bool,
-}
-
-impl MarkChoice {
-    /// Nothing.
-    pub const NONE: Self = Self { tools: false, names: false, captions: false };
-}
-
 /// Draws a stage.
 pub(super) struct Artist<'a> {
-    pub choice: MarkChoice,
+    pub wish: MarkWish,
     pub display: &'a Display,
     pub cast: &'a Cast,
     pub stage: &'a Stage,
@@ -55,16 +40,16 @@ impl Artist<'_> {
     /// The marks of a frame, the nearest last.
     pub(super) fn marks(&self) -> Vec<Mark> {
         let mut marks = Vec::new();
-        if self.choice.captions && !self.caption.trim().is_empty() {
+        if self.wish.captions && !self.caption.trim().is_empty() {
             marks.push(self.caption());
         }
         let mut tools: Vec<_> = self.stage.tools.iter().collect();
         tools.sort_by(|a, b| a.tip_m.z.total_cmp(&b.tip_m.z));
         for tool in tools {
-            if self.choice.tools {
+            if self.wish.tools {
                 self.tool(tool, &mut marks);
             }
-            if self.choice.names {
+            if self.wish.names {
                 self.names(tool, &mut marks);
             }
         }
@@ -96,15 +81,11 @@ impl Artist<'_> {
     }
 
     fn paint(&self, tool: &ShownTool, opacity: f64) -> Paint {
-        let visitor = &self.cast.visitors[usize::from(self.holder(tool).0)];
+        let visitor = self.cast.visitor(self.cast.holder(tool.tool));
         Paint {
             rgb: visitor.colour.map(|part| part.clamp(0.0, 1.0) as f32),
             opacity: (tool.presence * opacity).clamp(0.0, 1.0) as f32,
         }
-    }
-
-    fn holder(&self, tool: &ShownTool) -> VisitorId {
-        self.cast.tools[usize::from(tool.tool.0)].holder
     }
 
     /// Its body, and a sign of what it does.
@@ -157,8 +138,8 @@ impl Artist<'_> {
 
     /// Whose it is, and what; and what its holder is told.
     fn names(&self, tool: &ShownTool, marks: &mut Vec<Mark>) {
-        let holder = self.holder(tool);
-        let name = |visitor: VisitorId| self.cast.visitors[usize::from(visitor.0)].name.as_str();
+        let holder = self.cast.holder(tool.tool);
+        let name = |visitor: VisitorId| self.cast.visitor(visitor).name.as_str();
         let mut lines = vec![format!("{}: {}", name(holder), kind_name(tool.kind))];
         lines.extend(self.stage.refusals.iter().filter_map(|refusal| match *refusal {
             Refusal::Held { wanted_by, held_by } => {

@@ -16,6 +16,5 @@ mod theatre;
 
 pub use carried::{carries, needs_band};
 pub use check_number::check_number;
-pub use marks::MarkChoice;
 pub use piece::{Looks, Piece};
 pub use theatre::{Ensemble, Theatre};

@@ -1,10 +1,11 @@
 //! A world with its pieces: things that happen in, frames out.
 
 use super::carried::{carried, held, light};
-use super::marks::{Artist, MarkChoice};
+use super::marks::Artist;
 use super::piece::Piece;
 use crate::scene::{CLIP_CONTEXT, Handled, HeldTool, LookName, Scene, SceneError, VolumeFacts};
 use display_config::Display;
+use exhibit::MarkWish;
 use glam::DVec3;
 use optics::{ClipPlane, Enhancer, MOST_ENHANCERS};
 use protocol::{FrameState, Pace, SubFrame, VolumeRef};
@@ -36,7 +37,7 @@ pub struct Theatre {
     display: Display,
     pace: Pace,
     has_sub_frames: bool,
-    marks: MarkChoice,
+    marks: MarkWish,
     /// Whether the first tool holds that of the scene.
     lends_tool: bool,
     /// Where that is, once anybody has ever held it.
@@ -57,7 +58,7 @@ impl Theatre {
             display,
             pace,
             has_sub_frames: true,
-            marks: MarkChoice::NONE,
+            marks: MarkWish::NONE,
             lends_tool: false,
             lent: None,
             seen_at: Duration::ZERO,
@@ -80,7 +81,7 @@ impl Theatre {
 
     /// This is drawn over its frames, which without it are the volume alone.
     #[must_use]
-    pub fn with_marks(self, marks: MarkChoice) -> Self {
+    pub fn with_marks(self, marks: MarkWish) -> Self {
         Self { marks, ..self }
     }
 
@@ -168,7 +169,7 @@ impl Theatre {
         let room = room - handled.carried.len();
         handled.carried.extend(carried(stage, piece, room));
         let artist = Artist {
-            choice: self.marks,
+            wish: self.marks,
             display: &self.display,
             cast: self.world.cast(),
             stage,

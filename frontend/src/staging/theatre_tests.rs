@@ -198,7 +198,7 @@ fn tools_are_drawn_where_they_are_and_names_say_whose() {
     let item = piece.item(Vec::new(), None);
     let kinds = [ToolKind::Pointer, ToolKind::ClipPlane];
     let ensemble = Ensemble { cast: cast_of(&kinds), rules: Rules::default(), pieces: vec![(piece, item)] };
-    let all = MarkChoice { tools: true, names: true, captions: true };
+    let all = MarkWish { tools: true, names: true, captions: true };
     let bare = Theatre::new(ensemble, Display::load("desk8").unwrap(), PACE);
     let mut theatre = bare.clone().with_marks(all);
     assert_eq!(written(&seen(&mut theatre, 0)), ["Shells"]);

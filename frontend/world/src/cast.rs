@@ -21,6 +21,18 @@ pub struct Cast {
     pub tools: Vec<Tool>,
 }
 
+impl Cast {
+    /// Whose tool it is.
+    pub fn holder(&self, tool: ToolId) -> VisitorId {
+        self.tools[usize::from(tool.0)].holder
+    }
+
+    /// Who that is.
+    pub fn visitor(&self, visitor: VisitorId) -> &Visitor {
+        &self.visitors[usize::from(visitor.0)]
+    }
+}
+
 /// Somebody with tools in their hands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visitor {

@@ -67,7 +67,7 @@ impl World {
     }
 
     fn press(&mut self, tool: ToolId, action: Action) {
-        let visitor = self.holder_of(tool);
+        let visitor = self.cast.holder(tool);
         match action {
             Action::Grab => self.grab(tool),
             Action::Window => self.hold_window(tool),

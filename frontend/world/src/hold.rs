@@ -27,7 +27,7 @@ impl World {
 
     /// A tool wants to hold the volume.
     pub(crate) fn grab(&mut self, tool: ToolId) {
-        let visitor = self.holder_of(tool);
+        let visitor = self.cast.holder(tool);
         let Some(hand) = self.hand_of(tool) else { return };
         match &self.holding {
             Some(holding) if holding.visitor != visitor => {
@@ -105,7 +105,7 @@ impl World {
 
     /// A tool wants to move the window of values.
     pub(crate) fn hold_window(&mut self, tool: ToolId) {
-        let visitor = self.holder_of(tool);
+        let visitor = self.cast.holder(tool);
         let Some(began) = self.hand_of(tool) else { return };
         if self.window_holding.is_none_or(|holding| holding.tool != tool) && self.may_change_look(visitor) {
             let window = self.stage.window;

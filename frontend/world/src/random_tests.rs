@@ -8,7 +8,7 @@ pub(super) fn faults(world: &World) -> Vec<String> {
     let Handling { turn, shift_m, scale } = stage.handling;
     let (least, most) = world.rules.scales;
     let holders: Vec<VisitorId> =
-        stage.tools.iter().filter(|tool| tool.grabs).map(|tool| world.holder_of(tool.tool)).collect();
+        stage.tools.iter().filter(|tool| tool.grabs).map(|tool| world.cast.holder(tool.tool)).collect();
     let is_sorted = stage.tools.windows(2).all(|pair| pair[0].tool < pair[1].tool);
     let laws = [
         ("all is finite", turn.is_finite() && shift_m.is_finite() && scale.is_finite()),

@@ -62,7 +62,7 @@ impl World {
 
     fn turn_dials(&mut self, passed_s: f64) {
         for place in 0..self.tools.len() {
-            let visitor = self.holder_of(ToolId(place as u16));
+            let visitor = self.cast.holder(ToolId(place as u16));
             for number in 0..self.tools[place].dials.len() {
                 let out = self.tools[place].dials[number];
                 if out.abs() >= DEAD_ZONE {
@@ -89,7 +89,7 @@ impl World {
         }
         let is_of_window = matches!(kind, DialKind::Shift | DialKind::Stretch);
         let held_by = match is_of_window {
-            true => self.window_holding.map(|holding| self.holder_of(holding.tool)),
+            true => self.window_holding.map(|holding| self.cast.holder(holding.tool)),
             false => self.holding.as_ref().map(|holding| holding.visitor),
         };
         if held_by.is_some_and(|held_by| held_by != visitor) {

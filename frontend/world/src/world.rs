@@ -136,11 +136,6 @@ impl World {
         }
     }
 
-    /// Whose tool it is.
-    pub(crate) fn holder_of(&self, tool: ToolId) -> VisitorId {
-        self.cast.tools[usize::from(tool.0)].holder
-    }
-
     /// Whether a visitor may move the volume; if not, they are told who has it.
     pub(crate) fn may_move(&mut self, visitor: VisitorId) -> bool {
         match self.stage.held_by {
@@ -153,7 +148,7 @@ impl World {
     }
 
     pub(crate) fn may_change_look(&mut self, visitor: VisitorId) -> bool {
-        match self.window_holding.map(|holding| self.holder_of(holding.tool)) {
+        match self.window_holding.map(|holding| self.cast.holder(holding.tool)) {
             Some(held_by) if held_by != visitor => {
                 self.refuse(Refusal::Held { wanted_by: visitor, held_by });
                 false
