@@ -80,6 +80,14 @@ impl Render for Changing {
         Ok(self.renderer()?.present_on_screens(sink)?)
     }
 
+    fn compare_with(&mut self, newest: &FrameState) {
+        // Of another volume nothing is open.
+        let volume = newest.volume.as_ref().unwrap_or(&self.setup.volume);
+        if let Some(renderer) = self.renderer.as_mut().filter(|_| *volume == self.volume) {
+            renderer.compare_with(newest);
+        }
+    }
+
     fn finish(&mut self) -> Result<(), DrawError> {
         Ok(self.renderer()?.finish()?)
     }

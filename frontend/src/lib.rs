@@ -17,5 +17,6 @@ mod same_file;
 pub mod scene;
 pub mod simulate;
 pub mod staging;
+pub mod tune;
 
 pub use error::FrontendError;

@@ -67,6 +67,10 @@ pub trait Render {
     /// The frame cannot be drawn.
     fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError>;
 
+    /// What rays would see by now, if that is something else than the frame that was begun, a part of the way to a picture:
+    /// its report will say how far it is from that.
+    fn compare_with(&mut self, _newest: &FrameState) {}
+
     /// Goes on with the frame until `stop` asks to leave off, a picture has become final, or the frame is done.
     ///
     /// # Errors

@@ -55,6 +55,21 @@ impl SubFrame {
     }
 }
 
+/// A part of the way to a complete picture, which is cast in [`Refinement::UNITS`] units of about the same number of rays:
+/// first few all over the picture, then those between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refinement {
+    /// Which picture: a new number begins it anew.
+    pub configuration: u32,
+    /// Units of it that are cast when the frame is done.
+    pub to: u32,
+}
+
+impl Refinement {
+    /// Units of a complete picture.
+    pub const UNITS: u32 = 64;
+}
+
 /// One frame, the same for every back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameState {
@@ -81,6 +96,9 @@ pub struct FrameState {
     /// The pixels that it casts, if it is live: the others are reconstructed from these and from the frames before. None
     /// casts them all, as a complete frame does.
     pub sub_frame: Option<SubFrame>,
+    /// How far its pictures are cast: the frame goes on with those of the frame before if that was of the same configuration.
+    /// None casts them as `sub_frame` says, which is None where this is not.
+    pub refinement: Option<Refinement>,
     /// Whether row planes are welcome for a display of any size, where nobody chose the caster.
     pub welcomes_planes: bool,
     /// What is shown of the working set instead of the pictures.
@@ -106,6 +124,7 @@ impl FrameState {
             volume: None,
             pace: Pace::Complete,
             sub_frame: None,
+            refinement: None,
             welcomes_planes: false,
             debug: None,
             marks: Vec::new(),

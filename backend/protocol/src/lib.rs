@@ -12,11 +12,11 @@ mod wall;
 pub mod wire;
 
 pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
-pub use frame::{FrameState, Pace, SubFrame};
+pub use frame::{FrameState, Pace, Refinement, SubFrame};
 pub use image::{ProjectorImage, ScreenImage};
 pub use mark::{Mark, MarkShape, Paint};
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
-pub use report::{Caster, FrameReport, Stages, Upkeep};
+pub use report::{Caster, FrameReport, Refined, Stages, Upkeep};
 pub use setup::{
     AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Screens,
     Setup, VolumeRef,

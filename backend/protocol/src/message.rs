@@ -4,7 +4,7 @@ use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, ScreenIm
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 11;
+pub const PROTOCOL_VERSION: u32 = 12;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,7 +14,13 @@ pub enum FromFrontend {
     /// Draw this frame; one that is being drawn is dropped for it.
     Frame(Box<FrameState>),
     /// Draw this frame for the screens. While another is drawn it waits, and takes the place of one that waits.
-    Beat(Box<FrameState>),
+    Beat {
+        /// The frame.
+        frame: Box<FrameState>,
+        /// What rays would see by now, if that is something else, where the frame is a part of the way to a picture: how far
+        /// it is from that is told from a few rays.
+        newest: Option<Box<FrameState>>,
+    },
     /// Show a frame of the beat, drawn or not: one that is drawn late is shown at once.
     Show {
         /// Its number.

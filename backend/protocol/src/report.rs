@@ -67,8 +67,31 @@ pub struct Upkeep {
     pub update_ms: f64,
 }
 
+/// What is known of pictures that are a part of the way to complete ones; sums over all projectors of the back-end, in whole
+/// numbers, so that it does not matter who draws which.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refined {
+    /// Units that are cast.
+    pub done: u32,
+    /// Pixels.
+    pub pixels: u64,
+    /// What may be wrong with each of them, in parts of [`Refined::UNIT`] of a linear colour's 1.
+    pub spatial: u64,
+    /// Pixels at which states are compared; 0 if none were.
+    pub compared: u64,
+    /// How far they are apart there: the newest state and this picture, or, where this picture was begun, it and the one before.
+    pub change: u64,
+    /// Whether the picture lacks detail that has come or is on its way.
+    pub has_detail: bool,
+}
+
+impl Refined {
+    /// An error of 1 is so many.
+    pub const UNIT: u64 = 1 << 20;
+}
+
 /// One back-end's account of one frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrameReport {
     /// Frame number.
     pub frame: u32,
@@ -104,6 +127,8 @@ pub struct FrameReport {
     pub damaged: Vec<String>,
     /// What became of the working set; None in a complete frame.
     pub upkeep: Option<Upkeep>,
+    /// What is known of its pictures, where they are a part of the way to complete ones.
+    pub refined: Option<Refined>,
     /// Time per stage.
     pub stages: Stages,
     /// Wall-clock milliseconds of the whole frame.

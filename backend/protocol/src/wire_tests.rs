@@ -71,6 +71,7 @@ prop_compose! {
             quality: Quality::default(),
             volume: volume.map(|path| VolumeRef::Store(path.into())),
             sub_frame: SubFrame::ORDER.get(index as usize % 5).copied(),
+            refinement: (index % 4 == 1).then_some(Refinement { configuration: index / 3, to: index % 65 }),
             welcomes_planes: index % 3 == 0,
             pace: if lit { Pace::Complete } else { Pace::Live { upload_bytes: 1 << 24, fade_s: 0.25 } },
             debug: DebugView::ALL.get(index as usize % 5).copied(),
@@ -150,8 +151,10 @@ fn from_frontend() -> impl Strategy<Value = FromFrontend> {
     prop_oneof![
         frame(),
         setup(),
-        frame().prop_map(|message| match message {
-            FromFrontend::Frame(frame) => FromFrontend::Beat(frame),
+        (frame(), any::<bool>()).prop_map(|(message, compares)| match message {
+            FromFrontend::Frame(frame) => {
+                FromFrontend::Beat { newest: compares.then(|| frame.clone()), frame }
+            }
             other => other,
         }),
         (any::<u32>(), any::<Option<u64>>()).prop_map(|(frame, at_us)| FromFrontend::Show { frame, at_us }),
@@ -185,7 +188,7 @@ prop_compose! {
             frame: 3, backend: 1, caster: Caster::RaysBecause(shortfall.clone()), rays: n[0], samples: n[1], bricks_wanted: n[2], bricks_resident: n[3],
             bricks_loaded: n[4], bytes_loaded: n[5], working_set_union: n[6],
             working_set_sum: projectors.first().map(|_| n[6]), projectors,
-            complete: shortfall.is_empty(), upkeep: None, damaged_bricks: n[0], damaged: vec![shortfall.clone(); 2], shortfall,
+            complete: shortfall.is_empty(), upkeep: None, refined: (n[0] % 2 == 0).then(|| Refined { done: n[0] as u32 % 65, pixels: n[0], spatial: n[0], compared: n[0], change: n[0], has_detail: n[0] % 3 == 0 }), damaged_bricks: n[0], damaged: vec![shortfall.clone(); 2], shortfall,
             stages: Stages { cast_ms: ms, ..Stages::default() }, total_ms: ms,
         }))
     }

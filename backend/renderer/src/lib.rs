@@ -4,6 +4,7 @@ mod cache_size;
 pub mod device;
 pub mod output;
 pub mod present;
+pub mod refine;
 mod render;
 pub mod working_set;
 

@@ -121,6 +121,7 @@ fn report(frame: u32, backend: u32) -> FrameReport {
         complete: true,
         shortfall: String::new(),
         upkeep: None,
+        refined: None,
         damaged_bricks: 0,
         damaged: Vec::new(),
         stages: Stages::default(),
@@ -251,13 +252,13 @@ fn cost_of_a_beat(link: Box<dyn Link>) -> ExitCode {
     let session = Session::start(link, setups.clone(), Limits::default(), Arc::default());
     let period = Duration::from_millis(100);
     let mut drive = Drive::new(session.expect("the back-ends start"), setups, period, Time::Real);
-    let size = wire::encode(&FromFrontend::Beat(Box::new(frame(0, 40)))).expect("a frame").len();
+    let size = wire::encode(&FromFrontend::Beat { frame: Box::new(frame(0, 40)), newest: None }).expect("a frame").len();
     let mut times = Vec::new();
     while times.len() < 100 {
         if let Happening::Due { frame: index, .. } = drive.await_next().expect("the beat goes on") {
             let state = frame(index, 40);
             let since = Instant::now();
-            drive.draw(&state).expect("a frame");
+            drive.draw(&state, None).expect("a frame");
             times.push(since.elapsed());
         }
     }

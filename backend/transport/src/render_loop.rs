@@ -3,7 +3,7 @@
 use super::beat::now_us;
 use super::opened::Opened;
 use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded, unbounded};
-use protocol::{FrameState, FromBackend, Render, ScreenImage, Screens, Setup, Wall};
+use protocol::{DrawError, FrameState, FromBackend, Render, ScreenImage, Screens, Setup, Wall};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -18,9 +18,25 @@ pub(super) enum Command {
     /// Draw this frame, and drop one that is not done.
     Draw(Box<FrameState>),
     /// Draw this frame for the screens once the one before is done, and drop one that waits.
-    Beat(Box<FrameState>),
+    Beat(Asked),
     /// Complete what is written beside the pictures.
     Finish,
+}
+
+/// A frame of the beat.
+pub(super) struct Asked {
+    pub(super) frame: Box<FrameState>,
+    /// What it is compared with.
+    pub(super) newest: Option<Box<FrameState>>,
+}
+
+impl Asked {
+    /// Begins it.
+    fn begin(&self, renderer: &mut dyn Render) -> Result<(), DrawError> {
+        renderer.restart(&self.frame)?;
+        self.newest.iter().for_each(|newest| renderer.compare_with(newest));
+        Ok(())
+    }
 }
 
 /// What it has to say.
@@ -137,7 +153,7 @@ enum Work {
     /// A frame that another takes the place of.
     Frame,
     /// A frame of the beat; the next one waits.
-    Beat { next: Option<Box<FrameState>> },
+    Beat { next: Option<Asked> },
 }
 
 /// Why the thread ends.
@@ -148,8 +164,8 @@ enum End {
     Failed(String),
 }
 
-impl From<protocol::DrawError> for End {
-    fn from(error: protocol::DrawError) -> Self {
+impl From<DrawError> for End {
+    fn from(error: DrawError) -> Self {
         Self::Failed(error.to_string())
     }
 }
@@ -199,9 +215,9 @@ impl Studio {
                     renderer.restart(&frame)?;
                     Work::Frame
                 }
-                (Some(Command::Beat(frame)), Work::Beat { .. }) => Work::Beat { next: Some(frame) },
-                (Some(Command::Beat(frame)), Work::Idle | Work::Frame) => {
-                    renderer.restart(&frame)?;
+                (Some(Command::Beat(asked)), Work::Beat { .. }) => Work::Beat { next: Some(asked) },
+                (Some(Command::Beat(asked)), Work::Idle | Work::Frame) => {
+                    asked.begin(renderer)?;
                     Work::Beat { next: None }
                 }
                 (Some(Command::Finish), _) => {
@@ -235,7 +251,7 @@ impl Studio {
     }
 
     /// Goes on with a frame of the beat until it is done or a command comes, and begins the next.
-    fn go_on_beating(&self, renderer: &mut dyn Render, next: Option<Box<FrameState>>) -> Result<Work, End> {
+    fn go_on_beating(&self, renderer: &mut dyn Render, next: Option<Asked>) -> Result<Work, End> {
         let advance = renderer.advance(&|| self.has_command())?;
         let mut sent = Ok(());
         renderer.present_on_screens(&mut |image| {
@@ -246,8 +262,8 @@ impl Studio {
         sent?;
         let Some(report) = advance.report else { return Ok(Work::Beat { next }) };
         self.tell(FromBackend::Drawn(report), next.is_none())?;
-        let Some(frame) = next else { return Ok(Work::Idle) };
-        renderer.restart(&frame)?;
+        let Some(asked) = next else { return Ok(Work::Idle) };
+        asked.begin(renderer)?;
         Ok(Work::Beat { next: None })
     }
 

@@ -53,6 +53,7 @@ pub(crate) fn report(frame: u32, backend: u32) -> FrameReport {
         complete: true,
         shortfall: String::new(),
         upkeep: None,
+        refined: None,
         damaged_bricks: 0,
         damaged: Vec::new(),
         stages: Stages::default(),

@@ -4,7 +4,7 @@ use super::beat::{ShowThread, Told, now_us};
 use super::link::{LinkError, WorkerLink};
 use super::opened::Opened;
 use super::process;
-use super::render_loop::{Command, RenderThread, Reply};
+use super::render_loop::{Asked, Command, RenderThread, Reply};
 use crossbeam_channel::select;
 use protocol::{FromBackend, FromFrontend, Hello, PROTOCOL_VERSION, Setup};
 use std::time::{Duration, Instant};
@@ -107,11 +107,14 @@ where
                 desk.is_set_up = true;
                 Command::Open(setup)
             }
-            FromFrontend::Frame(_) | FromFrontend::Beat(_) if !desk.is_set_up => {
+            FromFrontend::Frame(_) | FromFrontend::Beat { .. } if !desk.is_set_up => {
                 return desk.fail("a frame came before the setup".to_owned());
             }
             FromFrontend::Frame(frame) => Command::Draw(frame),
-            FromFrontend::Beat(frame) => Command::Beat(frame),
+            FromFrontend::Beat { frame, newest } => {
+                desk.screens.asked();
+                Command::Beat(Asked { frame, newest })
+            }
             FromFrontend::Finish if !desk.is_set_up => {
                 return desk.fail("its end came before the setup".to_owned());
             }

@@ -5,6 +5,7 @@ use super::live::{fade, live_pace, upload};
 use super::parse::{seconds, whole};
 use crate::scene::{LookName, QualityPreset};
 use clap::{Args, ValueEnum};
+use control::Rule;
 use display_config::RATES_HZ;
 use protocol::Pace;
 use std::path::PathBuf;
@@ -51,6 +52,10 @@ pub struct ShowArgs {
     /// moves comes four times as often, what rests is complete after four frames.
     #[arg(long, value_enum, default_value = "quincunx")]
     pub reconstruct: ReconstructArg,
+    /// Decide what is cast and what is shown by `errors` in space and in time; or give every picture of what moves the same
+    /// time, `rate=HZ`, or the same share of its rays, `quality=SHARE`. Then --reconstruct does not matter.
+    #[arg(long, value_name = "RULE")]
+    pub control: Option<Rule>,
     /// End after so many frames.
     #[arg(long, value_name = "N", value_parser = whole(1..=u32::MAX), allow_hyphen_values = true)]
     pub frames: Option<u32>,

@@ -20,6 +20,7 @@ mod simulate;
 mod tape;
 #[cfg(test)]
 mod tests;
+mod tune;
 mod verify;
 
 pub use accuracy::AccuracyArgs;
@@ -39,6 +40,7 @@ pub use outputs::OutputsArgs;
 pub use replay::{DiskArg, FetchOrderArg, ReplayArgs};
 pub use simulate::SimulateArgs;
 pub use tape::{TableArg, TapeAction, TapeArgs};
+pub use tune::TuneArgs;
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};
@@ -77,6 +79,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Measure error and time of many settings against the reference, and draw them as plots.
     Accuracy(AccuracyArgs),
+    /// Find the best frame control: interaction played to simulated machines, as an eye sees it.
+    Tune(TuneArgs),
     /// Replay recorded traces under other policies, without drawing anything.
     Replay(ReplayArgs),
     /// Find where devices are, by measurement.

@@ -30,6 +30,7 @@ fn every_number_may_begin_with_a_minus() {
         "NAME",
         "NAME,…",
         "OUT.lloom",
+        "RULE",
         "SCENE.toml",
         "STATUS.json",
         "STORE.lloom",

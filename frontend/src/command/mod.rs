@@ -19,6 +19,7 @@ mod show;
 mod simulate;
 mod table;
 mod tape;
+mod tune;
 mod verify;
 
 pub use say::print;
@@ -51,6 +52,7 @@ pub fn run(command: &Command) -> Result<(), FrontendError> {
         Command::Verify(args) => verify::verify(args),
         Command::Export(args) => export::export(args),
         Command::Accuracy(args) => accuracy::accuracy(args),
+        Command::Tune(args) => tune::tune(args),
         Command::Replay(args) => replay::replay(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Displays => displays::displays(),

@@ -5,11 +5,12 @@ use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
 use crate::cli::{OutputArg, ReconstructArg, ShowArgs};
 use crate::drive::{
-    Desk, Desktop, DriveReport, Dump, Hands, Input, Plan, Recorder, Screens, Sheet, Sink, Status, Taped,
+    Controlled, Desk, Desktop, DriveReport, Dump, Energy, Hands, Input, Plan, Recorder, Screens, Sheet, Sink, Status, Taped,
     Tracked, Trial, run,
 };
 use crate::report::BackendSummary;
 use crate::staging::Theatre;
+use control::Budget;
 use renderer::output::can_write_into;
 use screens::{Acts, Window};
 use std::io::IsTerminal;
@@ -148,7 +149,12 @@ fn play(
     recorders.extend(show.recorders.iter_mut().map(|recorder| &mut **recorder as &mut dyn Recorder));
     // Where frames must be the same whenever they are drawn, nothing may depend on how long they take.
     let trial = if args.stepped { None } else { Trial::new(options.caster, showing.period) };
-    let plan = Plan { frames: args.frames, time: args.time, trial };
+    let control = args.control.map(|rule| Controlled::new(rule, budget(args.stepped, showing.period)));
+    if control.is_some() {
+        driving = driving.controlled();
+    }
+    let plan = Plan { frames: args.frames, time: args.time, trial, control };
+    let energy = Energy::begin();
     let is_talking = !args.quiet && !args.json;
     let mut status = Status::new(is_talking && std::io::stderr().is_terminal());
     let desk = Desk { inputs, recorders, tell: &mut |sentence: &str| warn(sentence) };
@@ -161,6 +167,8 @@ fn play(
         projectors: display.projectors.len(),
         rate_hz,
         reconstructs: args.reconstruct == ReconstructArg::Quincunx,
+        control: args.control,
+        joules: energy.joules(),
         stepped: args.stepped,
         seconds: played.length.as_secs_f64(),
         backends: BackendSummary::all(&wiring, driving.devices().to_vec()),
@@ -168,6 +176,16 @@ fn play(
     };
     driving.finish()?;
     finish(args, &report)
+}
+
+/// Units of a picture that a tick casts in a stepped show: a quarter, so that what is shown becomes finer as it does on time.
+const STEPPED_UNITS: u32 = 16;
+/// The part of a period that a tick may cast for; the rest is for messages, and for making pictures of what is cast.
+const CASTING: f64 = 0.7;
+
+/// How much of a picture a tick casts.
+fn budget(is_stepped: bool, period: Duration) -> Budget {
+    if is_stepped { Budget::Fixed(STEPPED_UNITS) } else { Budget::of_time(period.mul_f64(CASTING)) }
 }
 
 fn finish(args: &ShowArgs, report: &DriveReport) -> Result<(), FrontendError> {

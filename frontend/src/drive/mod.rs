@@ -6,12 +6,15 @@
 //! | `recorder`, `bulletin` | what keeps a record, and the state of things |
 //! | `run` | the loop: inputs, world, frames, screens |
 //! | `trial` | which caster is faster |
+//! | `controlled` | what is cast next and what is shown, by frame control |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
-//! | `histogram`, `measures`, `plot`, `status`, `report` | how well the beat is kept |
+//! | `histogram`, `measures`, `energy`, `plot`, `status`, `report` | how well the beat is kept |
 
 mod bulletin;
+mod controlled;
 mod desktop;
 mod dump;
+mod energy;
 mod histogram;
 mod input;
 mod measures;
@@ -28,8 +31,10 @@ mod tracked;
 mod trial;
 
 pub use bulletin::Bulletin;
+pub use controlled::{ControlSummary, Controlled};
 pub use desktop::{Desktop, Hands, KEYS};
 pub use dump::Dump;
+pub use energy::Energy;
 pub use histogram::{Histogram, Quantiles};
 pub use input::Input;
 pub use measures::{BackendBeat, BeatSummary};

@@ -1,10 +1,11 @@
 //! What a show reports when it is over: JSON for programs, and a page for people.
 
-use super::{BeatSummary, Played, Quantiles};
+use super::{BeatSummary, ControlSummary, Played, Quantiles};
 use crate::FrontendError;
 use crate::report::html::{escape, facts, table};
 use crate::report::page::STYLE;
 use crate::report::{BackendSummary, write_text};
+use control::Rule;
 use serde::Serialize;
 use std::path::Path;
 
@@ -26,6 +27,10 @@ pub struct DriveReport {
     pub rate_hz: f64,
     /// Whether each frame casts a quarter of its pixels.
     pub reconstructs: bool,
+    /// What decides what is cast and what is shown; None where each frame is drawn and shown.
+    pub control: Option<Rule>,
+    /// What the processors of the front-end's host took meanwhile, joules, where the machine tells.
+    pub joules: Option<f64>,
     /// Whether time stood still while a frame was drawn.
     pub stepped: bool,
     /// How long it lasted, seconds of the display's clock.
@@ -43,9 +48,19 @@ impl DriveReport {
         let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends } = &self.played.beat;
         let late: u64 = backends.iter().map(|backend| backend.late).sum();
         let rate_hz = if interval_ms.p50 > 0.0 { 1e3 / interval_ms.p50 } else { 0.0 };
+        let control = self.played.control.as_ref().map(|control| {
+            let ControlSummary { begun, mean_share, mean_errors: [spatial, temporal], .. } = control;
+            format!(
+                "; {begun} pictures begun, shown with {:.0} % of their rays, ζ {:.2}, τ {:.2} of 255",
+                100.0 * mean_share,
+                255.0 * spatial,
+                255.0 * temporal
+            )
+        });
+        let control = control.unwrap_or_default();
         format!(
             "{frames} frames in {:.1} s, {rate_hz:.1} a second; from input to screen {:.1} ms (99 %: {:.1}); \
-             skew {:.2} ms (99 %: {:.2}); {late} late",
+             skew {:.2} ms (99 %: {:.2}); {late} late{control}",
             self.seconds, input_to_shown_ms.p50, input_to_shown_ms.p99, skew_ms.p50, skew_ms.p99,
         )
     }
@@ -73,10 +88,11 @@ impl DriveReport {
             "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\">\
              <meta name=\"viewport\" content=\"width=device-width\"><title>{title} · lightloom</title>\
              <style>{STYLE}</style></head><body><main><header><h1>{title}</h1><p>driven on {}</p></header>\
-             {}<h2>The beat</h2>{}{plot}<h2>Back-ends</h2>{}{}{}</main></body></html>\n",
+             {}<h2>The beat</h2>{}{plot}{}<h2>Back-ends</h2>{}{}{}</main></body></html>\n",
             escape(&self.display),
             self.setting(),
             self.times(),
+            self.control(),
             self.table_of_backends(),
             sentences("Not complete", &self.played.shortfall),
             sentences("What happened", &self.played.troubles),
@@ -84,7 +100,9 @@ impl DriveReport {
     }
 
     fn setting(&self) -> String {
-        let casts = if self.reconstructs {
+        let casts = if self.control.is_some() {
+            "as much of its picture as fits, see below"
+        } else if self.reconstructs {
             "a quarter of its pixels, and reconstructs the others"
         } else {
             "all pixels"
@@ -97,8 +115,25 @@ impl DriveReport {
             ("a frame casts", casts.to_owned()),
             ("its rays", self.played.casters.join("; ")),
             ("the clock", clock.to_owned()),
+            ("rays were cast for", self.played.cast_ms.iter().map(|ms| format!("{:.1} s", ms / 1e3)).collect::<Vec<_>>().join(", ")),
+            ("energy", self.joules.map_or("this machine does not tell".to_owned(), |joules| format!("{joules:.0} J"))),
             ("projectors", self.projectors.to_string()),
         ])
+    }
+
+    /// How frames were controlled.
+    fn control(&self) -> String {
+        let Some(summary) = &self.played.control else { return String::new() };
+        let [spatial, temporal] = summary.mean_errors.map(|error| 255.0 * error);
+        let rows = [
+            ("pictures begun", format!("{}, {} of them for detail that came", summary.begun, summary.begun_for_detail)),
+            ("pictures shown", format!("{}, {} of them complete", summary.shown, summary.shown_complete)),
+            ("rays of what was shown", format!("{:.0} % on average", 100.0 * summary.mean_share)),
+            ("error in space, ζ", format!("{spatial:.2} of 255 on average")),
+            ("error in time, τ", format!("{temporal:.2} of 255 on average")),
+            ("nothing was cast in", format!("{:.0} % of the display's periods", 100.0 * summary.idle_share)),
+        ];
+        format!("<h2>Frame control</h2>{}{}", facts(&rows), self.played.strip)
     }
 
     fn times(&self) -> String {

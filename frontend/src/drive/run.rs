@@ -2,9 +2,11 @@
 
 use super::measures::Measures;
 use super::plot::plot_of_beat;
-use super::{BeatSummary, Input, KEYS, Recorder, Request, Screens, Status, Trial};
+use super::{BeatSummary, ControlSummary, Controlled, Input, KEYS, Recorder, Request, Screens, Status, Trial};
 use crate::FrontendError;
+use crate::report::plot::strip;
 use crate::staging::Theatre;
+use protocol::Refinement;
 use serde::Serialize;
 use std::time::Duration;
 use transport::beat::{Drive, Happening};
@@ -19,6 +21,8 @@ pub struct Plan {
     pub time: Option<Duration>,
     /// Finds the faster caster, where back-ends may choose it.
     pub trial: Option<Trial>,
+    /// Decides what is cast and what is shown; without it each frame is drawn and shown.
+    pub control: Option<Controlled>,
 }
 
 /// Why a show ended.
@@ -48,6 +52,13 @@ pub struct Played {
     /// The same as a plot.
     #[serde(skip)]
     pub plot: String,
+    /// How frames were controlled, if they were.
+    pub control: Option<ControlSummary>,
+    /// The same over time, as a strip.
+    #[serde(skip)]
+    pub strip: String,
+    /// Milliseconds in which each back-end cast rays.
+    pub cast_ms: Vec<f64>,
     /// What became of back-ends that were lost, sentence by sentence; the latest of many.
     pub troubles: Vec<String>,
     /// Whether the last frame of each back-end was complete, or why not.
@@ -77,6 +88,8 @@ struct Show<'a, 'b> {
     screens: &'a mut Screens<'b>,
     measures: Measures,
     trial: Option<Trial>,
+    control: Option<Controlled>,
+    cast_ms: Vec<f64>,
     lost: Vec<u64>,
     troubles: Vec<String>,
     /// Of each back-end's latest frame.
@@ -104,6 +117,8 @@ pub fn run<'a, 'b>(
         screens,
         measures: Measures::default(),
         trial: plan.trial.clone(),
+        control: plan.control.clone(),
+        cast_ms: vec![0.0; backends],
         lost: vec![0; backends],
         troubles: Vec::new(),
         latest: vec![Default::default(); backends],
@@ -123,7 +138,9 @@ pub fn run<'a, 'b>(
                     break end;
                 }
                 let look = show.theatre.look().map(|look| format!(", look {look}")).unwrap_or_default();
-                status.tell(now, &look, || show.measures.summary(&show.drive.late(), &show.lost));
+                let control = show.control.as_ref().map(Controlled::line).unwrap_or_default();
+                let what = control + &look;
+                status.tell(now, &what, || show.measures.summary(&show.drive.late(), &show.lost));
             }
             other => show.heed(other, now)?,
         }
@@ -142,6 +159,9 @@ pub fn run<'a, 'b>(
         length: show.drive.now().saturating_sub(began),
         beat: show.measures.summary(&show.drive.late(), &show.lost),
         plot: plot_of_beat(&show.measures.interval, &show.measures.latency, &show.measures.skew),
+        control: show.control.as_ref().map(Controlled::summary),
+        strip: show.control.as_ref().map(|control| strip("Frame control", &control.ticks())).unwrap_or_default(),
+        cast_ms: show.cast_ms,
         troubles: show.troubles,
         shortfall: show.latest.into_iter().map(|latest| latest.1).filter(|why| !why.is_empty()).collect(),
         casters,
@@ -184,9 +204,21 @@ impl Show<'_, '_> {
         if let Some(trial) = self.trial.as_mut().filter(|_| shown(self.theatre) != before) {
             trial.restart();
         }
-        state.welcomes_planes = self.trial.as_mut().is_some_and(|trial| trial.begin(frame));
-        self.measures.began(frame, now);
-        self.drive.draw(&state)?;
+        let Self { trial, control, .. } = self;
+        let mut welcomes_planes = || trial.as_mut().is_some_and(|trial| trial.begin(frame));
+        let Some(control) = control else {
+            state.welcomes_planes = welcomes_planes();
+            self.measures.began(frame, now);
+            self.drive.draw(&state, None)?;
+            return Ok(None);
+        };
+        match control.next(state, now, welcomes_planes) {
+            Some(task) => {
+                self.measures.began(frame, task.asked_at);
+                self.drive.draw(&task.frame, task.newest)?;
+            }
+            None => self.drive.pass(),
+        }
         Ok(None)
     }
 
@@ -207,11 +239,26 @@ impl Show<'_, '_> {
             Happening::Screen { backend, image } => self.screens.take(backend, image),
             Happening::Drawn { backend, report } => {
                 self.measures.drawn(backend, report.frame, report.total_ms);
-                if let Some(trial) = &mut self.trial {
-                    trial.drawn(report.frame, &report.caster, report.total_ms, now);
+                self.cast_ms[backend] += report.stages.cast_ms;
+                // Of a part of a picture: as if it were a quarter.
+                let units = self.control.as_ref().map(|control| control.units_of(report.frame));
+                let of_quarter = match units {
+                    None => Some(1.0),
+                    Some(units) => units.map(|units| f64::from(Refinement::UNITS / 4) / f64::from(units)),
+                };
+                if let (Some(trial), Some(factor)) = (&mut self.trial, of_quarter) {
+                    trial.drawn(report.frame, &report.caster, factor * report.total_ms, now);
                 }
+                self.control.iter_mut().for_each(|control| control.drawn(&report));
                 self.screens.drawn(backend, report.frame, now)?;
                 self.latest[backend] = (report.caster.to_string(), report.shortfall);
+            }
+            Happening::Finished { frame } => {
+                let shows = self.control.as_mut().is_none_or(|control| control.finished(now));
+                match self.drive.decide(shows)? {
+                    Some(ordered) => self.heed(ordered, now)?,
+                    None => self.screens.kept_back(frame),
+                }
             }
             Happening::Ordered { frame, at } => {
                 self.measures.ordered(frame);

@@ -68,6 +68,11 @@ impl<'a> Screens<'a> {
         Ok(())
     }
 
+    /// A frame is not shown at all.
+    pub fn kept_back(&mut self, frame: u32) {
+        self.drawn.remove(&frame);
+    }
+
     /// A frame is shown from a time on.
     ///
     /// # Errors

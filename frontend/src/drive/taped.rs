@@ -46,6 +46,16 @@ impl Taped {
         Ok(Self { head, frames, by_frame, began: None, expected: None, different: 0, news })
     }
 
+    /// Frames on it.
+    pub fn len(&self) -> u32 {
+        self.frames.len().try_into().unwrap_or(u32::MAX)
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
     /// Whether it was recorded with trackers or controllers.
     pub fn has_inputs(&self) -> bool {
         !self.head.sources.is_empty()
@@ -61,7 +71,7 @@ impl Taped {
         theatre: &mut Theatre,
     ) -> Result<Remade, FrontendError> {
         self.compare_files();
-        let count = self.frames.len().try_into().unwrap_or(u32::MAX);
+        let count = self.len();
         let (first, end) = range.unwrap_or((count.saturating_sub(1), count));
         if end > count || first >= end {
             return Err(FrontendError::Frames { first, end, count });

@@ -79,6 +79,7 @@ fn account(frame: u32) -> FrameReport {
         complete: false,
         shortfall: "the cache is full <b>".into(),
         upkeep: None,
+        refined: None,
         damaged_bricks: 0,
         damaged: Vec::new(),
         stages: Stages::default(),

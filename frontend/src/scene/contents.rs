@@ -111,6 +111,7 @@ impl Scene {
             volume: None,
             pace: Pace::Complete,
             sub_frame: None,
+            refinement: None,
             welcomes_planes: false,
             debug: None,
             marks: Vec::new(),

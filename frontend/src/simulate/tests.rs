@@ -77,6 +77,7 @@ fn account(frame: u32, backend: u32, projectors: Vec<u32>) -> FrameReport {
         complete: backend == 0,
         shortfall: if backend == 0 { String::new() } else { "the cache is full <b>".into() },
         upkeep: None,
+        refined: None,
         damaged_bricks: u64::from(backend),
         damaged: if backend == 0 { Vec::new() } else { vec!["brick 7 of <a.lloom> is damaged".into()] },
         stages: Stages { refine_ms: 2.0, load_ms: 14.0, upload_ms: 3.0, cast_ms: 90.0, readback_ms: 1.5 },

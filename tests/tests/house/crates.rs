@@ -7,7 +7,7 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 23] = [
+pub const CRATES: [(&str, &str, &[&str]); 24] = [
     ("display-config", "display-config", &[]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
@@ -45,6 +45,7 @@ pub const CRATES: [(&str, &str, &[&str]); 23] = [
         "backend",
         &["bricks", "display-config", "optics", "protocol", "renderer", "screens", "transport"],
     ),
+    ("control", "frontend/control", &[]),
     ("tracking", "frontend/tracking", &[]),
     ("inputs", "frontend/inputs", &["display-config", "tracking"]),
     ("world", "frontend/world", &["inputs", "tracking"]),
@@ -56,6 +57,7 @@ pub const CRATES: [(&str, &str, &[&str]); 23] = [
         &[
             "backend",
             "bricks",
+            "control",
             "display-config",
             "exhibit",
             "inputs",

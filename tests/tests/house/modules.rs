@@ -12,7 +12,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
         "backend/bricks",
         &["temporary", "working_file", "working_folder", "volume", "store", "lod", "procedural"],
     ),
-    ("backend/renderer", &["output", "present", "cache_size", "working_set", "device", "render"]),
+    ("backend/renderer", &["output", "present", "cache_size", "working_set", "device", "refine", "render"]),
     (
         "frontend",
         &[
@@ -29,6 +29,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "gallery",
             "staging",
             "drive",
+            "tune",
             "monitor",
             "adapter",
             "cli",

@@ -12,6 +12,7 @@ mod calibrate;
 mod calibrated;
 mod careless;
 mod comeback;
+mod control;
 mod drive;
 mod exhibit;
 mod export;

@@ -11,6 +11,8 @@ pub struct FeedbackTag {
     pub keys: Vec<NodeKey>,
     /// The frame, its time on a clock that does not run back.
     pub frame: Option<Box<FrameState>>,
+    /// The configuration that the frame was a part of, if it was.
+    pub configuration: Option<u32>,
 }
 
 /// A feedback table, one entry per place of the index, and what it belongs to.

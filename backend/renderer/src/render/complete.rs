@@ -75,7 +75,16 @@ impl Complete {
     ) -> Result<Option<FrameReport>, RenderError> {
         if !std::mem::replace(&mut self.has_begun, true) {
             engine.leave_live()?;
-            if work.frame.sub_frame.is_none() {
+            if work.glance.is_some() {
+                // Nothing that is shown changes.
+            } else if let Some(refinement) = work.frame.refinement {
+                engine.easing.forget();
+                engine.known.forget();
+                if engine.refining.begin(refinement) > 0 {
+                    // All of its pixels were cast when it was begun.
+                    self.view = work.setting.rays.len();
+                }
+            } else if work.frame.sub_frame.is_none() {
                 engine.easing.forget();
                 engine.known.forget();
             } else {
@@ -85,7 +94,12 @@ impl Complete {
             engine.stock.damage.start_frame();
         }
         if self.view == work.setting.rays.len() {
-            engine.known.end(work.known);
+            if work.frame.refinement.is_some() {
+                engine.refine(work)?;
+                work.finals.extend(&work.setting.projectors);
+            } else if work.glance.is_none() {
+                engine.known.end(work.known);
+            }
             return Ok(Some(self.report(work, engine)));
         }
         let met = if self.is_in_round { Vec::new() } else { self.learn(work, engine) };
@@ -214,7 +228,9 @@ impl Complete {
         for view in views.clone() {
             let [width, height] = work.setting.rays[view].raster;
             work.account.done += u64::from(width) * u64::from(height);
-            work.finals.push(work.setting.projectors[view]);
+            if work.frame.refinement.is_none() {
+                work.finals.push(work.setting.projectors[view]);
+            }
         }
         self.sampled.clear();
         (self.view, self.stage, self.rounds) = (views.end, Stage::Begun, 0);

@@ -5,6 +5,7 @@ use super::easing::Easing;
 use super::known::Known;
 use super::live_memory::Live;
 use super::recording::Recording;
+use super::refining::Refining;
 use super::shelf::Shelf;
 use super::stock::Stock;
 use super::table_cache::TableCache;
@@ -29,6 +30,7 @@ pub(super) struct Engine {
     pub(super) live: Live,
     pub(super) easing: Easing,
     pub(super) known: Known,
+    pub(super) refining: Refining,
     pub(super) recording: Recording,
     pub(super) pen: Pen,
 }
@@ -63,6 +65,7 @@ impl Engine {
             live: Live::default(),
             easing: Easing::default(),
             known: Known::default(),
+            refining: Refining::default(),
             recording: Recording::default(),
             pen: Pen::default(),
         };

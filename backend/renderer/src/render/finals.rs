@@ -15,7 +15,16 @@ pub(super) struct Final {
     view: usize,
     /// Pixels along x and y.
     size: [u32; 2],
-    picture: DevicePicture,
+    picture: Shown,
+}
+
+/// What is shown of a view.
+#[derive(Clone, Copy)]
+enum Shown {
+    /// A picture that the device has.
+    Device(DevicePicture),
+    /// One that was filled on the host.
+    Filled,
 }
 
 impl Engine {
@@ -38,10 +47,13 @@ impl Engine {
     }
 
     /// What is shown of the picture of a view: it depends on the frames before where there are many.
-    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<DevicePicture, DeviceError> {
+    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<Shown, DeviceError> {
         let picture = work.picture_of(view);
+        if work.refined.is_some() {
+            return Ok(Shown::Filled);
+        }
         if !work.is_of_many() {
-            return Ok(DevicePicture::Cast(picture));
+            return Ok(Shown::Device(DevicePicture::Cast(picture)));
         }
         let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
         let is_behind = self.device.show(&ShowJob {
@@ -52,13 +64,16 @@ impl Engine {
             most_change: if work.eases { easing.most_change(projector, now_s) } else { None },
         })?;
         easing.show(projector, now_s, is_behind);
-        Ok(DevicePicture::Shown(picture))
+        Ok(Shown::Device(DevicePicture::Shown(picture)))
     }
 
     /// Its linear colours.
     pub(super) fn colours(&mut self, frame: &FrameState, of: &Final) -> Result<ProjectorImage, DeviceError> {
-        let &Final { projector, size: [width, height], picture, .. } = of;
-        let mut rgba = self.device.picture(picture)?.into_owned();
+        let &Final { projector, view, size: [width, height], picture } = of;
+        let mut rgba = match picture {
+            Shown::Device(picture) => self.device.picture(picture)?.into_owned(),
+            Shown::Filled => self.refining.filled(view).to_vec(),
+        };
         self.mark(frame, projector, &mut rgba);
         Ok(ProjectorImage { projector, width, height, rgba })
     }
@@ -66,12 +81,17 @@ impl Engine {
     /// The codes that its projector shows it with.
     pub(super) fn codes(&mut self, frame: &FrameState, of: &Final) -> Result<ScreenImage, DeviceError> {
         let &Final { projector, view, size: [width, height], picture } = of;
-        let rgb = if frame.marks.is_empty() {
-            let (raster, finisher) = (Raster::of([width, height]), &self.finishers[view]);
-            self.device.codes(&FinishJob { picture, raster, view, finisher })?
-        } else {
-            let rgba = self.colours(frame, of)?.rgba;
-            self.finishers[view].codes(&rgba)
+        let finisher = &self.finishers[view];
+        let rgb = match picture {
+            Shown::Device(picture) if frame.marks.is_empty() => {
+                let raster = Raster::of([width, height]);
+                self.device.codes(&FinishJob { picture, raster, view, finisher })?
+            }
+            Shown::Filled if frame.marks.is_empty() => finisher.codes(self.refining.filled(view)),
+            Shown::Device(_) | Shown::Filled => {
+                let rgba = self.colours(frame, of)?.rgba;
+                self.finishers[view].codes(&rgba)
+            }
         };
         Ok(ScreenImage { projector, width, height, rgb })
     }

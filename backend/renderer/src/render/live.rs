@@ -3,16 +3,18 @@
 use super::RenderError;
 use super::account::milliseconds;
 use super::engine::Engine;
-use super::feedback::{feedback_of, keys_of};
+use super::feedback::{both, feedback_of, keys_of};
 use super::live_memory::{Live, as_seen};
 use super::rules::FrameRules;
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
 use crate::device::FeedbackTag;
+use crate::present::Classes;
 use crate::working_set::{Feedback, Moment, Shortfall, Showing, most_in_flight};
 use bricks::NodeKey;
 use layout::FeedbackEntry;
-use protocol::{FrameReport, FrameState, Upkeep};
+use protocol::{FrameReport, FrameState, Refinement, Upkeep};
+use std::collections::VecDeque;
 use std::time::Instant;
 
 /// A live frame under work.
@@ -25,11 +27,13 @@ pub(super) struct LiveFrame {
     upkeep: Option<Upkeep>,
     /// Whether it shows what the one before showed.
     is_still: bool,
+    /// Casts that follow.
+    casts: VecDeque<Pending>,
 }
 
 impl LiveFrame {
     pub(super) fn new(upload_bytes: u64, fade_s: f64) -> Self {
-        Self { upload_bytes, fade_s, upkeep: None, is_still: false }
+        Self { upload_bytes, fade_s, upkeep: None, is_still: false, casts: VecDeque::new() }
     }
 
     /// What comes when all that was pending has been cast: first the working set, then the report.
@@ -39,17 +43,54 @@ impl LiveFrame {
         engine: &mut Engine,
     ) -> Result<Option<FrameReport>, RenderError> {
         if let Some(upkeep) = self.upkeep {
-            return Ok(Some(self.end(work, engine, upkeep)));
+            if let Some(pending) = self.casts.pop_front() {
+                work.begin_cast(pending);
+                return Ok(None);
+            }
+            return self.end(work, engine, upkeep).map(Some);
         }
         engine.take_feedback()?;
-        self.is_still = engine.live.enter(&work.frame);
-        self.upkeep = Some(self.keep_up(work, engine)?);
+        if let Some(refinement) = work.frame.refinement {
+            self.refine(work, engine, refinement)?;
+        } else {
+            self.is_still = engine.live.enter(&work.frame);
+            self.upkeep = Some(self.keep_up(work, engine)?);
+            let lattice = work.lattice();
+            work.known = engine.known.begin(&work.frame, !engine.shelf.has_changed, &lattice);
+            self.casts.push_back(Pending::all(&work.setting, 0..work.setting.rays.len(), lattice));
+        }
         engine.recording.begin()?;
         engine.device.clear_feedback();
-        let lattice = work.lattice();
-        work.known = engine.known.begin(&work.frame, !engine.shelf.has_changed, &lattice);
-        work.begin_cast(Pending::all(&work.setting, 0..work.setting.rays.len(), lattice));
         Ok(None)
+    }
+
+    /// Begins a part of the way to a picture. The working set is kept up where the picture begins, and stays as it is until
+    /// that is complete or given up.
+    fn refine(
+        &mut self,
+        work: &mut Work,
+        engine: &mut Engine,
+        refinement: Refinement,
+    ) -> Result<(), RenderError> {
+        let from = engine.refining.begin(refinement);
+        self.upkeep = Some(if from > 0 {
+            engine.restore(work)?;
+            engine.upkeep()
+        } else {
+            engine.easing.forget();
+            engine.known.forget();
+            self.is_still = engine.live.enter(&work.frame);
+            let upkeep = self.keep_up(work, engine)?;
+            let Upkeep { in_flight, fading, .. } = upkeep;
+            let has_more = in_flight > 0 || fading > 0 || engine.shelf.has_changed;
+            engine.refining.is_stalled = self.is_still && !has_more;
+            upkeep
+        });
+        if refinement.to < Refinement::UNITS {
+            work.known = Classes::default();
+        }
+        self.casts = engine.refining.casts(&work.setting, &(from..refinement.to)).into();
+        Ok(())
     }
 
     /// Brings the working set up to the frame's time: what rays met, what to fetch, what has come, what is shown.
@@ -67,7 +108,8 @@ impl LiveFrame {
             summary: &summary,
             now_s: live.now_s(&work.frame),
             is_still,
-            fade_s: Moment::fade_of(fade_s, is_still),
+            // What is a part of the way to a picture is not eased, and so does not hurry.
+            fade_s: Moment::fade_of(fade_s, is_still && work.frame.refinement.is_none()),
             most_in_flight: most_in_flight(upload_bytes),
         };
         let refined_before = work.account.stages.refine_ms;
@@ -84,20 +126,32 @@ impl LiveFrame {
         Ok(Upkeep { cancelled, update_ms, ..engine.upkeep() })
     }
 
-    fn end(&self, work: &mut Work, engine: &mut Engine, upkeep: Upkeep) -> FrameReport {
+    fn end(
+        &self,
+        work: &mut Work,
+        engine: &mut Engine,
+        upkeep: Upkeep,
+    ) -> Result<FrameReport, RenderError> {
         let time_s = engine.live.now_s(&work.frame);
         let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
-        engine.device.end_feedback(FeedbackTag { keys: keys_of(engine.set.cut()), frame });
-        engine.known.end(work.known);
+        let configuration = work.frame.refinement.map(|refinement| refinement.configuration);
+        engine.device.end_feedback(FeedbackTag { keys: keys_of(engine.set.cut()), frame, configuration });
+        if configuration.is_some() {
+            // Of most devices it is there already.
+            engine.take_feedback()?;
+            engine.refine(work)?;
+        } else {
+            engine.known.end(work.known);
+        }
         work.account.done = work.account.total;
         work.finals.extend(&work.setting.projectors);
         work.eases = self.is_still && self.fade_s > 0.0 && work.frame.quality.blended;
         let report = self.report(work, engine, upkeep);
         engine.live.last = Some(as_seen(&work.frame));
-        report
+        Ok(report)
     }
 
-    fn report(&self, work: &Work, engine: &mut Engine, upkeep: Upkeep) -> FrameReport {
+    fn report(&self, work: &mut Work, engine: &mut Engine, upkeep: Upkeep) -> FrameReport {
         let Engine { stock, live, set, .. } = &mut *engine;
         let is_short = |met: &&Feedback| met.deficit > 0.0;
         for met in live.met.iter().filter(is_short) {
@@ -110,7 +164,15 @@ impl LiveFrame {
         let short = live.met.iter().filter(is_short).count();
         let sampled = live.met.len() as u64;
         let is_known = self.is_still && live.is_fresh && !engine.shelf.has_changed;
+        let is_known = match work.frame.refinement {
+            Some(refinement) => engine.live.met_of == Some(refinement.configuration),
+            None => is_known,
+        };
         let shortfall = engine.live_shortfall(short, is_known, &upkeep);
+        if let Some(refined) = &mut work.refined {
+            let is_under_way = upkeep.in_flight > 0 || upkeep.fading > 0;
+            refined.has_detail = is_under_way || (shortfall.is_some() && !engine.refining.is_stalled);
+        }
         let bricks_wanted = engine.set.slots().used() + upkeep.in_flight;
         let report = engine.frame_report(work, shortfall, Some(upkeep));
         FrameReport { bricks_wanted, working_set_union: sampled, ..report }
@@ -136,7 +198,10 @@ impl Engine {
     }
 
     fn learn(&mut self, tag: &FeedbackTag, table: &[FeedbackEntry]) -> Result<(), RenderError> {
-        self.live.met = feedback_of(&tag.keys, table);
+        let met = feedback_of(&tag.keys, table);
+        let is_more = tag.configuration.is_some() && self.live.met_of == tag.configuration;
+        self.live.met = if is_more { both(&self.live.met, met) } else { met };
+        self.live.met_of = tag.configuration;
         let sampled = self.live.met.iter().map(|met| (met.key, met.rays));
         tag.frame.as_ref().map_or(Ok(()), |frame| self.recording.add(frame, sampled))
     }
@@ -149,7 +214,7 @@ impl Engine {
         Ok(())
     }
 
-    fn upkeep(&self) -> Upkeep {
+    pub(super) fn upkeep(&self) -> Upkeep {
         let set = &self.set;
         let short = Shortfall::of(self.live.met.iter().map(|met| (met.rays, met.deficit)));
         Upkeep {

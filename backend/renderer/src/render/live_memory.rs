@@ -14,6 +14,8 @@ pub(super) struct Live {
     pub(super) ahead_s: f64,
     /// What the rays of the latest frame that is known of found.
     pub(super) met: Vec<Feedback>,
+    /// Of which configuration that was, if it was of one: what its parts found belongs together.
+    pub(super) met_of: Option<u32>,
     /// Whether that was the frame before.
     pub(super) is_fresh: bool,
 }
@@ -40,5 +42,5 @@ impl Live {
 
 /// A frame as far as rays see it: numbers do not matter, nor which pixels were cast, nor what is drawn over them.
 pub(super) fn as_seen(frame: &FrameState) -> FrameState {
-    FrameState { index: 0, sub_frame: None, marks: Vec::new(), ..frame.clone() }
+    FrameState { index: 0, sub_frame: None, refinement: None, marks: Vec::new(), ..frame.clone() }
 }

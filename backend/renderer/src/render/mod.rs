@@ -29,6 +29,9 @@ mod mirror_tests;
 mod recording;
 #[cfg(test)]
 mod recording_tests;
+mod refining;
+#[cfg(test)]
+mod refining_tests;
 mod renderer;
 mod report;
 mod rules;

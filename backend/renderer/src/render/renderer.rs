@@ -73,12 +73,24 @@ impl Renderer {
         self.course = None;
         check(frame)?;
         let frame = self.in_reach(frame);
+        if frame.refinement.is_none() {
+            self.engine.refining.forget();
+        }
         let setting = Setting::new(&mut self.engine, &frame)?;
         let Engine { tables, device, .. } = &mut self.engine;
         tables.write_if_new(device);
         let account = Account::new(setting.rays());
         self.course = Some(Course::new(Work::new(frame, setting, account)));
         Ok(())
+    }
+
+    /// What rays would see by now, if that is something else than the frame that was begun, where that is a part of the way to
+    /// a picture: the report will say how far it is from that. What cannot be drawn is not compared.
+    pub fn compare_with(&mut self, newest: &FrameState) {
+        let newest = self.in_reach(newest);
+        if let Some(Course { work, .. }) = self.course.as_mut().filter(|_| check(&newest).is_ok()) {
+            work.newest = work.frame.refinement.map(|_| newest);
+        }
     }
 
     /// Goes on with the frame until `stop` asks to leave off, a picture has become final, or the frame is done. `stop` is
@@ -157,6 +169,10 @@ impl Renderer {
 impl Render for Renderer {
     fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
         Ok(Self::restart(self, frame)?)
+    }
+
+    fn compare_with(&mut self, newest: &FrameState) {
+        Self::compare_with(self, newest);
     }
 
     fn advance(&mut self, stop: StopAsked) -> Result<Advance, DrawError> {

@@ -39,6 +39,7 @@ impl Engine {
             damaged_bricks: damage.missed(),
             damaged: damage.sentences(MOST_DAMAGES),
             upkeep,
+            refined: work.refined,
             stages: work.account.stages,
             total_ms: milliseconds(work.account.started),
         }

@@ -8,7 +8,7 @@ use crate::device::{CastJob, Gather, Part, TileGrid};
 use crate::present::{Classes, lattice_of};
 use layout::FeedbackEntry;
 use needs::Needs;
-use protocol::{FrameState, Pace, StopAsked};
+use protocol::{FrameState, Pace, Refined, StopAsked};
 use std::ops::Range;
 use std::time::Instant;
 use twin::Lattice;
@@ -66,6 +66,12 @@ pub(super) struct Work {
     pub(super) known: Classes,
     /// Whether these are shown by and by.
     pub(super) eases: bool,
+    /// What rays would see by now, where the frame is compared with that.
+    pub(super) newest: Option<FrameState>,
+    /// What is known of its pictures, where they are a part of the way to complete ones.
+    pub(super) refined: Option<Refined>,
+    /// Whether it only looks at a few pixels, which go to pictures of their own and are not shown: these.
+    pub(super) glance: Option<Lattice>,
 }
 
 impl Work {
@@ -80,6 +86,9 @@ impl Work {
             finals: Vec::new(),
             known: Classes::ALL,
             eases: false,
+            newest: None,
+            refined: None,
+            glance: None,
         }
     }
 
@@ -91,17 +100,22 @@ impl Work {
     /// The device's picture of a view: those of a complete frame that are cast one by one follow each other in one, each
     /// presented before the next is begun. A coarse look at views whose pixels are kept goes to others.
     pub(super) fn picture_of(&self, view: usize) -> usize {
-        if self.is_of_many() { view } else { view % self.views_at_once() }
+        match self.glance {
+            Some(_) => self.setting.rays.len() + view,
+            None if self.is_of_many() => view,
+            None => view % self.views_at_once(),
+        }
     }
 
     /// Whether what it shows depends on the frames before, so that each view keeps its picture.
     pub(super) fn is_of_many(&self) -> bool {
-        self.frame.pace != Pace::Complete || self.frame.sub_frame.is_some()
+        let FrameState { pace, sub_frame, refinement, .. } = &self.frame;
+        *pace != Pace::Complete || sub_frame.is_some() || refinement.is_some()
     }
 
     /// The pixels that it shows as they are cast.
     pub(super) fn lattice(&self) -> Lattice {
-        lattice_of(self.frame.sub_frame, self.setting.caster.fan.is_some())
+        self.glance.unwrap_or_else(|| lattice_of(self.frame.sub_frame, self.setting.caster.fan.is_some()))
     }
 
     /// The view of a projector.
@@ -128,7 +142,7 @@ impl Work {
         let outcome = engine.device.cast(&CastJob {
             scene: &self.setting.scene,
             views: &self.setting.rays[views.clone()],
-            first_picture: match self.pending.is_look() && self.frame.sub_frame.is_some() {
+            first_picture: match self.pending.is_look() && self.is_of_many() {
                 true => self.setting.rays.len(),
                 false => self.picture_of(views.start),
             },

@@ -52,6 +52,10 @@ pub struct Drive {
     /// The latest frame that all were told to show.
     ordered: Option<u32>,
     said_alive_at: Instant,
+    /// Whether somebody decides of each frame whether it is shown.
+    is_controlled: bool,
+    /// The frame that waits for that, and when it would be shown.
+    finished: Option<(u32, Duration)>,
 }
 
 impl Drive {
@@ -75,7 +79,15 @@ impl Drive {
             latest: None,
             ordered: None,
             said_alive_at: Instant::now(),
+            is_controlled: false,
+            finished: None,
         }
+    }
+
+    /// Each frame is shown only if somebody decides so: see [`Happening::Finished`].
+    #[must_use]
+    pub fn controlled(self) -> Self {
+        Self { is_controlled: true, ..self }
     }
 
     /// What each back-end draws with.
@@ -98,18 +110,37 @@ impl Drive {
         self.link.name(backend)
     }
 
-    /// Hands over the frame that is due.
+    /// Hands over the frame that is due, and what it is compared with.
     ///
     /// # Errors
     /// It cannot be sent.
-    pub fn draw(&mut self, frame: &FrameState) -> Result<(), SessionError> {
-        self.tell_all(&FromFrontend::Beat(Box::new(frame.clone())))?;
+    pub fn draw(&mut self, frame: &FrameState, newest: Option<FrameState>) -> Result<(), SessionError> {
+        let newest = newest.map(Box::new);
+        self.tell_all(&FromFrontend::Beat { frame: Box::new(frame.clone()), newest })?;
         self.beat.begin(self.time.now());
         for backend in self.there() {
             self.attendance[backend].asked(Instant::now());
         }
         self.latest = Some(frame.clone());
         Ok(())
+    }
+
+    /// There is nothing to draw when a frame is due.
+    pub fn pass(&mut self) {
+        self.beat.pass(self.time.now());
+    }
+
+    /// The frame that is finished is shown, or it is not.
+    ///
+    /// # Errors
+    /// A back-end cannot be told.
+    pub fn decide(&mut self, shows: bool) -> Result<Option<Happening>, SessionError> {
+        let Some((frame, at)) = self.finished.take() else { return Ok(None) };
+        if shows {
+            return self.show(frame, at).map(Some);
+        }
+        self.beat.keep_back(self.time.now());
+        Ok(None)
     }
 
     /// The next thing that happens. It waits for one.
@@ -137,6 +168,10 @@ impl Drive {
         let until = match self.beat.step(now) {
             Step::Begin { .. } if self.time.is_stepped() && self.is_anything_under_way() => None,
             Step::Begin { frame, seen_at } => return Ok(Some(Happening::Due { frame, seen_at })),
+            Step::Show { frame, at } if self.is_controlled => {
+                self.finished = Some((frame, at));
+                return Ok(Some(Happening::Finished { frame }));
+            }
             Step::Show { frame, at } => return self.show(frame, at).map(Some),
             Step::Wait { until: Some(until) } if self.time.is_stepped() && !self.is_anything_under_way() => {
                 self.time.jump(until);
@@ -303,7 +338,7 @@ impl Drive {
         if !self.attendance[backend].may_catch_up_with(index) {
             return Ok(());
         }
-        self.tell(backend, &FromFrontend::Beat(Box::new(frame)))?;
+        self.tell(backend, &FromFrontend::Beat { frame: Box::new(frame), newest: None })?;
         if self.ordered >= Some(index) {
             self.tell(backend, &FromFrontend::Show { frame: index, at_us: None })?;
             self.owes_show[backend] = Some(index);

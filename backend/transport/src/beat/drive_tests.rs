@@ -77,7 +77,7 @@ fn play(drive: &mut Drive, frames: u32) -> Seen {
     loop {
         match drive.await_next().unwrap() {
             Happening::Due { frame: index, .. } if index == frames => break,
-            Happening::Due { frame: index, .. } => drive.draw(&frame(index)).unwrap(),
+            Happening::Due { frame: index, .. } => drive.draw(&frame(index), None).unwrap(),
             other => note(&mut seen, other),
         }
     }
@@ -104,6 +104,7 @@ fn note(seen: &mut Seen, happening: Happening) {
         | Happening::Said { .. }
         | Happening::Standstill { .. }
         | Happening::Due { .. }
+        | Happening::Finished { .. }
         | Happening::Stopped => {}
     }
 }
@@ -225,11 +226,43 @@ fn a_frame_that_ends_the_only_back_end_each_time_is_left_out() {
 }
 
 #[test]
+fn a_controlled_display_shows_what_somebody_decides() {
+    for time in [Time::stepped(), Time::Real] {
+        let mut drive = driving(3, time, Arc::new(|b, f| Ok(some(b, f, 3_000)))).controlled();
+        let (mut seen, mut passed) = (Seen::default(), 0);
+        loop {
+            match drive.await_next().unwrap() {
+                Happening::Due { frame: 30, .. } => break,
+                // Now and then there is nothing to do.
+                Happening::Due { frame: index, .. } if index % 10 == 4 && passed <= index / 10 => {
+                    passed += 1;
+                    drive.pass();
+                }
+                Happening::Due { frame: index, .. } => drive.draw(&frame(index), None).unwrap(),
+                Happening::Finished { frame } => {
+                    drive.decide(frame % 3 == 0).unwrap().into_iter().for_each(|one| note(&mut seen, one));
+                }
+                other => note(&mut seen, other),
+            }
+        }
+        while let Some(happening) = drive.settle().unwrap() {
+            note(&mut seen, happening);
+        }
+        drive.finish().unwrap();
+        assert_eq!(passed, 3);
+        for shown in seen.shown.values() {
+            let frames: Vec<u32> = shown.iter().map(|shown| shown.0).collect();
+            assert_eq!(frames, (0..30).step_by(3).collect::<Vec<_>>());
+        }
+    }
+}
+
+#[test]
 fn one_that_fails_in_its_first_frame_ends_the_show() {
     let mut drive = driving(2, Time::Real, Arc::new(|_, _| Err("it cannot be drawn".to_owned())));
     let error = loop {
         match drive.await_next() {
-            Ok(Happening::Due { frame: index, .. }) => drive.draw(&frame(index)).unwrap(),
+            Ok(Happening::Due { frame: index, .. }) => drive.draw(&frame(index), None).unwrap(),
             Ok(other) => assert!(!matches!(other, Happening::Lost { .. })),
             Err(error) => break error.to_string(),
         }

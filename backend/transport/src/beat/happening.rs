@@ -27,6 +27,12 @@ pub enum Happening {
         /// Its account.
         report: Box<FrameReport>,
     },
+    /// A frame of a controlled display is drawn by all that are waited for: say with [`super::Drive::decide`] whether it is
+    /// shown.
+    Finished {
+        /// Its number.
+        frame: u32,
+    },
     /// All are told to show a frame.
     Ordered {
         /// Its number.

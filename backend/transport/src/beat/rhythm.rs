@@ -90,6 +90,8 @@ pub struct Beat {
     current: Option<Current>,
     /// When the latest frame is shown.
     last_shown: Option<Duration>,
+    /// When the one before it is.
+    shown_before: Option<Duration>,
 }
 
 impl Beat {
@@ -102,6 +104,7 @@ impl Beat {
             next_begin: now,
             current: None,
             last_shown: None,
+            shown_before: None,
         }
     }
 
@@ -131,7 +134,7 @@ impl Beat {
         }
         let at = self.slot(current.seen_at.max(now + self.rhythm.lead));
         self.current = None;
-        self.last_shown = Some(at);
+        self.shown_before = self.last_shown.replace(at);
         // On the grid again, where there is time.
         let period = self.rhythm.period.as_nanos().max(1);
         let next = (self.next_begin + self.rhythm.period).as_nanos() / period * period;
@@ -156,6 +159,16 @@ impl Beat {
         self.next_frame += 1;
         let deadline = self.patience().map(|patience| now + patience);
         self.current = Some(Current { frame, seen_at, deadline });
+    }
+
+    /// The frame that was to be shown is not: the next may begin at once.
+    pub fn keep_back(&mut self, now: Duration) {
+        (self.last_shown, self.next_begin) = (self.shown_before, now);
+    }
+
+    /// There is nothing to draw: the next frame may begin a period later.
+    pub fn pass(&mut self, now: Duration) {
+        self.next_begin = now.max(self.next_begin) + self.rhythm.period;
     }
 
     /// A back-end has drawn a frame.

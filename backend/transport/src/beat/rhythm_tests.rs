@@ -37,6 +37,10 @@ struct Show {
     models: Vec<Model>,
     events: BinaryHeap<Reverse<(Duration, usize, Event)>>,
     ordered: Vec<(Duration, u32)>,
+    /// Frames that are drawn and not shown.
+    keeps_back: fn(u32) -> bool,
+    /// When the latest message reaches each back-end: none overtakes another.
+    reached: Vec<Duration>,
 }
 
 impl Show {
@@ -47,7 +51,20 @@ impl Show {
         takes: &mut dyn FnMut(usize, u32) -> Duration,
         travels: &mut dyn FnMut() -> Duration,
     ) -> Self {
+        Self::controlled(backends, frames, |_| false, takes, travels)
+    }
+
+    /// The same, but some frames are not shown.
+    fn controlled(
+        backends: usize,
+        frames: u32,
+        keeps_back: fn(u32) -> bool,
+        takes: &mut dyn FnMut(usize, u32) -> Duration,
+        travels: &mut dyn FnMut() -> Duration,
+    ) -> Self {
         let mut show = Self {
+            keeps_back,
+            reached: vec![Duration::ZERO; backends],
             beat: Beat::new(RHYTHM, backends, Duration::ZERO),
             models: (0..backends).map(|_| Model::default()).collect(),
             events: BinaryHeap::new(),
@@ -72,21 +89,27 @@ impl Show {
                 Step::Begin { frame, .. } if frame == frames => return,
                 Step::Begin { frame, .. } => {
                     self.beat.begin(now);
-                    for backend in 0..self.models.len() {
-                        self.events.push(Reverse((now + travels(), backend, Event::Asked(frame))));
-                    }
+                    self.tell_all(now, Event::Asked(frame), travels);
                 }
+                Step::Show { frame, .. } if (self.keeps_back)(frame) => self.beat.keep_back(now),
                 Step::Show { frame, at } => {
                     self.ordered.push((at, frame));
-                    for backend in 0..self.models.len() {
-                        self.events.push(Reverse((now + travels(), backend, Event::Ordered(frame, at))));
-                    }
+                    self.tell_all(now, Event::Ordered(frame, at), travels);
                 }
                 Step::Wait { until } => {
                     self.events.extend(until.map(|until| Reverse((until, 0, Event::Wakes))));
                     return;
                 }
             }
+        }
+    }
+
+    /// A message to every back-end.
+    fn tell_all(&mut self, now: Duration, event: Event, travels: &mut dyn FnMut() -> Duration) {
+        for backend in 0..self.models.len() {
+            let at = (now + travels()).max(self.reached[backend] + Duration::from_nanos(1));
+            self.reached[backend] = at;
+            self.events.push(Reverse((at, backend, event)));
         }
     }
 
@@ -100,7 +123,10 @@ impl Show {
     ) {
         let model = &mut self.models[backend];
         match event {
-            Event::Asked(frame) => model.waiting = Some(frame),
+            Event::Asked(frame) => {
+                model.stage.asked();
+                model.waiting = Some(frame);
+            }
             Event::HasDrawn(frame) => {
                 model.drawing = None;
                 model.stage.drawn(frame);
@@ -170,6 +196,40 @@ fn nothing_tears_while_all_keep_the_deadline() {
             assert!(model.shown[2..].windows(2).all(is_steady), "{backends}");
         }
     }
+}
+
+#[test]
+fn nothing_tears_where_frames_are_kept_back() {
+    const FRAMES: u32 = 10_000;
+    for backends in [1, 4, 36] {
+        let (mut draws, mut messages) = (Dice(17), Dice(18));
+        let keeps_back = |frame: u32| frame % 7 != 0 && frame % 5 != 2;
+        let show = Show::controlled(
+            backends,
+            FRAMES,
+            keeps_back,
+            &mut |_, _| draws.throw(500, 9_500),
+            &mut || messages.throw(10, 1_500),
+        );
+        assert_eq!((show.tears(), show.beat.late().iter().sum::<u64>()), (0, 0), "{backends}");
+        for model in &show.models {
+            let frames: Vec<u32> = model.shown.iter().map(|shown| shown.1).collect();
+            assert_eq!(frames, (0..FRAMES).filter(|&frame| !keeps_back(frame)).collect::<Vec<_>>());
+        }
+        // What is kept back costs no period.
+        let length = show.models[0].shown.last().map(|shown| shown.0).unwrap_or_default();
+        assert!(length < PERIOD * FRAMES * 4 / 5, "{length:?}");
+    }
+}
+
+#[test]
+fn a_beat_with_nothing_to_draw_waits_a_period() {
+    let mut beat = Beat::new(RHYTHM, 1, Duration::ZERO);
+    let ms = Duration::from_millis;
+    assert!(matches!(beat.step(ms(0)), Step::Begin { frame: 0, .. }));
+    beat.pass(ms(0));
+    assert_eq!(beat.step(ms(1)), Step::Wait { until: Some(PERIOD) });
+    assert!(matches!(beat.step(PERIOD), Step::Begin { frame: 0, .. }), "its number is not used up");
 }
 
 /// The canary: messages that take longer than the lead do tear, and that is seen.

@@ -31,6 +31,7 @@ enum Cue {
     Wall(Box<dyn Wall>),
     Picture(ScreenImage),
     Drawn(u32),
+    Asked,
     Show { frame: u32, at_us: u64 },
 }
 
@@ -82,6 +83,11 @@ impl ShowThread {
     /// A frame is drawn.
     pub fn drawn(&self, frame: u32) {
         self.cue(Cue::Drawn(frame));
+    }
+
+    /// Another frame is asked for.
+    pub fn asked(&self) {
+        self.cue(Cue::Asked);
     }
 
     /// A frame is to be shown, at a time on this process's clock or as soon as it can be.
@@ -183,6 +189,10 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
             Ok(Cue::Drawn(frame)) => {
                 windows.drawn(frame);
                 stage.drawn(frame);
+            }
+            Ok(Cue::Asked) => {
+                stage.asked();
+                windows.drawn.retain(|&frame, _| stage.awaits(frame));
             }
             Ok(Cue::Show { frame, at_us }) => stage.order(frame, at_us),
             Err(RecvTimeoutError::Timeout) => {}

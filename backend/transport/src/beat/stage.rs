@@ -29,6 +29,17 @@ impl Stage {
         }
     }
 
+    /// Another frame is asked for: those that are drawn and have no order by now never get one.
+    pub fn asked(&mut self) {
+        let Self { drawn, ordered } = self;
+        drawn.retain(|frame| ordered.contains_key(frame));
+    }
+
+    /// Whether a frame may still be shown.
+    pub fn awaits(&self, frame: u32) -> bool {
+        self.drawn.contains(&frame)
+    }
+
     /// The frame to show next, and when: of those whose time has come the latest, or else the first to come.
     pub fn due(&self, now_us: u64) -> Option<(u32, u64)> {
         let ready = self.drawn.iter().filter_map(|&frame| Some((frame, *self.ordered.get(&frame)?)));
@@ -64,6 +75,16 @@ mod tests {
         assert_eq!(stage.due(100), Some((3, 700)), "one after the other");
         stage.shown(3);
         assert_eq!(stage.due(750), Some((4, 800)));
+    }
+
+    #[test]
+    fn a_frame_that_was_kept_back_is_forgotten() {
+        let mut stage = Stage::default();
+        (3..6).for_each(|frame| stage.drawn(frame));
+        stage.order(4, 700);
+        stage.asked();
+        assert_eq!([3, 4, 5].map(|frame| stage.awaits(frame)), [false, true, false]);
+        assert_eq!(stage.next(100), Some(4));
     }
 
     #[test]

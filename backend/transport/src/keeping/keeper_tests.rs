@@ -118,7 +118,7 @@ impl Bench {
     }
 
     fn beat(&mut self, index: u32) {
-        self.say(&FromFrontend::Beat(Box::new(frame(index))));
+        self.say(&FromFrontend::Beat { frame: Box::new(frame(index)), newest: None });
     }
 
     /// What the front-end hears next, signs of life apart.

@@ -1,11 +1,13 @@
-//! Plots as self-contained SVG: points and lines on two logarithmic axes, in light and in dark.
+//! Plots as self-contained SVG, in light and in dark: points and lines on two logarithmic axes, and strips over time.
 
 mod axis;
 mod chart;
 mod legend;
 mod marks;
 mod series;
+mod strip;
 
 pub use axis::{LogAxis, Tick};
 pub use chart::Chart;
 pub use series::{Mark, Point, Series, Stroke};
+pub use strip::{StripTick, strip};
