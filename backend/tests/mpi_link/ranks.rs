@@ -252,7 +252,9 @@ fn cost_of_a_beat(link: Box<dyn Link>) -> ExitCode {
     let session = Session::start(link, setups.clone(), Limits::default(), Arc::default());
     let period = Duration::from_millis(100);
     let mut drive = Drive::new(session.expect("the back-ends start"), setups, period, Time::Real);
-    let size = wire::encode(&FromFrontend::Beat { frame: Box::new(frame(0, 40)), newest: None }).expect("a frame").len();
+    let size = wire::encode(&FromFrontend::Beat { frame: Box::new(frame(0, 40)), newest: None })
+        .expect("a frame")
+        .len();
     let mut times = Vec::new();
     while times.len() < 100 {
         if let Happening::Due { frame: index, .. } = drive.await_next().expect("the beat goes on") {

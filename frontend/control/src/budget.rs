@@ -30,7 +30,9 @@ impl Budget {
         match *self {
             Self::Fixed(units) => units.max(1),
             Self::Time { unit_s: None, .. } => 1,
-            Self::Time { tick, unit_s: Some(unit_s) } => (tick.as_secs_f64() / unit_s.max(1e-9)).clamp(1.0, 1e6) as u32,
+            Self::Time { tick, unit_s: Some(unit_s) } => {
+                (tick.as_secs_f64() / unit_s.max(1e-9)).clamp(1.0, 1e6) as u32
+            }
         }
     }
 

@@ -199,7 +199,9 @@ impl Rule {
                 // τs − τa: the newest state is as far from what is shown as from the active one, and by what lies between.
                 weighed(weights.theta, shown.lag) + (shown.spatial - active.spatial) > 0.0
             }
-            Self::Rate { .. } | Self::Quality { .. } => !news.has_changed && self.is_reached(active, units, now),
+            Self::Rate { .. } | Self::Quality { .. } => {
+                !news.has_changed && self.is_reached(active, units, now)
+            }
         }
     }
 

@@ -50,7 +50,9 @@ impl Default for Rule {
 
 /// Why a text is no rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{text:?} is no way to control frames; give errors, rate=HZ (0.1 to 1000), or quality=SHARE (above 0, up to 1)")]
+#[error(
+    "{text:?} is no way to control frames; give errors, rate=HZ (0.1 to 1000), or quality=SHARE (above 0, up to 1)"
+)]
 pub struct RuleError {
     text: String,
 }
@@ -64,7 +66,9 @@ impl FromStr for Rule {
         match text.split_once('=') {
             None if text == "errors" => Ok(Self::default()),
             Some(("rate", hz)) => match number(hz)? {
-                hz if (0.1..=1000.0).contains(&hz) => Ok(Self::Rate { period: Duration::from_secs_f64(1.0 / hz) }),
+                hz if (0.1..=1000.0).contains(&hz) => {
+                    Ok(Self::Rate { period: Duration::from_secs_f64(1.0 / hz) })
+                }
                 _ => Err(wrong()),
             },
             Some(("quality", share)) => match number(share)? {

@@ -59,7 +59,9 @@ mod tests {
             let all = ["lightloom", "tune", "procedural:shells", "-o", "d"].iter().chain(rest);
             Cli::try_parse_from(all).map_err(|error| error.exit_code())
         };
-        let Ok(Command::Tune(args)) = parse(&["--machines", "0.5,2"]).map(|cli| cli.command) else { panic!() };
+        let Ok(Command::Tune(args)) = parse(&["--machines", "0.5,2"]).map(|cli| cli.command) else {
+            panic!()
+        };
         assert_eq!(args.machines.iter().map(|full| full.as_millis()).collect::<Vec<_>>(), [500, 2000]);
         for wrong in [["--machines", "0"], ["--machines", "fast"], ["--size", "0x4"]] {
             assert_eq!(parse(&wrong).map(|_| ()), Err(2), "{wrong:?}");

@@ -5,8 +5,8 @@ use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
 use crate::cli::{OutputArg, ReconstructArg, ShowArgs};
 use crate::drive::{
-    Controlled, Desk, Desktop, DriveReport, Dump, Energy, Hands, Input, Plan, Recorder, Screens, Sheet, Sink, Status, Taped,
-    Tracked, Trial, run,
+    Controlled, Desk, Desktop, DriveReport, Dump, Energy, Hands, Input, Plan, Recorder, Screens, Sheet, Sink,
+    Status, Taped, Tracked, Trial, run,
 };
 use crate::report::BackendSummary;
 use crate::staging::Theatre;

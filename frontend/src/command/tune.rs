@@ -120,7 +120,9 @@ fn draw(
             progress.borrow_mut().set(DRAWING * part, "drawing");
         };
         let size = [args.size.x, args.size.y];
-        let Some(drawn) = Footage::draw(scenario, display, size, source, stop, &shown)? else { return Ok(None) };
+        let Some(drawn) = Footage::draw(scenario, display, size, source, stop, &shown)? else {
+            return Ok(None);
+        };
         footage.push(drawn);
         before += scenario.states.len();
     }

@@ -145,7 +145,15 @@ impl Controlled {
         active.state.marks = newest.marks;
         let frame = part(&active.state, newest.index, self.configuration, active.done);
         let (number, done) = (newest.index, active.done);
-        let tick = Tick { number, done, begins: false, looks: false, units: 0, refined: Vec::new(), slowest: Duration::ZERO };
+        let tick = Tick {
+            number,
+            done,
+            begins: false,
+            looks: false,
+            units: 0,
+            refined: Vec::new(),
+            slowest: Duration::ZERO,
+        };
         self.tick = Some(tick);
         Some(Task { frame, newest: None, asked_at: active.asked_at })
     }
@@ -170,9 +178,8 @@ impl Controlled {
         }
         self.budget.took(tick.units, tick.slowest);
         let sum = |of: fn(&Refined) -> u64| tick.refined.iter().map(of).sum::<u64>();
-        let mean = |sum: u64, count: u64| {
-            (count > 0).then(|| sum as f64 / Refined::UNIT as f64 / count as f64)
-        };
+        let mean =
+            |sum: u64, count: u64| (count > 0).then(|| sum as f64 / Refined::UNIT as f64 / count as f64);
         let spatial = mean(sum(|one| one.spatial), sum(|one| one.pixels)).unwrap_or(ALL);
         let change = mean(sum(|one| one.change), sum(|one| one.compared)).or(tick.looks.then_some(ALL));
         let has_detail = tick.refined.iter().any(|one| one.has_detail);

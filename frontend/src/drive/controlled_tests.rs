@@ -56,8 +56,15 @@ fn what_moves_is_looked_at_and_begun_anew_when_it_is_far() {
     let first = controlled.next(state(0, 0.0), NOW, || false).unwrap();
     answer(&mut controlled, &first, [20, 0], false);
     let second = controlled.next(state(1, 0.1), NOW, || false).unwrap();
-    assert_eq!(second.frame.display_from_volume, state(0, 0.0).display_from_volume, "it goes on with the old state");
-    assert_eq!(second.newest.as_ref().map(|newest| newest.display_from_volume), Some(state(1, 0.1).display_from_volume));
+    assert_eq!(
+        second.frame.display_from_volume,
+        state(0, 0.0).display_from_volume,
+        "it goes on with the old state"
+    );
+    assert_eq!(
+        second.newest.as_ref().map(|newest| newest.display_from_volume),
+        Some(state(1, 0.1).display_from_volume)
+    );
     assert!(!answer(&mut controlled, &second, [20, 5], false));
     let third = controlled.next(state(2, 0.2), NOW, || false).unwrap();
     assert_eq!(third.frame.refinement.unwrap(), Refinement { configuration: 1, to: 24 });

@@ -115,8 +115,20 @@ impl DriveReport {
             ("a frame casts", casts.to_owned()),
             ("its rays", self.played.casters.join("; ")),
             ("the clock", clock.to_owned()),
-            ("rays were cast for", self.played.cast_ms.iter().map(|ms| format!("{:.1} s", ms / 1e3)).collect::<Vec<_>>().join(", ")),
-            ("energy", self.joules.map_or("this machine does not tell".to_owned(), |joules| format!("{joules:.0} J"))),
+            (
+                "rays were cast for",
+                self.played
+                    .cast_ms
+                    .iter()
+                    .map(|ms| format!("{:.1} s", ms / 1e3))
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            ),
+            (
+                "energy",
+                self.joules
+                    .map_or("this machine does not tell".to_owned(), |joules| format!("{joules:.0} J")),
+            ),
             ("projectors", self.projectors.to_string()),
         ])
     }
@@ -126,7 +138,10 @@ impl DriveReport {
         let Some(summary) = &self.played.control else { return String::new() };
         let [spatial, temporal] = summary.mean_errors.map(|error| 255.0 * error);
         let rows = [
-            ("pictures begun", format!("{}, {} of them for detail that came", summary.begun, summary.begun_for_detail)),
+            (
+                "pictures begun",
+                format!("{}, {} of them for detail that came", summary.begun, summary.begun_for_detail),
+            ),
             ("pictures shown", format!("{}, {} of them complete", summary.shown, summary.shown_complete)),
             ("rays of what was shown", format!("{:.0} % on average", 100.0 * summary.mean_share)),
             ("error in space, ζ", format!("{spatial:.2} of 255 on average")),

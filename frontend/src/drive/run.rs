@@ -2,7 +2,9 @@
 
 use super::measures::Measures;
 use super::plot::plot_of_beat;
-use super::{BeatSummary, ControlSummary, Controlled, Input, KEYS, Recorder, Request, Screens, Status, Trial};
+use super::{
+    BeatSummary, ControlSummary, Controlled, Input, KEYS, Recorder, Request, Screens, Status, Trial,
+};
 use crate::FrontendError;
 use crate::report::plot::strip;
 use crate::staging::Theatre;
@@ -160,7 +162,11 @@ pub fn run<'a, 'b>(
         beat: show.measures.summary(&show.drive.late(), &show.lost),
         plot: plot_of_beat(&show.measures.interval, &show.measures.latency, &show.measures.skew),
         control: show.control.as_ref().map(Controlled::summary),
-        strip: show.control.as_ref().map(|control| strip("Frame control", &control.ticks())).unwrap_or_default(),
+        strip: show
+            .control
+            .as_ref()
+            .map(|control| strip("Frame control", &control.ticks()))
+            .unwrap_or_default(),
         cast_ms: show.cast_ms,
         troubles: show.troubles,
         shortfall: show.latest.into_iter().map(|latest| latest.1).filter(|why| !why.is_empty()).collect(),

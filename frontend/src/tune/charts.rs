@@ -11,7 +11,8 @@ const LEAST: f64 = 1e-4;
 
 /// How bad the settings of a stage are, as an `<svg>` element.
 pub(super) fn badness_chart(played: &PlayedStage) -> String {
-    let zero = ZERO * played.settings.iter().filter_map(|one| one.value).filter(|v| *v > 0.0).fold(1.0, f64::min);
+    let zero =
+        ZERO * played.settings.iter().filter_map(|one| one.value).filter(|v| *v > 0.0).fold(1.0, f64::min);
     let curve = |(number, name): (usize, &str)| {
         let points = played.settings.iter().zip(&played.badness[number]).filter_map(|(setting, &badness)| {
             let value = setting.value?;
@@ -22,12 +23,16 @@ pub(super) fn badness_chart(played: &PlayedStage) -> String {
     };
     let mut series: Vec<Series> = ["by RMS", "by flicker"].into_iter().enumerate().map(curve).collect();
     // Those without a number are lines across.
-    let ends = played.settings.iter().filter_map(|one| one.value).fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
-        (low.min(value.max(zero)), high.max(value))
-    });
-    for (place, setting) in played.settings.iter().enumerate().filter(|(_, setting)| setting.value.is_none()) {
+    let ends = played
+        .settings
+        .iter()
+        .filter_map(|one| one.value)
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value.max(zero)), high.max(value)));
+    for (place, setting) in played.settings.iter().enumerate().filter(|(_, setting)| setting.value.is_none())
+    {
         let badness = played.badness[0][place];
-        let point = |x: f64| Point { x, y: badness.max(LEAST), title: format!("{}: {badness:.4}", setting.name) };
+        let point =
+            |x: f64| Point { x, y: badness.max(LEAST), title: format!("{}: {badness:.4}", setting.name) };
         let line = Series::new(format!("{}, by RMS", setting.name), vec![point(ends.0), point(ends.1)]);
         series.push(line.tone(2 + series.len()).mark(Mark::None).stroke(Stroke::Dashed));
     }
@@ -46,13 +51,19 @@ pub(super) fn work_chart(played: &PlayedStage) -> String {
     let points = played.settings.iter().enumerate().map(|(place, setting)| {
         let rms = played.runs[place].iter().map(|run| run.score.rms).sum::<f64>() / runs;
         let busy = played.busy(place).as_secs_f64();
-        Point { x: busy.max(1e-3), y: 255.0 * rms, title: format!("{}: {busy:.1} s, {:.3}/255", setting.name, 255.0 * rms) }
+        Point {
+            x: busy.max(1e-3),
+            y: 255.0 * rms,
+            title: format!("{}: {busy:.1} s, {:.3}/255", setting.name, 255.0 * rms),
+        }
     });
     Chart {
         title: "What idling saves and costs".to_owned(),
         x_label: "seconds in which rays are cast, all runs".to_owned(),
         y_label: "mean RMS, 1/255".to_owned(),
-        series: vec![Series::new("χ from 0 (right) up", points.collect()).tone(3).mark(Mark::Dot).stroke(Stroke::Thin)],
+        series: vec![
+            Series::new("χ from 0 (right) up", points.collect()).tone(3).mark(Mark::Dot).stroke(Stroke::Thin),
+        ],
     }
     .svg()
 }

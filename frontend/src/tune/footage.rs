@@ -81,7 +81,8 @@ impl Footage {
         let (name, states) = (scenario.name.clone(), scenario.states.clone());
         let mut footage = Self { name, states, pictures, display, weights, truths: Vec::new() };
         for instant in 0..footage.len() {
-            let is_as_before = instant > 0 && Arc::ptr_eq(&footage.pictures[instant], &footage.pictures[instant - 1]);
+            let is_as_before =
+                instant > 0 && Arc::ptr_eq(&footage.pictures[instant], &footage.pictures[instant - 1]);
             let truth = match footage.truths.last().filter(|_| is_as_before) {
                 Some(before) => Arc::clone(before),
                 None => Arc::new(footage.eye(footage.pictures[instant].iter().map(|one| &one.rgba[..]))),

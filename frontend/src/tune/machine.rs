@@ -233,7 +233,8 @@ impl<'a> Controlled<'a> {
     fn filled(&mut self, instant: usize, done: u32) -> f64 {
         let before = &self.before;
         let filled = self.footage.pictures(instant).iter().enumerate();
-        let filled = filled.map(|(view, image)| fill(image.rgba.clone(), before.get(view), &self.order, done));
+        let filled =
+            filled.map(|(view, image)| fill(image.rgba.clone(), before.get(view), &self.order, done));
         self.filled = filled.collect();
         let pixels: usize = self.filled.iter().map(|one| one.rgba.len() / 4).sum();
         self.filled.iter().map(|one| one.spatial).sum::<u64>() as f64 * ERROR_UNIT / pixels.max(1) as f64

@@ -8,13 +8,14 @@ use crate::report::page::STYLE;
 use renderer::output::OutputError;
 use std::path::Path;
 
-const OWN_STYLE: &str =
-    ".chart{margin:1em 0}.pair{display:flex;flex-wrap:wrap;gap:12px}.pair figure{flex:1 1 300px;margin:0}.pair img{width:100%}";
+const OWN_STYLE: &str = ".chart{margin:1em 0}.pair{display:flex;flex-wrap:wrap;gap:12px}.pair figure{flex:1 1 300px;margin:0}.pair img{width:100%}";
 
 /// The whole page, with the pictures of the folder inside.
 pub(super) fn page(report: &TuneReport, folder: &Path, files: &[[String; 2]]) -> Result<String, OutputError> {
-    let charts: String = report.charts.iter().map(|chart| format!("<div class=\"chart\">{chart}</div>")).collect();
-    let strips: String = report.strips.iter().map(|strip| format!("<div class=\"chart\">{strip}</div>")).collect();
+    let charts: String =
+        report.charts.iter().map(|chart| format!("<div class=\"chart\">{chart}</div>")).collect();
+    let strips: String =
+        report.strips.iter().map(|strip| format!("<div class=\"chart\">{strip}</div>")).collect();
     let tables: String = report.stages.iter().map(|stage| stage_table(report, stage)).collect();
     let mut worst = String::new();
     for (one, names) in report.worst.iter().zip(files) {

@@ -138,21 +138,35 @@ fn stage_report(study: &Study, played: &PlayedStage) -> StageReport {
             badness_by_flicker: played.badness[1][place],
             busy_s: played.busy(place).as_secs_f64(),
             scores: runs.iter().map(|run| run.score).collect(),
-            shown_per_s: runs.iter().enumerate().map(|(at, run)| f64::from(run.played.shown) / length(at)).collect(),
+            shown_per_s: runs
+                .iter()
+                .enumerate()
+                .map(|(at, run)| f64::from(run.played.shown) / length(at))
+                .collect(),
         }
     });
     StageReport { stage: played.stage, settings: settings.collect(), best: played.best }
 }
 
 /// A scenario as a strip, and its worst instant.
-fn watched(footage: &Footage, contender: Contender, machine: Machine) -> Result<(String, Worst), FrontendError> {
+fn watched(
+    footage: &Footage,
+    contender: Contender,
+    machine: Machine,
+) -> Result<(String, Worst), FrontendError> {
     let mut worst: Option<Worst> = None;
     let played = play(footage, contender, machine, &mut |instant, shown| {
         let truth = footage.truth(instant);
         let squares = shown.rgba.iter().zip(&truth.rgba).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>();
         let rms = (squares / shown.rgba.len().max(1) as f64).sqrt();
         if worst.as_ref().is_none_or(|worst| worst.rms < rms) {
-            worst = Some(Worst { name: footage.name.clone(), instant, rms, shown: shown.clone(), truth: truth.clone() });
+            worst = Some(Worst {
+                name: footage.name.clone(),
+                instant,
+                rms,
+                shown: shown.clone(),
+                truth: truth.clone(),
+            });
         }
         Ok(())
     })?;

@@ -42,7 +42,8 @@ impl Scenario {
         let mut sampled: Vec<FrameState> = Vec::new();
         let mut began_s = None;
         for state in states {
-            let instant = ((state.time_s - *began_s.get_or_insert(state.time_s)) * RATE_HZ).round().max(0.0) as usize;
+            let instant =
+                ((state.time_s - *began_s.get_or_insert(state.time_s)) * RATE_HZ).round().max(0.0) as usize;
             // What was seen before lasts until now.
             while let Some(last) = sampled.last().filter(|_| sampled.len() < instant).cloned() {
                 sampled.push(last);

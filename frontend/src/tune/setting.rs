@@ -38,7 +38,11 @@ fn by_errors(name: String, value: f64, weights: Weights) -> Setting {
 
 /// ρ from 0.1 to 0.9 and, beside it, the paper's four fixed rules and what is shown without control. Around a ϑ and χ.
 pub fn stage_of_rho(around: Weights) -> Vec<Setting> {
-    let fixed = |name: &str, rule| Setting { name: name.to_owned(), value: None, contender: Contender::Control(rule) };
+    let fixed = |name: &str, rule| Setting {
+        name: name.to_owned(),
+        value: None,
+        contender: Contender::Control(rule),
+    };
     let rate = |hz: f64| Rule::Rate { period: Duration::from_secs_f64(1.0 / hz) };
     let mut settings: Vec<Setting> = (1..10)
         .map(|tenth| f64::from(tenth) / 10.0)

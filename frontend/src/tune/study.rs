@@ -87,7 +87,9 @@ impl Study {
     ) -> Result<Option<PlayedStage>, FrontendError> {
         let cases: Vec<(usize, &Footage, Machine)> = (0..settings.len())
             .flat_map(|setting| self.footage.iter().map(move |footage| (setting, footage)))
-            .flat_map(|(setting, footage)| self.machines.iter().map(move |&machine| (setting, footage, machine)))
+            .flat_map(|(setting, footage)| {
+                self.machines.iter().map(move |&machine| (setting, footage, machine))
+            })
             .collect();
         let played: Result<Vec<Option<Run>>, FrontendError> = cases
             .par_iter()
@@ -97,7 +99,8 @@ impl Study {
                 }
                 let mut scorer = Scorer::new(footage);
                 let contender = settings[setting].contender;
-                let played = play(footage, contender, machine, &mut |instant, seen| scorer.see(instant, seen))?;
+                let played =
+                    play(footage, contender, machine, &mut |instant, seen| scorer.see(instant, seen))?;
                 shown();
                 Ok(Some(Run { score: scorer.score(), played }))
             })

@@ -55,7 +55,9 @@ pub fn measure() -> Result<(), String> {
 
 /// A tick of the renderer with a look at the newest state, and without.
 fn looks(results: &mut Results) -> Result<(), String> {
-    results.line("Ticks of 4 units on all 8 pictures of `desk8` at its own size, CPU, milliseconds, median of 9:");
+    results.line(
+        "Ticks of 4 units on all 8 pictures of `desk8` at its own size, CPU, milliseconds, median of 9:",
+    );
     results.line("");
     results.line("| scene | what changes | a tick | with a look at the newest state | a complete picture |");
     results.line("| --- | --- | ---: | ---: | ---: |");
@@ -65,8 +67,7 @@ fn looks(results: &mut Results) -> Result<(), String> {
     all.extend(scenes::cranium(&display));
     for scene in &all {
         let mut turned = scene.frame.clone();
-        turned.display_from_volume =
-            glam::DAffine3::from_rotation_y(0.02) * turned.display_from_volume;
+        turned.display_from_volume = glam::DAffine3::from_rotation_y(0.02) * turned.display_from_volume;
         let mut denser = scene.frame.clone();
         denser.optics.extinction = scenes::scaled(&denser.optics.extinction, 1.05);
         for (what, newest) in [("it is turned", &turned), ("its extinction", &denser)] {
@@ -104,7 +105,9 @@ fn drawn(
 ) -> Result<FrameReport, String> {
     let failed = |error: renderer::RenderError| error.to_string();
     renderer.restart(frame).map_err(failed)?;
-    newest.iter().for_each(|newest| renderer.compare_with(&FrameState { pace: frame.pace, ..(*newest).clone() }));
+    newest
+        .iter()
+        .for_each(|newest| renderer.compare_with(&FrameState { pace: frame.pace, ..(*newest).clone() }));
     loop {
         let advance = renderer.advance(&|| false).map_err(failed)?;
         renderer.present(&mut drop).map_err(failed)?;

@@ -35,7 +35,8 @@ pub fn compare(footage: &[Footage]) -> Result<(), String> {
 
 fn row(name: &str, spatial: &[Pair], temporal: &[Pair]) -> String {
     let cells = |pairs: &[Pair]| {
-        let mut ratios: Vec<f64> = pairs.iter().filter(|pair| pair.1 > 1e-6).map(|pair| pair.0 / pair.1).collect();
+        let mut ratios: Vec<f64> =
+            pairs.iter().filter(|pair| pair.1 > 1e-6).map(|pair| pair.0 / pair.1).collect();
         ratios.sort_by(f64::total_cmp);
         let at = |share: f64| ratios.get((share * ratios.len() as f64) as usize).copied().unwrap_or(f64::NAN);
         format!("{:.3} | {:.2} ({:.2} to {:.2})", rank_correlation(pairs), at(0.5), at(0.05), at(0.95))
@@ -97,6 +98,7 @@ fn rank_correlation(pairs: &[Pair]) -> f64 {
     };
     let (a, b) = (ranks(|pair| pair.0), ranks(|pair| pair.1));
     let mean = 0.5 * (pairs.len() as f64 - 1.0);
-    let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum() };
+    let product =
+        |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum() };
     product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
 }

@@ -37,7 +37,9 @@ pub fn compare(study: &Study, best: Weights) -> Result<(), String> {
     let cases: Vec<(Contender, &Footage, Machine)> = contenders
         .iter()
         .flat_map(|&(_, contender)| study.footage.iter().map(move |footage| (contender, footage)))
-        .flat_map(|(contender, footage)| study.machines.iter().map(move |&machine| (contender, footage, machine)))
+        .flat_map(|(contender, footage)| {
+            study.machines.iter().map(move |&machine| (contender, footage, machine))
+        })
         .collect();
     let judged: Result<Vec<Judged>, OutputError> =
         cases.par_iter().map(|&(contender, footage, machine)| judge(contender, footage, machine)).collect();
@@ -84,9 +86,16 @@ fn by_scenario(study: &Study, names: &[&str], rows: &[&[Judged]], results: &mut 
     for (at, footage) in study.footage.iter().enumerate() {
         for (number, machine) in study.machines.iter().enumerate() {
             let run = at * study.machines.len() + number;
-            let cells: Vec<String> =
-                rows.iter().map(|row| format!("{:.2} / {:.3}", 255.0 * row[run].rms, row[run].flip)).collect();
-            results.line(format!("| {}, {} s | {} |", footage.name, machine.full.as_secs_f64(), cells.join(" | ")));
+            let cells: Vec<String> = rows
+                .iter()
+                .map(|row| format!("{:.2} / {:.3}", 255.0 * row[run].rms, row[run].flip))
+                .collect();
+            results.line(format!(
+                "| {}, {} s | {} |",
+                footage.name,
+                machine.full.as_secs_f64(),
+                cells.join(" | ")
+            ));
         }
     }
 }

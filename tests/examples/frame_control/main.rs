@@ -38,7 +38,8 @@ fn main() -> Result<(), String> {
     let study = Study { footage: footage(&display)?, machines };
     estimates::compare(&study.footage)?;
     costs::measure()?;
-    let played = study.run(Weights::default(), &AtomicBool::new(false), &|| {}).map_err(|error| error.to_string())?;
+    let played =
+        study.run(Weights::default(), &AtomicBool::new(false), &|| {}).map_err(|error| error.to_string())?;
     let (stages, best) = played.ok_or("nobody stops it")?;
     let report = TuneReport::new(&study, &stages, best, started.elapsed().as_secs_f64())
         .map_err(|error| error.to_string())?;

@@ -93,7 +93,7 @@ impl Stage {
 
 /// A tag that can be told from others by its number.
 fn numbered(number: usize) -> FeedbackTag {
-    FeedbackTag { keys: vec![NodeKey::ROOT; number], frame: None }
+    FeedbackTag { keys: vec![NodeKey::ROOT; number], ..FeedbackTag::default() }
 }
 
 fn union(a: &[FeedbackEntry], b: &[FeedbackEntry]) -> Vec<FeedbackEntry> {

@@ -96,8 +96,10 @@ fn agrees(device: &[&str]) {
     let complete = stage.complete(&scene, 29, device);
     assert_same("what rests", &complete, &last);
     let full = stage.complete(&scene, 5, device);
-    let shows_full = |frame: &str| full.iter().all(|(name, bytes)| one.get(&format!("{frame}/{name}")) == Some(bytes));
-    let whole = one.keys().filter_map(|name| name.split_once('/')).filter(|(frame, _)| shows_full(frame)).count();
+    let shows_full =
+        |frame: &str| full.iter().all(|(name, bytes)| one.get(&format!("{frame}/{name}")) == Some(bytes));
+    let whole =
+        one.keys().filter_map(|name| name.split_once('/')).filter(|(frame, _)| shows_full(frame)).count();
     assert_eq!(whole, 0, "the canary: what moves is not complete");
 }
 
@@ -131,8 +133,23 @@ fn what_rests_is_complete_and_takes_no_core() {
         let stage = Stage::new();
         let (scene, display, dump) = (stage.scene(STILL), stage.display(), stage.path("dump"));
         let arguments = [
-            "drive", &scene, "--display", &display, "--device", "cpu", "--caster", caster, "--output", "none",
-            "--control", "errors", "--for", "7", "--dump", &dump, "--json",
+            "drive",
+            &scene,
+            "--display",
+            &display,
+            "--device",
+            "cpu",
+            "--caster",
+            caster,
+            "--output",
+            "none",
+            "--control",
+            "errors",
+            "--for",
+            "7",
+            "--dump",
+            &dump,
+            "--json",
         ];
         let running = start(&mut lightloom(&arguments));
         sleep(Duration::from_secs(4));
@@ -158,8 +175,20 @@ fn fixed_rules_keep_their_targets() {
     let shown = |rule: &str, name: &str| {
         let dump = stage.path(name);
         let arguments = [
-            "drive", &scene, "--display", &display, "--device", "cpu", "--output", "none", "--stepped",
-            "--control", rule, "--dump", &dump, "--json",
+            "drive",
+            &scene,
+            "--display",
+            &display,
+            "--device",
+            "cpu",
+            "--output",
+            "none",
+            "--stepped",
+            "--control",
+            rule,
+            "--dump",
+            &dump,
+            "--json",
         ];
         let ran = run(&mut lightloom(&arguments)).succeeded();
         let report: Value = serde_json::from_str(&ran.stdout).expect("the report is JSON");
@@ -168,7 +197,12 @@ fn fixed_rules_keep_their_targets() {
     let (half, _) = shown("quality=0.5", "half");
     assert!(half["mean_share"].as_f64().unwrap() >= 0.5, "{half}");
     let (whole, frames) = shown("quality=1", "whole");
-    assert_eq!(whole["shown"], whole["shown_complete"], "{whole}");
+    // Whatever comes first is shown.
+    assert_eq!(
+        whole["shown"].as_u64(),
+        whole["shown_complete"].as_u64().map(|complete| complete + 1),
+        "{whole}"
+    );
     assert_same("what rests", &stage.complete(&scene, 29, &["--device", "cpu"]), &stage.last(&frames).0);
     let (seldom, _) = shown("rate=20", "seldom");
     assert!(seldom["begun"].as_u64() < half["begun"].as_u64(), "{seldom} {half}");
@@ -200,7 +234,11 @@ fn the_best_rule_is_found_and_shown_on_a_page() {
         assert!(numbered.clone().all(|one| badness(best) <= badness(one)), "{stage}");
     }
     let page = fs::read_to_string(Path::new(&out).join("tune.html")).unwrap();
-    assert!(page.matches("<svg").count() >= 7 && page.contains("worst") && page.contains("data:image/png"));
+    assert!(
+        page.matches("<svg").count() >= 7
+            && page.contains("Worst instants")
+            && page.contains("data:image/png")
+    );
     let missing = ["tune", "nowhere.toml", "-o", &out];
     run(&mut lightloom(&missing)).refused(&["nowhere.toml"]);
 }

@@ -254,7 +254,10 @@ mod tests {
         for grain in [Grain::Pixels, Grain::Rows] {
             for size in SIZES {
                 let (order, cast) = (Order::new(grain, size), picture(size, |x, y| (x * 0.7 + y * y).sin()));
-                assert_eq!(fill(cast.clone(), None, &order, UNITS), Filled { rgba: cast, ..Filled::default() });
+                assert_eq!(
+                    fill(cast.clone(), None, &order, UNITS),
+                    Filled { rgba: cast, ..Filled::default() }
+                );
             }
         }
     }
@@ -276,10 +279,12 @@ mod tests {
     fn what_is_cast_stays_and_nothing_looks_at_what_is_not() {
         for grain in [Grain::Pixels, Grain::Rows] {
             let size = [131, 97];
-            let (order, full) = (Order::new(grain, size), picture(size, |x, y| (0.3 * x).sin() * (0.2 * y).cos()));
+            let (order, full) =
+                (Order::new(grain, size), picture(size, |x, y| (0.3 * x).sin() * (0.2 * y).cos()));
             for done in 1..UNITS {
                 let filled = fill(unknown(full.clone(), &order, done), None, &order, done);
-                for (at, (filled, cast)) in filled.rgba.chunks_exact(4).zip(full.chunks_exact(4)).enumerate() {
+                for (at, (filled, cast)) in filled.rgba.chunks_exact(4).zip(full.chunks_exact(4)).enumerate()
+                {
                     assert!(filled.iter().all(|n| n.is_finite()));
                     assert!(!order.is_cast(at, done) || filled == cast);
                 }
@@ -290,14 +295,17 @@ mod tests {
     #[test]
     fn more_units_leave_less_error_and_the_estimate_follows_it() {
         let size = [160, 120];
-        let (order, full) =
-            (Order::new(Grain::Pixels, size), picture(size, |x, y| 0.5 + 0.5 * (0.1 * x + 0.004 * y * y).sin()));
+        let (order, full) = (
+            Order::new(Grain::Pixels, size),
+            picture(size, |x, y| 0.5 + 0.5 * (0.1 * x + 0.004 * y * y).sin()),
+        );
         let mut last = f64::INFINITY;
         for done in [1, 4, 16, 32, 48] {
             let filled = fill(unknown(full.clone(), &order, done), None, &order, done);
             let pixels = (size[0] * size[1]) as f64;
             let true_error: f64 =
-                filled.rgba.iter().zip(&full).map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / (4.0 * pixels);
+                filled.rgba.iter().zip(&full).map(|(a, b)| f64::from((a - b).abs())).sum::<f64>()
+                    / (4.0 * pixels);
             let estimate = filled.spatial as f64 * ERROR_UNIT / pixels;
             assert!(true_error < last && estimate > 0.5 * true_error, "{done}: {true_error} {estimate}");
             last = true_error;
@@ -321,7 +329,8 @@ mod tests {
     fn what_stands_still_keeps_its_detail_and_has_no_error() {
         for grain in [Grain::Pixels, Grain::Rows] {
             let size = [131, 97];
-            let (order, full) = (Order::new(grain, size), picture(size, |x, y| (0.9 * x).sin() * (1.2 * y).cos() + 1.0));
+            let (order, full) =
+                (Order::new(grain, size), picture(size, |x, y| (0.9 * x).sin() * (1.2 * y).cos() + 1.0));
             let before = fill(full.clone(), None, &order, UNITS);
             for done in [1, 7, 33] {
                 let filled = fill(unknown(full.clone(), &order, done), Some(&before), &order, done);
@@ -349,7 +358,9 @@ mod tests {
         let size = [64, 64];
         let order = Order::new(Grain::Pixels, size);
         let square = |left: f32| {
-            picture(size, |x, y| if (left..left + 20.0).contains(&x) && (16.0..40.0).contains(&y) { 1.0 } else { 0.0 })
+            picture(size, |x, y| {
+                if (left..left + 20.0).contains(&x) && (16.0..40.0).contains(&y) { 1.0 } else { 0.0 }
+            })
         };
         let before = fill(square(4.0), None, &order, UNITS);
         let now = square(36.0);

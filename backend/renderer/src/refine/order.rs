@@ -44,7 +44,8 @@ impl Step {
     fn tiles_of(&self, units: &Range<u32>) -> &[u32] {
         let (from, to) = (self.units.start.max(units.start), self.units.end.min(units.end));
         let place = |unit: u32| {
-            self.tiles.len() * (unit - self.units.start) as usize / (self.units.end - self.units.start) as usize
+            self.tiles.len() * (unit - self.units.start) as usize
+                / (self.units.end - self.units.start) as usize
         };
         if from < to { &self.tiles[place(from)..place(to)] } else { &[] }
     }
@@ -111,9 +112,7 @@ impl Order {
 /// Every eighth pixel along both axes, then the middles of the squares that they form, then those of their sides, and so
 /// on: with each lattice as many units as it has pixels.
 fn lattices_of_pixels() -> Vec<(Lattice, u32)> {
-    let square = |step: u32, first: [u32; 2]| {
-        (Lattice { step: [step; 2], first }, UNITS / (step * step))
-    };
+    let square = |step: u32, first: [u32; 2]| (Lattice { step: [step; 2], first }, UNITS / (step * step));
     let mut lattices = vec![square(COARSEST, [0, 0])];
     let mut step = COARSEST;
     while step > 1 {

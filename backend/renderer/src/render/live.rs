@@ -126,12 +126,7 @@ impl LiveFrame {
         Ok(Upkeep { cancelled, update_ms, ..engine.upkeep() })
     }
 
-    fn end(
-        &self,
-        work: &mut Work,
-        engine: &mut Engine,
-        upkeep: Upkeep,
-    ) -> Result<FrameReport, RenderError> {
+    fn end(&self, work: &mut Work, engine: &mut Engine, upkeep: Upkeep) -> Result<FrameReport, RenderError> {
         let time_s = engine.live.now_s(&work.frame);
         let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
         let configuration = work.frame.refinement.map(|refinement| refinement.configuration);

@@ -231,7 +231,7 @@ impl Engine {
 
 /// The sum of how far pixels are apart, and how many there are.
 fn changes(now: &[FewPixels], before: &[FewPixels]) -> (u64, u64) {
-    now.iter().zip(before).fold((0, 0), |(sum, count), (now, before)| {
-        (sum + change_at(now, before), count + now.len() as u64)
-    })
+    now.iter()
+        .zip(before)
+        .fold((0, 0), |(sum, count), (now, before)| (sum + change_at(now, before), count + now.len() as u64))
 }

@@ -54,8 +54,7 @@ fn mean(sum: u64, count: u64) -> f64 {
 }
 
 fn rms(a: &Pictures, b: &Pictures) -> f64 {
-    let numbers: Vec<(f32, f32)> =
-        a.iter().flatten().copied().zip(b.iter().flatten().copied()).collect();
+    let numbers: Vec<(f32, f32)> = a.iter().flatten().copied().zip(b.iter().flatten().copied()).collect();
     let squares: f64 = numbers.iter().map(|(a, b)| f64::from(a - b).powi(2)).sum();
     (squares / numbers.len() as f64).sqrt()
 }
@@ -67,9 +66,7 @@ fn units_come_to_the_full_picture_to_the_bit_whatever_came_before() {
         let full = draw(&mut renderer, &still).unwrap().0;
         // Of a raster as small as this, the first units of rows have none to compare with.
         let first = if caster == CasterChoice::Planes { 5 } else { 1 };
-        for (configuration, steps) in
-            [(1, vec![first, 8, 16, 40, 64]), (2, vec![64]), (3, vec![5, 64])]
-        {
+        for (configuration, steps) in [(1, vec![first, 8, 16, 40, 64]), (2, vec![64]), (3, vec![5, 64])] {
             // Somewhere else before.
             go_on(&mut renderer, &part(&moved(&still, 0.02), pace, 100 + configuration, 7), None);
             let mut before = (f64::INFINITY, u64::MAX);
@@ -115,8 +112,12 @@ fn the_newest_state_is_as_far_as_it_has_moved_and_looking_at_it_changes_nothing(
             assert!(refined.compared > 0, "{caster:?} {pace:?}");
             mean(refined.change, refined.compared)
         };
-        let (none, little, more, most) =
-            (distance(&still), distance(&moved(&still, 0.004)), distance(&moved(&still, 0.02)), distance(&far));
+        let (none, little, more, most) = (
+            distance(&still),
+            distance(&moved(&still, 0.004)),
+            distance(&moved(&still, 0.02)),
+            distance(&far),
+        );
         assert_eq!(none, 0.0, "{caster:?} {pace:?}");
         assert!(0.0 < little && little < more && more < most, "{caster:?} {pace:?} {little} {more} {most}");
         let (pictures, refined) = go_on(&mut renderer, &part(&still, pace, 1, UNITS), None);

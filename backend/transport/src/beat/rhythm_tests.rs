@@ -204,13 +204,10 @@ fn nothing_tears_where_frames_are_kept_back() {
     for backends in [1, 4, 36] {
         let (mut draws, mut messages) = (Dice(17), Dice(18));
         let keeps_back = |frame: u32| frame % 7 != 0 && frame % 5 != 2;
-        let show = Show::controlled(
-            backends,
-            FRAMES,
-            keeps_back,
-            &mut |_, _| draws.throw(500, 9_500),
-            &mut || messages.throw(10, 1_500),
-        );
+        let show =
+            Show::controlled(backends, FRAMES, keeps_back, &mut |_, _| draws.throw(500, 9_500), &mut || {
+                messages.throw(10, 1_500)
+            });
         assert_eq!((show.tears(), show.beat.late().iter().sum::<u64>()), (0, 0), "{backends}");
         for model in &show.models {
             let frames: Vec<u32> = model.shown.iter().map(|shown| shown.1).collect();

@@ -37,7 +37,8 @@ pub fn strip(title: &str, ticks: &[StripTick]) -> String {
     let (Some(first), Some(last)) = (ticks.first(), ticks.last()) else { return String::new() };
     let span = (last.at_s - first.at_s).max(1e-3);
     let x = |at_s: f64| SIDES.0 + (SIDES.1 - SIDES.0) * (at_s - first.at_s) / span;
-    let most = ticks.iter().flat_map(|tick| tick.errors).filter(|error| error.is_finite()).fold(1e-3, f64::max);
+    let most =
+        ticks.iter().flat_map(|tick| tick.errors).filter(|error| error.is_finite()).fold(1e-3, f64::max);
     let share_base = TOP + SHARE_HEIGHT;
     let error_base = share_base + GAP + ERROR_HEIGHT;
     let marks_top = error_base + 10.0;
@@ -55,13 +56,16 @@ pub fn strip(title: &str, ticks: &[StripTick]) -> String {
     svg += &line("plot-t2", ticks.iter().map(|tick| (x(tick.at_s), y(share_base, SHARE_HEIGHT, tick.share))));
     for (number, tone) in ["plot-t0", "plot-t7"].into_iter().enumerate() {
         let known = ticks.iter().filter(|tick| tick.errors[number].is_finite());
-        let place = |tick: &StripTick| (x(tick.at_s), y(error_base, ERROR_HEIGHT, tick.errors[number] / most));
+        let place =
+            |tick: &StripTick| (x(tick.at_s), y(error_base, ERROR_HEIGHT, tick.errors[number] / most));
         svg += &line(tone, known.map(place));
     }
-    for (row, (tone, is_marked)) in
-        [("plot-t6", (|tick: &StripTick| tick.begins) as fn(&StripTick) -> bool), ("plot-t4", |tick| tick.shows)]
-            .into_iter()
-            .enumerate()
+    for (row, (tone, is_marked)) in [
+        ("plot-t6", (|tick: &StripTick| tick.begins) as fn(&StripTick) -> bool),
+        ("plot-t4", |tick| tick.shows),
+    ]
+    .into_iter()
+    .enumerate()
     {
         let top = marks_top + 18.0 * row as f64;
         for tick in ticks.iter().filter(|tick| is_marked(tick)) {
@@ -75,7 +79,12 @@ pub fn strip(title: &str, ticks: &[StripTick]) -> String {
     }
     for tick in 0..=TICKS {
         let at_s = first.at_s + span * f64::from(tick) / f64::from(TICKS);
-        svg += &text("plot-text", (x(at_s), marks_top + MARKS_HEIGHT + 16.0), "middle", &format!("{:.2} s", at_s - first.at_s));
+        svg += &text(
+            "plot-text",
+            (x(at_s), marks_top + MARKS_HEIGHT + 16.0),
+            "middle",
+            &format!("{:.2} s", at_s - first.at_s),
+        );
     }
     let legend = [
         ("plot-t0", "ζ, in space", share_base + GAP - 8.0, SIDES.0 + 4.0),
@@ -84,7 +93,10 @@ pub fn strip(title: &str, ticks: &[StripTick]) -> String {
         ("plot-t4", "shown", marks_top + 29.0, 30.0),
     ];
     for (tone, words, y, x) in legend {
-        let _ = write!(svg, "<g class=\"{tone}\"><text fill=\"currentColor\" x=\"{x:.2}\" y=\"{y:.2}\">{words}</text></g>");
+        let _ = write!(
+            svg,
+            "<g class=\"{tone}\"><text fill=\"currentColor\" x=\"{x:.2}\" y=\"{y:.2}\">{words}</text></g>"
+        );
     }
     svg + "</svg>"
 }
@@ -101,11 +113,17 @@ fn grid(base: f64, height: f64, most: f64, name: &str) -> String {
         let share = f64::from(tick) / f64::from(TICKS);
         let (y, value) = (base - height * share, most * share);
         let digits = if most >= 20.0 { 0 } else { 2 };
-        let _ = write!(svg, "<line class=\"plot-grid\" x1=\"{left}\" y1=\"{y:.2}\" x2=\"{right}\" y2=\"{y:.2}\"/>");
+        let _ = write!(
+            svg,
+            "<line class=\"plot-grid\" x1=\"{left}\" y1=\"{y:.2}\" x2=\"{right}\" y2=\"{y:.2}\"/>"
+        );
         svg += &text("plot-text", (left - 8.0, y + 4.0), "end", &format!("{value:.digits$}"));
     }
     let middle = base - 0.5 * height;
-    svg + &format!("<g transform=\"translate(22 {middle:.2}) rotate(-90)\">{}</g>", text("plot-name", (0.0, 0.0), "middle", name))
+    svg + &format!(
+        "<g transform=\"translate(22 {middle:.2}) rotate(-90)\">{}</g>",
+        text("plot-name", (0.0, 0.0), "middle", name)
+    )
 }
 
 fn line(tone: &str, places: impl Iterator<Item = (f64, f64)>) -> String {
