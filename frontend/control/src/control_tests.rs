@@ -204,7 +204,7 @@ proptest! {
             done += cast;
             let took = Duration::from_millis(unit_ms) * cast;
             now += took;
-            budget.took(cast, took);
+            budget.took(cast, took, took);
             let spatial = 0.1 * f64::from(UNITS - done) / f64::from(UNITS);
             let news = News { has_changed: true, has_detail: false };
             shown += u32::from(control.found(Found { done, spatial, change: Some(0.05), news }, now));

@@ -33,7 +33,8 @@ struct Tick {
     units: u32,
     done: u32,
     refined: Vec<Refined>,
-    slowest: Duration,
+    /// What the slowest back-end took, and for how long of that it cast rays.
+    slowest: [Duration; 2],
 }
 
 /// The configuration that is being cast.
@@ -133,9 +134,12 @@ impl Controlled {
         let asked_at = active.asked_at;
         let units = done - from + u32::from(looks);
         let (begins, refined) = (work == Work::Begin, Vec::new());
-        self.tick = Some(Tick { number, begins, looks, units, done, refined, slowest: Duration::ZERO });
+        self.tick = Some(Tick { number, begins, looks, units, done, refined, slowest: Default::default() });
         self.summary.ticks += 1;
-        let newest = looks.then(|| FrameState { sub_frame: None, refinement: None, ..newest });
+        // What casts it is what casts the picture.
+        let welcomes_planes = frame.welcomes_planes;
+        let newest =
+            looks.then_some(FrameState { sub_frame: None, refinement: None, welcomes_planes, ..newest });
         Some(Task { frame, newest, asked_at })
     }
 
@@ -152,7 +156,7 @@ impl Controlled {
             looks: false,
             units: 0,
             refined: Vec::new(),
-            slowest: Duration::ZERO,
+            slowest: Default::default(),
         };
         self.tick = Some(tick);
         Some(Task { frame, newest: None, asked_at: active.asked_at })
@@ -161,7 +165,8 @@ impl Controlled {
     /// A back-end has drawn a frame.
     pub fn drawn(&mut self, report: &FrameReport) {
         let Some(tick) = self.tick.as_mut().filter(|tick| tick.number == report.frame) else { return };
-        tick.slowest = tick.slowest.max(Duration::from_secs_f64(report.total_ms.max(0.0) / 1e3));
+        let seconds = |ms: f64| Duration::from_secs_f64(ms.max(0.0) / 1e3);
+        tick.slowest = tick.slowest.max([report.total_ms, report.stages.cast_ms].map(seconds));
         tick.refined.extend(report.refined);
     }
 
@@ -176,7 +181,8 @@ impl Controlled {
         if tick.units == 0 {
             return true;
         }
-        self.budget.took(tick.units, tick.slowest);
+        let [total, casting] = tick.slowest;
+        self.budget.took(tick.units, total, casting);
         let sum = |of: fn(&Refined) -> u64| tick.refined.iter().map(of).sum::<u64>();
         let mean =
             |sum: u64, count: u64| (count > 0).then(|| sum as f64 / Refined::UNIT as f64 / count as f64);

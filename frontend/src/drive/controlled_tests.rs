@@ -73,6 +73,9 @@ fn what_moves_is_looked_at_and_begun_anew_when_it_is_far() {
     assert_eq!(fourth.frame.refinement.unwrap(), Refinement { configuration: 2, to: 8 });
     assert_eq!(fourth.frame.display_from_volume, state(3, 0.3).display_from_volume);
     assert!(fourth.frame.welcomes_planes && fourth.newest.is_none());
+    answer(&mut controlled, &fourth, [20, 0], false);
+    let fifth = controlled.next(state(4, 0.4), NOW, || false).unwrap();
+    assert!(fifth.newest.is_some_and(|newest| newest.welcomes_planes), "both are cast alike");
 }
 
 #[test]

@@ -146,7 +146,7 @@ impl<'a> Controlled<'a> {
             footage,
             machine,
             control: Control::new(rule, UNITS),
-            budget: Budget::of_time(Duration::from_secs_f64(1.0 / RATE_HZ).saturating_sub(OVERHEAD)),
+            budget: Budget::of_time(Duration::from_secs_f64(1.0 / RATE_HZ)),
             by_path,
             order: Order::new(Grain::Pixels, [picture.width, picture.height]),
             active: None,
@@ -181,7 +181,7 @@ impl<'a> Controlled<'a> {
         let looks = !begins && has_changed;
         let units = done - from + u32::from(looks);
         let rays = self.machine.full * units / UNITS;
-        self.budget.took(units, rays);
+        self.budget.took(units, OVERHEAD + rays, rays);
         self.played.busy += rays;
         let now = began + OVERHEAD + rays;
         let change = match (begins, before) {

@@ -8,7 +8,7 @@
 //! | `machine` | a machine of some speed that plays it by a rule |
 //! | `score` | what the eye is shown against what it should see |
 //! | `setting`, `study` | what is tried, and which is best over all scenarios |
-//! | `report`, `page`, `charts` | what is said of it |
+//! | `report`, `page`, `charts`, `write` | what is said of it |
 
 mod charts;
 mod footage;
@@ -19,11 +19,13 @@ mod scenario;
 mod score;
 mod setting;
 mod study;
+mod write;
 
 pub use footage::Footage;
 pub use machine::{Contender, Machine, Played, Tick, play};
-pub use report::{TUNE_HTML, TuneReport, write};
+pub use report::TuneReport;
 pub use scenario::{Motion, RATE_HZ, Scenario};
 pub use score::{Score, Scorer};
 pub use setting::{Setting, Stage, badness, stage_of_chi, stage_of_rho, stage_of_theta};
 pub use study::{Run, Study};
+pub use write::{TUNE_HTML, write};

@@ -1,18 +1,11 @@
 //! What a study of frame control found, for programs and for people.
 
 use super::study::PlayedStage;
-use super::{Contender, Footage, Machine, RATE_HZ, Score, Stage, Study, page, play};
+use super::{Contender, Footage, Machine, RATE_HZ, Score, Stage, Study, play};
 use crate::FrontendError;
-use crate::report::write_text;
 use control::{Rule, Weights};
-use renderer::output::{Picture, write_png};
+use renderer::output::Picture;
 use serde::Serialize;
-use std::path::Path;
-
-/// The report for programs.
-const JSON: &str = "tune.json";
-/// The page for people.
-pub const TUNE_HTML: &str = "tune.html";
 
 /// A setting, and how it went.
 #[derive(Clone, Debug, Serialize)]
@@ -174,20 +167,4 @@ fn watched(
     let title = format!("{}, complete pictures in {:.2} s", footage.name, machine.full.as_secs_f64());
     let nothing = || FrontendError::Volume(format!("{} has no instant", footage.name));
     Ok((crate::report::plot::strip(&title, &ticks), worst.ok_or_else(nothing)?))
-}
-
-/// Writes it into a folder.
-///
-/// # Errors
-/// It cannot be written.
-pub fn write(report: &TuneReport, folder: &Path) -> Result<(), FrontendError> {
-    let mut files = Vec::new();
-    for (number, worst) in report.worst.iter().enumerate() {
-        let names = ["shown", "truth"].map(|what| format!("worst-{number}-{what}.png"));
-        write_png(&folder.join(&names[0]), worst.shown.view()?)?;
-        write_png(&folder.join(&names[1]), worst.truth.view()?)?;
-        files.push(names);
-    }
-    write_text(&folder.join(JSON), &serde_json::to_string_pretty(report)?)?;
-    Ok(write_text(&folder.join(TUNE_HTML), &page::page(report, folder, &files)?)?)
 }

@@ -72,7 +72,7 @@ impl Engine {
         let &Final { projector, view, size: [width, height], picture } = of;
         let mut rgba = match picture {
             Shown::Device(picture) => self.device.picture(picture)?.into_owned(),
-            Shown::Filled => self.refining.filled(view).to_vec(),
+            Shown::Filled => self.refining.shown(view).to_vec(),
         };
         self.mark(frame, projector, &mut rgba);
         Ok(ProjectorImage { projector, width, height, rgba })
@@ -87,7 +87,7 @@ impl Engine {
                 let raster = Raster::of([width, height]);
                 self.device.codes(&FinishJob { picture, raster, view, finisher })?
             }
-            Shown::Filled if frame.marks.is_empty() => finisher.codes(self.refining.filled(view)),
+            Shown::Filled if frame.marks.is_empty() => finisher.codes(self.refining.shown(view)),
             Shown::Device(_) | Shown::Filled => {
                 let rgba = self.colours(frame, of)?.rgba;
                 self.finishers[view].codes(&rgba)

@@ -89,7 +89,7 @@ impl LiveFrame {
         if refinement.to < Refinement::UNITS {
             work.known = Classes::default();
         }
-        self.casts = engine.refining.casts(&work.setting, &(from..refinement.to)).into();
+        self.casts = engine.casts_of(&work.setting, &(from..refinement.to)).into();
         Ok(())
     }
 

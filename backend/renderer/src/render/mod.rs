@@ -26,6 +26,7 @@ mod live;
 mod live_memory;
 #[cfg(test)]
 mod mirror_tests;
+mod parts;
 mod recording;
 #[cfg(test)]
 mod recording_tests;
