@@ -20,7 +20,7 @@ pub struct Weights {
 impl Default for Weights {
     /// The best of a sweep over recorded motions: `lightloom tune`.
     fn default() -> Self {
-        Self { rho: 0.9, theta: 0.3, chi: 0.0 }
+        Self { rho: 0.5, theta: 0.5, chi: 0.0 }
     }
 }
 

@@ -203,7 +203,9 @@ fn a_process_that_records_until_it_is_killed() {
         let now = began.elapsed();
         writer.write(now, pose(now, f64::from(number)));
         writer.write(now, frame(number, now));
-        std::fs::write(format!("{path}.now"), now.as_nanos().to_string()).unwrap();
+        // Whole or not at all: the kill may come between any two instructions.
+        std::fs::write(format!("{path}.next"), now.as_nanos().to_string()).unwrap();
+        std::fs::rename(format!("{path}.next"), format!("{path}.now")).unwrap();
         std::thread::sleep(Duration::from_millis(5));
     }
 }

@@ -1,7 +1,7 @@
 //! How well frames are controlled by error, against fixed rules and against reconstruction in time: seven interactions on
 //! three simulated machines, as an eye before desk8 sees them; how far the estimates of error can be trusted; what they cost.
 //!
-//! `cargo run --release -p lightloom-tests --example frame_control -- [--pages DIR]`. The footage is drawn complete first; what a
+//! `cargo run --release -p lightloom-tests --example frame_control -- [--pages DIR | --costs]`. The footage is drawn complete first; what a
 //! machine of some speed would have shown is then played from it, see `frontend::tune`.
 
 mod costs;
@@ -30,14 +30,14 @@ fn main() -> Result<(), String> {
     let pages: Option<PathBuf> = match arguments.next().as_deref() {
         None => None,
         Some("--pages") => Some(arguments.next().ok_or("--pages needs a folder")?.into()),
-        Some(other) => return Err(format!("{other} is unknown; give nothing, or --pages DIR")),
+        Some("--costs") => return costs::measure(),
+        Some(other) => return Err(format!("{other} is unknown; give nothing, --pages DIR, or --costs")),
     };
     let started = Instant::now();
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
     let machines = MACHINES_MS.map(|ms| Machine { full: Duration::from_millis(ms) }).to_vec();
     let study = Study { footage: footage(&display)?, machines };
     estimates::compare(&study.footage)?;
-    costs::measure()?;
     let played =
         study.run(Weights::default(), &AtomicBool::new(false), &|| {}).map_err(|error| error.to_string())?;
     let (stages, best) = played.ok_or("nobody stops it")?;
@@ -45,6 +45,7 @@ fn main() -> Result<(), String> {
         .map_err(|error| error.to_string())?;
     sweeps(&report)?;
     eyes::compare(&study, best)?;
+    costs::measure()?;
     pages.map_or(Ok(()), |folder| {
         std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
         write(&report, &folder).map_err(|error| error.to_string())
