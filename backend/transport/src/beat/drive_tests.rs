@@ -250,9 +250,16 @@ fn a_controlled_display_shows_what_somebody_decides() {
         }
         drive.finish().unwrap();
         assert_eq!(passed, 3);
+        let decided: Vec<u32> = (0..30).step_by(3).collect();
         for shown in seen.shown.values() {
             let frames: Vec<u32> = shown.iter().map(|shown| shown.0).collect();
-            assert_eq!(frames, (0..30).step_by(3).collect::<Vec<_>>());
+            match time {
+                Time::Stepped(_) => assert_eq!(frames, decided),
+                // One that is late on a busy machine leaves some out.
+                Time::Real => {
+                    assert!(frames.iter().all(|frame| decided.contains(frame)) && !frames.is_empty())
+                }
+            }
         }
     }
 }
