@@ -2,13 +2,16 @@
 
 use crate::report::plot::StripTick;
 use control::{Budget, Control, Found, News, Rule, Work};
-use protocol::{FrameReport, FrameState, Refined, Refinement};
+use protocol::{Caster, FrameReport, FrameState, Refined, Refinement};
 use serde::Serialize;
 use std::collections::VecDeque;
 use std::time::Duration;
 
 /// Ticks that are kept for the strip.
 const MOST_TICKS: usize = 4000;
+/// Units that a picture begins with where whole rows are cast: every eighth row, as of single pixels the first unit has. With
+/// fewer it is all streaks.
+const FIRST_UNITS_OF_ROWS: u32 = 8;
 /// A change that nobody could measure is as large as any.
 const ALL: f64 = 1.0;
 
@@ -73,6 +76,8 @@ pub struct Controlled {
     control: Control,
     budget: Budget,
     configuration: u32,
+    /// Units that a picture begins with, at least.
+    first_units: u32,
     active: Option<Active>,
     tick: Option<Tick>,
     ticks: VecDeque<StripTick>,
@@ -89,6 +94,7 @@ impl Controlled {
             control: Control::new(rule, Refinement::UNITS),
             budget,
             configuration: 0,
+            first_units: 1,
             active: None,
             tick: None,
             ticks: VecDeque::new(),
@@ -126,7 +132,8 @@ impl Controlled {
             Work::Rest => return self.draw_marks(newest),
         };
         let active = self.active.as_mut()?;
-        let done = (from + self.budget.units()).min(Refinement::UNITS);
+        let least = if work == Work::Begin { self.first_units } else { 1 };
+        let done = (from + self.budget.units().max(least)).min(Refinement::UNITS);
         let looks = work != Work::Begin && news.has_changed;
         active.state.marks = newest.marks.clone();
         active.done = done;
@@ -165,6 +172,8 @@ impl Controlled {
     /// A back-end has drawn a frame.
     pub fn drawn(&mut self, report: &FrameReport) {
         let Some(tick) = self.tick.as_mut().filter(|tick| tick.number == report.frame) else { return };
+        let has_rows = matches!(report.caster, Caster::Planes { .. });
+        self.first_units = if has_rows { FIRST_UNITS_OF_ROWS } else { 1 };
         let seconds = |ms: f64| Duration::from_secs_f64(ms.max(0.0) / 1e3);
         tick.slowest = tick.slowest.max([report.total_ms, report.stages.cast_ms].map(seconds));
         tick.refined.extend(report.refined);

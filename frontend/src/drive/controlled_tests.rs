@@ -79,6 +79,25 @@ fn what_moves_is_looked_at_and_begun_anew_when_it_is_far() {
 }
 
 #[test]
+fn a_picture_of_rows_begins_with_every_eighth() {
+    let mut controlled = controlled(2);
+    let first = controlled.next(state(0, 0.0), NOW, || true).unwrap();
+    assert_eq!(first.frame.refinement.unwrap().to, 2, "nobody knows yet who casts");
+    let caster = Caster::Planes { views: 8 };
+    controlled.drawn(&FrameReport { caster, ..FrameReport::default() });
+    controlled.finished(NOW);
+    let second = controlled.next(state(1, 0.0), NOW, || true).unwrap();
+    assert_eq!(second.frame.refinement.unwrap().to, 4, "what goes on does so by its budget");
+    controlled.finished(NOW);
+    for index in 2..40 {
+        let _ = controlled.next(state(index, 0.0), NOW, || true);
+        controlled.finished(NOW);
+    }
+    let moved = controlled.next(state(99, 0.5), NOW, || true).unwrap();
+    assert_eq!(moved.frame.refinement.unwrap().to, 8);
+}
+
+#[test]
 fn marks_move_over_a_picture_that_rests() {
     let mut controlled = controlled(64);
     let task = controlled.next(state(0, 0.0), NOW, || false).unwrap();

@@ -221,7 +221,10 @@ fn a_frame_that_ends_the_only_back_end_each_time_is_left_out() {
         let seen = play(&mut drive, 8);
         assert_eq!(seen.lost.len(), 2, "it may try twice");
         let frames: Vec<u32> = seen.shown[&0].iter().map(|shown| shown.0).collect();
-        assert_eq!(frames, [0, 1, 2, 4, 5, 6, 7]);
+        // On a busy machine the back-end may end before it has shown the frame before: that goes with it.
+        let shows_all = time.is_stepped() || frames.contains(&2);
+        let expected = [0, 1, 2, 4, 5, 6, 7].into_iter().filter(|&frame| shows_all || frame != 2);
+        assert_eq!(frames, expected.collect::<Vec<_>>());
     }
 }
 
