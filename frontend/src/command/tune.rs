@@ -25,8 +25,6 @@ use std::time::Instant;
 
 /// The part of the work that is drawing the footage, as far as a progress bar goes.
 const DRAWING: f64 = 0.4;
-/// Settings that are tried: 14 of ρ, 11 of ϑ, 7 of χ.
-const SETTINGS: usize = 32;
 
 /// A scenario, and the volume that it shows.
 type Shown = (Scenario, Arc<dyn BrickSource>);
@@ -42,7 +40,7 @@ pub(super) fn tune(args: &TuneArgs) -> Result<(), FrontendError> {
     let Some(footage) = draw(args, &display, &scenarios, &stop, &progress)? else { return Err(stopped()) };
     let machines = args.machines.iter().map(|&full| Machine { full }).collect();
     let study = Study { footage, machines };
-    let (done, runs) = (AtomicUsize::new(0), SETTINGS * study.runs_per_setting());
+    let (done, runs) = (AtomicUsize::new(0), study.runs());
     let bar = Mutex::new(progress.into_inner());
     let shown = || {
         let done = done.fetch_add(1, Ordering::Relaxed) as f64 / runs as f64;

@@ -90,13 +90,13 @@ impl TuneReport {
         let mut charts: Vec<String> = stages.iter().map(super::charts::badness_chart).collect();
         charts.extend(stages.iter().filter(|one| one.stage == Stage::Chi).map(super::charts::work_chart));
         let contender = Contender::Control(Rule::Errors(best));
-        let machine = study.machines.get(study.machines.len() / 2).copied();
         let (mut strips, mut worst) = (Vec::new(), Vec::new());
-        for footage in machine.iter().flat_map(|_| &study.footage) {
-            let machine = machine.unwrap_or(study.machines[0]);
-            let (strip, instant) = watched(footage, contender, machine)?;
-            strips.push(strip);
-            worst.push(instant);
+        if let Some(&machine) = study.machines.get(study.machines.len() / 2) {
+            for footage in &study.footage {
+                let (strip, instant) = watched(footage, contender, machine)?;
+                strips.push(strip);
+                worst.push(instant);
+            }
         }
         let raster = study.footage.first().map_or([0; 2], |footage| {
             let raster = &footage.display().projectors[0].raster;

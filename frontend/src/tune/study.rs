@@ -8,6 +8,18 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+/// In the order in which they are played.
+const STAGES: [Stage; 3] = [Stage::Rho, Stage::Theta, Stage::Chi];
+
+/// What a stage tries around some weights.
+fn settings_of(stage: Stage, around: Weights) -> Vec<Setting> {
+    match stage {
+        Stage::Rho => stage_of_rho(around),
+        Stage::Theta => stage_of_theta(around),
+        Stage::Chi => stage_of_chi(around),
+    }
+}
+
 /// How a setting went on one scenario and one machine.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -54,12 +66,8 @@ impl Study {
     ) -> Result<Option<(Vec<PlayedStage>, Weights)>, FrontendError> {
         let mut best = from;
         let mut stages = Vec::new();
-        for stage in [Stage::Rho, Stage::Theta, Stage::Chi] {
-            let settings = match stage {
-                Stage::Rho => stage_of_rho(best),
-                Stage::Theta => stage_of_theta(best),
-                Stage::Chi => stage_of_chi(best),
-            };
+        for stage in STAGES {
+            let settings = settings_of(stage, best);
             let Some(played) = self.play_stage(stage, settings, stop, shown)? else { return Ok(None) };
             let value = played.settings[played.best].value.unwrap_or_default();
             match stage {
@@ -73,7 +81,13 @@ impl Study {
         Ok(Some((stages, best)))
     }
 
-    /// Runs of a stage.
+    /// Runs of all stages.
+    pub fn runs(&self) -> usize {
+        let settings = STAGES.map(|stage| settings_of(stage, Weights::default()).len());
+        settings.iter().sum::<usize>() * self.runs_per_setting()
+    }
+
+    /// Runs of a setting: each scenario on each machine.
     pub fn runs_per_setting(&self) -> usize {
         self.footage.len() * self.machines.len()
     }
