@@ -123,6 +123,12 @@ pub fn errors_between(found: &[ProjectorImage], expected: &[ProjectorImage]) -> 
     }))
 }
 
+/// Cells of a table, of 1/255: pixels, those lit, RMS, what 99.9 % stay within, the largest.
+pub fn cells(errors: &Errors) -> String {
+    let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|error| 255.0 * error);
+    format!("{} | {} | {rms:.3} | {p999:.2} | {max:.1}", errors.pixels, errors.lit)
+}
+
 /// Errors of pairs (found, true).
 pub fn errors_of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Errors {
     Errors::of(pairs).expect("something was compared")

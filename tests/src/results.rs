@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+/// How the variables begin that change what is measured.
+const CHANGES_FIGURES: [&str; 3] = ["LIGHTLOOM_BENCH_", "LIGHTLOOM_FULL_SIZE", "LIGHTLOOM_RANDOM_"];
+
 const SECONDS_PER_DAY: u64 = 24 * 60 * 60;
 
 /// What kind of program measures, and its name.
@@ -18,6 +21,8 @@ pub enum Program {
     Bench(&'static str),
     /// A study of this crate.
     Study(&'static str),
+    /// A program of tests of this crate, whose figures are kept at full size.
+    Tests(&'static str),
 }
 
 impl Program {
@@ -26,6 +31,7 @@ impl Program {
         match self {
             Self::Bench(name) => format!("cargo bench -p lightloom-tests --bench {name}"),
             Self::Study(name) => format!("cargo run --release -p lightloom-tests --example {name}"),
+            Self::Tests(name) => format!("cargo test --release -p lightloom-tests --test {name}"),
         }
     }
 }
@@ -111,7 +117,9 @@ fn command_line(
     arguments: impl Iterator<Item = String>,
 ) -> String {
     let mut words: Vec<String> = variables
-        .filter(|(name, _)| name.starts_with("LIGHTLOOM_BENCH_") && !name.ends_with("_DIR"))
+        .filter(|(name, _)| {
+            CHANGES_FIGURES.iter().any(|begin| name.starts_with(begin)) && !name.ends_with("_DIR")
+        })
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
     words.sort();

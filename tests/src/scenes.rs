@@ -71,6 +71,20 @@ pub fn with_raster(display: &Display, width: u32, height: u32) -> Display {
     display
 }
 
+/// Whether pictures are to be tested whole: `LIGHTLOOM_FULL_SIZE=1`, for figures that are kept.
+pub fn full_size() -> bool {
+    std::env::var("LIGHTLOOM_FULL_SIZE").as_deref() == Ok("1")
+}
+
+/// desk8 with rasters of `width` × `height` pixels, or with its own at full size.
+///
+/// # Panics
+/// The preset cannot be read.
+pub fn small_desk8(width: u32, height: u32) -> Display {
+    let display = Display::load("desk8").expect("desk8 is a preset");
+    if full_size() { display } else { with_raster(&display, width, height) }
+}
+
 /// The curve with every value times `factor`.
 pub fn scaled(curve: &Curve<f64>, factor: f64) -> Curve<f64> {
     let points = curve.points().iter().map(|&(s, value)| (s, value * factor)).collect();

@@ -70,8 +70,7 @@ fn kernel_and_twin_tell_the_same_picture() {
     if !draw::has_gpu() {
         return;
     }
-    // Fewer pixels than desk8 has: a GPU's driver may run on the processor.
-    let display = scenes::with_raster(&Display::load("desk8").unwrap(), 240, 180);
+    let display = scenes::small_desk8(80, 60);
     for scene in every_scene(&display) {
         let draw = |device, filter| -> Drawn {
             let with = With { filter, ..With::device(device) };
@@ -97,7 +96,7 @@ fn an_imprecise_texture_unit_is_not_the_default() {
     if !draw::has_gpu() {
         return;
     }
-    let display = Display::load("desk8").unwrap();
+    let display = scenes::small_desk8(160, 120);
     let scene = scenes::marschner_lobb(&display);
     let draw = |filter| {
         let with = With { filter, ..With::device(DeviceChoice::Gpu) };

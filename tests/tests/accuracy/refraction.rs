@@ -111,7 +111,7 @@ fn a_surface_breaks_light_and_mirrors_it_beyond_the_critical_angle() {
 fn wild_indices_give_light_on_every_device() {
     let _turn = draw::turn();
     // What it is about needs no fine picture.
-    let display = scenes::with_raster(&Display::load("desk8").unwrap(), 80, 60);
+    let display = scenes::with_raster(&Display::load("desk8").unwrap(), 32, 24);
     let wild = [
         vec![(0.3, 0.1), (0.35, 5.0), (0.5, 0.2), (0.5, 3.0), (0.7, 0.01)],
         vec![(0.5, 1e-3), (0.5, 1e3)],

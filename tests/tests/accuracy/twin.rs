@@ -36,7 +36,7 @@ fn numbers<F: Real>(rgba: Vec<[F; 4]>) -> impl Iterator<Item = [f64; 4]> {
 #[test]
 fn f32_costs_no_more_than_rounding() {
     let _turn = draw::turn();
-    let display = Display::load("desk8").unwrap();
+    let display = scenes::small_desk8(160, 120);
     let mut all = scenes::all(&display);
     all.extend(scenes::cranium_mimda(&display, MimdaForm::Paper));
     for scene in all {

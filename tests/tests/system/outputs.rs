@@ -100,6 +100,10 @@ fn outputs_that_change_and_windows_that_close_are_followed() {
     (0..4).for_each(shows);
     server.xrandr(&["--output", "DUMMY3", "--mode", "640x400", "--pos", "640x480"]);
     server.xrandr(&["--output", "DUMMY0", "--mode", "640x400", "--pos", "0x0"]);
+    // What the windows of the old sizes show is right as well.
+    server.wait_for("two windows less high", |server| {
+        windows(server).iter().filter(|&&window| height(server, window) == Some(400)).count() == 2
+    });
     (0..4).for_each(shows);
     let first = windows(&server)[0];
     server.connection.destroy_window(first).unwrap().check().unwrap();
@@ -125,6 +129,11 @@ fn windows(server: &XServer) -> Vec<u32> {
     };
     server.connection.flush().unwrap();
     all.into_iter().filter(is_seen).collect()
+}
+
+/// A window's pixels along y; None if it is gone.
+fn height(server: &XServer, window: u32) -> Option<u16> {
+    Some(server.connection.get_geometry(window).ok()?.reply().ok()?.height)
 }
 
 #[test]

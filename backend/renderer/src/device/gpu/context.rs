@@ -1,6 +1,7 @@
 //! An adapter and its queue, opened once for the whole process.
 
 use super::adapters;
+use super::kernels::{Kernel, Kernels};
 use super::pipeline_cache::PipelineCache;
 use crate::device::DeviceError;
 use protocol::AdapterWish;
@@ -21,6 +22,7 @@ pub(in crate::device) struct Context {
     pub(super) has_filter: bool,
     /// What the driver compiled before; None if it does not hand it out, or the user does not want it kept.
     pub(super) pipelines: Option<PipelineCache>,
+    kernels: Mutex<Kernels>,
     turn: Mutex<()>,
 }
 
@@ -80,6 +82,7 @@ impl Context {
             atlas_format,
             has_filter,
             pipelines,
+            kernels: Mutex::default(),
             turn: Mutex::new(()),
         })
     }
@@ -93,6 +96,12 @@ impl Context {
     pub(in crate::device) fn brick_bytes(&self) -> u64 {
         let sample = if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 };
         sample * bricks::BRICK_VOXELS as u64
+    }
+
+    /// A kernel, compiled by whichever device first asks for it.
+    pub(super) fn kernel(&self, kernel: Kernel) -> wgpu::ComputePipeline {
+        let mut kernels = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
+        kernels.get(&self.device, self.pipelines.as_ref(), kernel)
     }
 
     /// Waits for this thread's turn on the queue.

@@ -1,10 +1,10 @@
-//! A back-end's share of the GPU: its atlas, buffers and kernels.
+//! A back-end's share of the GPU: its atlas and buffers.
 
 use super::atlas::Atlas;
 use super::batch::BatchSize;
 use super::context::Context;
 use super::feedback::FrameFeedback;
-use super::kernels::Kernels;
+use super::kernels::Kernel;
 use super::pictures::Pictures;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
@@ -38,7 +38,6 @@ pub struct GpuDevice {
     sampler: wgpu::Sampler,
     filter: Filter,
     filter_error: Option<f32>,
-    kernels: Kernels,
     scene: wgpu::Buffer,
     links: wgpu::Buffer,
     nodes: Storage,
@@ -92,7 +91,6 @@ impl GpuDevice {
             sampler,
             filter,
             filter_error,
-            kernels: Kernels::default(),
             scene,
             links,
             nodes: storage("nodes"),
@@ -176,7 +174,7 @@ impl GpuDevice {
         let _turn = context.turn();
         self.prepare(job);
         let key = KernelKey { filter: self.filter, needs: job.needs };
-        let pipeline = self.kernels.get(&context, key).clone();
+        let pipeline = context.kernel(Kernel::Cast(key));
         let mut encoder = context.new_encoder();
         match job.gather {
             Gather::Own => encoder.clear_buffer(&self.feedback.buffer, 0, None),

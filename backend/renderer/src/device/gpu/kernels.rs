@@ -1,42 +1,81 @@
-//! Compiled kernels, each made when a scene first needs it.
+//! Compiled kernels, each made when a device of the process first needs it.
 
-use super::context::Context;
 use super::pipeline_cache::PipelineCache;
-use shaders::compose::KernelKey;
+use shaders::compose::{KernelKey, PresentKernel};
+use std::borrow::Cow;
 use std::collections::HashMap;
+
+/// Samples between two texels of a ramp.
+const FILTER_PRECISION: &str = "
+@group(0) @binding(0) var atlas: texture_3d<f32>;
+@group(0) @binding(1) var trilinear: sampler;
+@group(0) @binding(2) var<storage, read_write> found: array<f32>;
+@compute @workgroup_size(64)
+fn probe(@builtin(global_invocation_id) id: vec3<u32>) {
+    let size = vec3<f32>(textureDimensions(atlas));
+    let x = 4.5 + (f32(id.x) + 0.5) / 1024.0;
+    found[id.x] = textureSampleLevel(atlas, trilinear, vec3<f32>(x, 4.5, 4.5) / size, 0.0).x;
+}";
+
+/// What can be compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kernel {
+    /// Casts tiles.
+    Cast(KernelKey),
+    /// Makes what is shown of what was cast.
+    Present(PresentKernel),
+    /// Measures the texture unit.
+    FilterPrecision,
+}
+
+impl Kernel {
+    fn wgsl(&self) -> Cow<'static, str> {
+        match self {
+            Self::Cast(key) => key.wgsl().into(),
+            Self::Present(kernel) => kernel.wgsl().into(),
+            Self::FilterPrecision => FILTER_PRECISION.into(),
+        }
+    }
+
+    fn entry_point(&self) -> &'static str {
+        match self {
+            Self::Cast(_) => "cast_tile",
+            Self::Present(kernel) => kernel.entry_point(),
+            Self::FilterPrecision => "probe",
+        }
+    }
+}
 
 /// The kernels compiled so far.
 #[derive(Debug, Default)]
 pub(super) struct Kernels {
-    compiled: HashMap<KernelKey, wgpu::ComputePipeline>,
+    compiled: HashMap<Kernel, wgpu::ComputePipeline>,
 }
 
 impl Kernels {
-    /// The kernel for a need.
-    pub(super) fn get(&mut self, context: &Context, key: KernelKey) -> &wgpu::ComputePipeline {
-        self.compiled
-            .entry(key)
-            .or_insert_with(|| compile(context, &format!("{key:?}"), &key.wgsl(), "cast_tile"))
+    /// A kernel of `device`.
+    pub(super) fn get(
+        &mut self,
+        device: &wgpu::Device,
+        cache: Option<&PipelineCache>,
+        kernel: Kernel,
+    ) -> wgpu::ComputePipeline {
+        self.compiled.entry(kernel).or_insert_with(|| compile(device, cache, kernel)).clone()
     }
 }
 
-/// Compiles one entry point; its bind group layout follows from what it reads.
-pub(super) fn compile(
-    context: &Context,
-    label: &str,
-    wgsl: &str,
-    entry_point: &str,
-) -> wgpu::ComputePipeline {
-    let module = context.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+/// Its bind group layout follows from what it reads.
+fn compile(device: &wgpu::Device, cache: Option<&PipelineCache>, kernel: Kernel) -> wgpu::ComputePipeline {
+    let label = format!("{kernel:?}");
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(&label),
+        source: wgpu::ShaderSource::Wgsl(kernel.wgsl()),
     });
-    let cache = context.pipelines.as_ref();
-    let pipeline = context.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(label),
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(&label),
         layout: None,
         module: &module,
-        entry_point: Some(entry_point),
+        entry_point: Some(kernel.entry_point()),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: cache.map(PipelineCache::cache),
     });

@@ -2,7 +2,7 @@
 
 use super::atlas::Atlas;
 use super::context::Context;
-use super::kernels::compile;
+use super::kernels::Kernel;
 use super::readback::Readback;
 use crate::device::DeviceError;
 use bricks::{BRICK_EDGE, BRICK_VOXELS};
@@ -15,17 +15,6 @@ const POINTS: u32 = 1024;
 /// shows less than 1/255.
 const PRECISE: f32 = 1.0 / 16384.0;
 
-const WGSL: &str = "
-@group(0) @binding(0) var atlas: texture_3d<f32>;
-@group(0) @binding(1) var trilinear: sampler;
-@group(0) @binding(2) var<storage, read_write> found: array<f32>;
-@compute @workgroup_size(64)
-fn probe(@builtin(global_invocation_id) id: vec3<u32>) {
-    let size = vec3<f32>(textureDimensions(atlas));
-    let x = 4.5 + (f32(id.x) + 0.5) / 1024.0;
-    found[id.x] = textureSampleLevel(atlas, trilinear, vec3<f32>(x, 4.5, 4.5) / size, 0.0).x;
-}";
-
 /// The largest error of the texture unit between a texel of 0 and a texel of 1. Uses slot 0 of the atlas.
 pub(super) fn filter_error(
     context: &Context,
@@ -34,7 +23,7 @@ pub(super) fn filter_error(
 ) -> Result<f32, DeviceError> {
     let ramp: Vec<u16> = (0..BRICK_VOXELS).map(|i| if i % BRICK_EDGE > 4 { 65535 } else { 0 }).collect();
     atlas.write(context, 0, &ramp);
-    let pipeline = compile(context, "filter precision", WGSL, "probe");
+    let pipeline = context.kernel(Kernel::FilterPrecision);
     let found = context.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("filter precision"),
         size: u64::from(POINTS) * 4,

@@ -1,12 +1,12 @@
 //! The kernels that make what is shown of what was cast, and what they have in common.
 
 use super::context::Context;
-use super::kernels::compile;
+use super::kernels::Kernel;
 use super::storage::{Storage, uniform};
 use layout::{PresentBlock, TILE_EDGE, binding};
 use shaders::compose::PresentKernel;
 
-/// One pass over a picture: a kernel, compiled when it is first used, and its uniform block.
+/// One pass over a picture: a kernel, asked for when it is first used, and its uniform block.
 #[derive(Debug)]
 pub(super) struct PresentPass {
     kernel: PresentKernel,
@@ -28,9 +28,7 @@ impl PresentPass {
         others: &[(u32, &Storage)],
     ) {
         let kernel = self.kernel;
-        let pipeline = self.pipeline.get_or_insert_with(|| {
-            compile(context, &format!("{kernel:?}"), &kernel.wgsl(), kernel.entry_point())
-        });
+        let pipeline = self.pipeline.get_or_insert_with(|| context.kernel(Kernel::Present(kernel)));
         context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(block));
         let mut entries = vec![wgpu::BindGroupEntry {
             binding: binding::PRESENT,
