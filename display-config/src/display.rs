@@ -1,6 +1,6 @@
 //! A display: screen, observer, projectors.
 
-use crate::{BeamLaw, CanonicalRaster, Finish, Projector, RayError, Resolution};
+use crate::{BeamLaw, CanonicalRaster, Finish, Homography, Projector, Raster, RayError, Resolution};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,19 @@ impl Display {
             if !projectors.contains(&index) {
                 projector.finish = Finish::default();
             }
+        }
+        display
+    }
+
+    /// The same display with pictures of so many pixels, each of which covers the whole screen.
+    #[must_use]
+    pub fn with_rasters(&self, width: u32, height: u32) -> Self {
+        let mut display = self.clone();
+        let size = DVec2::new(self.width_m, self.height_m);
+        let pixels = DVec2::new(f64::from(width), f64::from(height));
+        for projector in &mut display.projectors {
+            let screen_from_pixel = Homography::of_rectangle(pixels, -0.5 * size, size);
+            projector.raster = Raster { width, height, screen_from_pixel, output: None };
         }
         display
     }

@@ -5,8 +5,8 @@ use crate::made_once::MadeOnce;
 use crate::remembered::Remembered;
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
-use display_config::{Display, Homography, Raster};
-use glam::{DAffine3, DQuat, DVec2, DVec3, UVec3};
+use display_config::Display;
+use glam::{DAffine3, DQuat, DVec3, UVec3};
 use optics::{Curve, Light, Mimda, MimdaForm, Optics};
 use protocol::FrameState;
 use std::f64::consts::FRAC_PI_2;
@@ -61,14 +61,7 @@ pub fn frame(
 
 /// The display with rasters of `width` × `height` pixels, each on the whole screen.
 pub fn with_raster(display: &Display, width: u32, height: u32) -> Display {
-    let mut display = display.clone();
-    let pixels = DVec2::new(f64::from(width), f64::from(height));
-    let size = DVec2::new(display.width_m, display.height_m);
-    for projector in &mut display.projectors {
-        let screen_from_pixel = Homography::of_rectangle(pixels, -0.5 * size, size);
-        projector.raster = Raster { width, height, screen_from_pixel, output: None };
-    }
-    display
+    display.with_rasters(width, height)
 }
 
 /// Whether pictures are to be tested whole: `LIGHTLOOM_FULL_SIZE=1`, for figures that are kept.

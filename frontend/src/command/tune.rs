@@ -47,7 +47,7 @@ pub(super) fn tune(args: &TuneArgs) -> Result<(), FrontendError> {
         let mut bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
         bar.set(DRAWING + (1.0 - DRAWING) * done, "playing");
     };
-    let Some((stages, best)) = study.run(Weights::default(), &stop, &shown)? else {
+    let Some((stages, best)) = study.run(Weights::default(), &stop, &shown) else {
         return Err(stopped());
     };
     drop(bar);

@@ -3,8 +3,8 @@
 use super::Scenario;
 use crate::FrontendError;
 use bricks::BrickSource;
-use display_config::{Display, EyeModel, Homography, Raster};
-use glam::{DVec2, DVec3};
+use display_config::{Display, EyeModel};
+use glam::DVec3;
 use protocol::{CasterChoice, DeviceChoice, FrameState, ProjectorImage, RenderEvent, RendererOptions};
 use renderer::Renderer;
 use renderer::output::Picture;
@@ -44,7 +44,7 @@ impl Footage {
         stop: &AtomicBool,
         shown: &dyn Fn(usize),
     ) -> Result<Option<Self>, FrontendError> {
-        let display = with_raster(display, width, height);
+        let display = display.with_rasters(width, height);
         let (projectors, weights) = eye_of(&display, display.observer_in_display)?;
         let options = RendererOptions {
             device: DeviceChoice::Cpu,
@@ -140,18 +140,6 @@ impl Footage {
 fn is_same(a: &FrameState, b: &FrameState) -> bool {
     let seen = |frame: &FrameState| FrameState { index: 0, time_s: 0.0, ..frame.clone() };
     seen(a) == seen(b)
-}
-
-/// The display with pictures of so many pixels, each of which covers the whole screen.
-fn with_raster(display: &Display, width: u32, height: u32) -> Display {
-    let mut display = display.clone();
-    let size = DVec2::new(display.width_m, display.height_m);
-    let pixels = DVec2::new(f64::from(width), f64::from(height));
-    for projector in &mut display.projectors {
-        let screen_from_pixel = Homography::of_rectangle(pixels, -0.5 * size, size);
-        projector.raster = Raster { width, height, screen_from_pixel, output: None };
-    }
-    display
 }
 
 /// The projectors that an eye sees at all, and how much of each of their pixels. They all cover the screen alike, so that a

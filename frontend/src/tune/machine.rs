@@ -7,7 +7,7 @@ use super::{Footage, RATE_HZ};
 use crate::report::plot::StripTick;
 use control::{Budget, Control, Found, News, Rule, Work};
 use protocol::{ProjectorImage, SubFrame};
-use renderer::output::{OutputError, Picture};
+use renderer::output::Picture;
 use renderer::present::{Classes, Raster, Thresholds, lattice_of, reconstruct};
 use renderer::refine::{ERROR_UNIT, Filled, Grain, Order, UNITS, change_at, fill, sparse};
 use std::time::Duration;
@@ -66,29 +66,26 @@ pub struct Played {
 }
 
 /// Plays footage on a machine; `see` is given what the eye is shown at each instant.
-///
-/// # Errors
-/// Those of `see`, and pictures that do not fit the display.
 pub fn play(
     footage: &Footage,
     contender: Contender,
     machine: Machine,
-    see: &mut dyn FnMut(usize, &Picture) -> Result<(), OutputError>,
-) -> Result<Played, OutputError> {
+    see: &mut dyn FnMut(usize, &Picture),
+) -> Played {
     let mut screen = Screen { footage, see, next: 0, picture: footage.truth(0).clone() };
     let played = match contender {
-        Contender::Control(rule) => Controlled::new(footage, rule, machine, false).play(&mut screen)?,
-        Contender::ControlByPath(rule) => Controlled::new(footage, rule, machine, true).play(&mut screen)?,
-        Contender::Quincunx => play_quincunx(footage, machine, &mut screen)?,
+        Contender::Control(rule) => Controlled::new(footage, rule, machine, false).play(&mut screen),
+        Contender::ControlByPath(rule) => Controlled::new(footage, rule, machine, true).play(&mut screen),
+        Contender::Quincunx => play_quincunx(footage, machine, &mut screen),
     };
-    screen.until(footage.len())?;
-    Ok(played)
+    screen.until(footage.len());
+    played
 }
 
 /// What the eye is shown.
 struct Screen<'a, 'b> {
     footage: &'a Footage,
-    see: &'b mut dyn FnMut(usize, &Picture) -> Result<(), OutputError>,
+    see: &'b mut dyn FnMut(usize, &Picture),
     /// The first instant that has not been seen.
     next: usize,
     picture: Picture,
@@ -96,23 +93,17 @@ struct Screen<'a, 'b> {
 
 impl Screen<'_, '_> {
     /// These pictures are ready at a time, and shown at the next instant that leaves time for the order.
-    fn show<'p>(
-        &mut self,
-        at: Duration,
-        pictures: impl Iterator<Item = &'p [f32]>,
-    ) -> Result<(), OutputError> {
-        self.until(((at + LEAD).as_secs_f64() * RATE_HZ).ceil() as usize)?;
+    fn show<'p>(&mut self, at: Duration, pictures: impl Iterator<Item = &'p [f32]>) {
+        self.until(((at + LEAD).as_secs_f64() * RATE_HZ).ceil() as usize);
         self.picture = self.footage.eye(pictures);
-        Ok(())
     }
 
     /// The eye sees the same until an instant.
-    fn until(&mut self, instant: usize) -> Result<(), OutputError> {
+    fn until(&mut self, instant: usize) {
         for instant in self.next..instant.min(self.footage.len()) {
-            (self.see)(instant, &self.picture)?;
+            (self.see)(instant, &self.picture);
         }
         self.next = self.next.max(instant);
-        Ok(())
     }
 }
 
@@ -157,20 +148,20 @@ impl<'a> Controlled<'a> {
         }
     }
 
-    fn play(mut self, screen: &mut Screen) -> Result<Played, OutputError> {
+    fn play(mut self, screen: &mut Screen) -> Played {
         let mut now = Duration::ZERO;
         while let Some(newest) = instant_at(self.footage, now) {
-            now = self.tick(now, newest, screen)?;
+            now = self.tick(now, newest, screen);
         }
-        Ok(self.played)
+        self.played
     }
 
     /// A tick that begins at a time; when it ends.
-    fn tick(&mut self, began: Duration, newest: usize, screen: &mut Screen) -> Result<Duration, OutputError> {
+    fn tick(&mut self, began: Duration, newest: usize, screen: &mut Screen) -> Duration {
         let has_changed = self.active.is_none_or(|(active, _)| !self.footage.is_same(active, newest));
         let news = News { has_changed, has_detail: false };
         let (before, begins, from) = match self.control.next(news, began) {
-            Work::Rest => return Ok(began + Duration::from_secs_f64(1.0 / RATE_HZ)),
+            Work::Rest => return began + Duration::from_secs_f64(1.0 / RATE_HZ),
             Work::Begin => (self.active, true, 0),
             Work::Refine { from } => (self.active, false, from),
         };
@@ -198,13 +189,13 @@ impl<'a> Controlled<'a> {
         let news = News { has_changed: looks, has_detail: false };
         let shows = self.control.found(Found { done, spatial, change, news }, now);
         if shows {
-            screen.show(now, self.filled.iter().map(|one| &one.rgba[..]))?;
+            screen.show(now, self.filled.iter().map(|one| &one.rgba[..]));
             self.played.shown += 1;
         }
         let errors = self.control.errors().unwrap_or_default();
         let share = f64::from(done) / f64::from(UNITS);
         self.played.ticks.push(Tick { at: now, instant: active, share, errors, begins, shows });
-        Ok(now)
+        now
     }
 
     /// How far the newest state is from the active one, directly or by way of those between.
@@ -241,7 +232,7 @@ impl<'a> Controlled<'a> {
     }
 }
 
-fn play_quincunx(footage: &Footage, machine: Machine, screen: &mut Screen) -> Result<Played, OutputError> {
+fn play_quincunx(footage: &Footage, machine: Machine, screen: &mut Screen) -> Played {
     let (mut played, mut now, mut number) = (Played::default(), Duration::ZERO, 0);
     let mut shown: Vec<ProjectorImage> = footage.pictures(0).to_vec();
     let (mut known, mut active) = (Classes::default(), None);
@@ -262,12 +253,12 @@ fn play_quincunx(footage: &Footage, machine: Machine, screen: &mut Screen) -> Re
                 reconstruct((&cast.rgba).into(), Some(&shown.rgba), raster, known, Thresholds::default());
             shown.rgba = made.into_owned();
         }
-        screen.show(now, shown.iter().map(|one| &one.rgba[..]))?;
+        screen.show(now, shown.iter().map(|one| &one.rgba[..]));
         (active, number) = (Some(newest), number.wrapping_add(1));
         played.shown += 1;
         played.begun += u32::from(!is_same);
     }
-    Ok(played)
+    played
 }
 
 /// A tick as a strip shows it.

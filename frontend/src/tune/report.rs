@@ -161,8 +161,7 @@ fn watched(
                 truth: truth.clone(),
             });
         }
-        Ok(())
-    })?;
+    });
     let ticks: Vec<_> = played.ticks.iter().map(super::machine::strip_tick).collect();
     let title = format!("{}, complete pictures in {:.2} s", footage.name, machine.full.as_secs_f64());
     let nothing = || FrontendError::Volume(format!("{} has no instant", footage.name));

@@ -1,7 +1,7 @@
 //! What the eye is shown against what it should see, instant by instant.
 
 use super::Footage;
-use renderer::output::{OutputError, Picture};
+use renderer::output::Picture;
 use serde::Serialize;
 
 /// How far what was shown is from the truth, in linear colour.
@@ -32,10 +32,7 @@ impl<'a> Scorer<'a> {
     }
 
     /// The eye is shown a picture at an instant, each after the one before.
-    ///
-    /// # Errors
-    /// It is no picture of this display.
-    pub fn see(&mut self, instant: usize, shown: &Picture) -> Result<(), OutputError> {
+    pub fn see(&mut self, instant: usize, shown: &Picture) {
         let truth = self.footage.truth(instant);
         let square = mean_square(&shown.rgba, |i| truth.rgba[i]);
         self.squares += square;
@@ -49,7 +46,6 @@ impl<'a> Scorer<'a> {
         }
         self.before = Some(shown.clone());
         self.instants += 1;
-        Ok(())
     }
 
     /// The score of all that was seen.

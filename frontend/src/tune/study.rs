@@ -2,7 +2,6 @@
 
 use super::{Footage, Machine, Played, Score, Scorer, Setting, Stage, badness, play};
 use super::{stage_of_chi, stage_of_rho, stage_of_theta};
-use crate::FrontendError;
 use control::Weights;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -55,20 +54,17 @@ pub struct Study {
 impl Study {
     /// Plays all stages, from some weights on; the stages, and the best weights. `shown` is told how many runs are done. None
     /// if `stop` is set meanwhile.
-    ///
-    /// # Errors
-    /// Footage that does not fit its display.
     pub fn run(
         &self,
         from: Weights,
         stop: &AtomicBool,
         shown: &(dyn Fn() + Sync),
-    ) -> Result<Option<(Vec<PlayedStage>, Weights)>, FrontendError> {
+    ) -> Option<(Vec<PlayedStage>, Weights)> {
         let mut best = from;
         let mut stages = Vec::new();
         for stage in STAGES {
             let settings = settings_of(stage, best);
-            let Some(played) = self.play_stage(stage, settings, stop, shown)? else { return Ok(None) };
+            let played = self.play_stage(stage, settings, stop, shown)?;
             let value = played.settings[played.best].value.unwrap_or_default();
             match stage {
                 Stage::Rho => best.rho = value,
@@ -78,7 +74,7 @@ impl Study {
             }
             stages.push(played);
         }
-        Ok(Some((stages, best)))
+        Some((stages, best))
     }
 
     /// Runs of all stages.
@@ -98,28 +94,28 @@ impl Study {
         settings: Vec<Setting>,
         stop: &AtomicBool,
         shown: &(dyn Fn() + Sync),
-    ) -> Result<Option<PlayedStage>, FrontendError> {
+    ) -> Option<PlayedStage> {
         let cases: Vec<(usize, &Footage, Machine)> = (0..settings.len())
             .flat_map(|setting| self.footage.iter().map(move |footage| (setting, footage)))
             .flat_map(|(setting, footage)| {
                 self.machines.iter().map(move |&machine| (setting, footage, machine))
             })
             .collect();
-        let played: Result<Vec<Option<Run>>, FrontendError> = cases
+        let played: Option<Vec<Run>> = cases
             .par_iter()
             .map(|&(setting, footage, machine)| {
                 if stop.load(Ordering::SeqCst) {
-                    return Ok(None);
+                    return None;
                 }
                 let mut scorer = Scorer::new(footage);
                 let contender = settings[setting].contender;
                 let played =
-                    play(footage, contender, machine, &mut |instant, seen| scorer.see(instant, seen))?;
+                    play(footage, contender, machine, &mut |instant, seen| scorer.see(instant, seen));
                 shown();
-                Ok(Some(Run { score: scorer.score(), played }))
+                Some(Run { score: scorer.score(), played })
             })
             .collect();
-        let Some(runs) = played?.into_iter().collect::<Option<Vec<Run>>>() else { return Ok(None) };
+        let runs = played?;
         let runs: Vec<Vec<Run>> = runs.chunks(self.runs_per_setting()).map(<[Run]>::to_vec).collect();
         let errors_by = |of: fn(&Score) -> f64| -> Vec<Vec<f64>> {
             runs.iter().map(|row| row.iter().map(|run| of(&run.score)).collect()).collect()
@@ -129,7 +125,7 @@ impl Study {
         let by_flicker = badness(&errors_by(|score| score.flicker), competes);
         let numbered = (0..settings.len()).filter(|&setting| settings[setting].value.is_some());
         let best = numbered.min_by(|&a, &b| by_rms[a].total_cmp(&by_rms[b])).unwrap_or(0);
-        Ok(Some(PlayedStage { stage, settings, runs, badness: [by_rms, by_flicker], best }))
+        Some(PlayedStage { stage, settings, runs, badness: [by_rms, by_flicker], best })
     }
 }
 

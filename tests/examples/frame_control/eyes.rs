@@ -7,7 +7,7 @@ use frontend::tune::{Contender, Footage, Machine, Scorer, Study, badness, play};
 use lightloom_tests::results::Results;
 use nv_flip::{FlipImageRgb8, FlipPool, flip};
 use rayon::prelude::*;
-use renderer::output::{OutputError, Picture};
+use renderer::output::Picture;
 use renderer::present::Finisher;
 use std::time::Duration;
 
@@ -41,9 +41,8 @@ pub fn compare(study: &Study, best: Weights) -> Result<(), String> {
             study.machines.iter().map(move |&machine| (contender, footage, machine))
         })
         .collect();
-    let judged: Result<Vec<Judged>, OutputError> =
+    let judged: Vec<Judged> =
         cases.par_iter().map(|&(contender, footage, machine)| judge(contender, footage, machine)).collect();
-    let judged = judged.map_err(|error| error.to_string())?;
     let rows: Vec<&[Judged]> = judged.chunks(study.runs_per_setting()).collect();
     let mut results = Results::new(PROGRAM, PAGE, "eyes");
     results.line("| contender | bad by RMS | by FLIP | by flicker | mean RMS | mean FLIP | best of the first and the fixed rules in |");
@@ -100,17 +99,17 @@ fn by_scenario(study: &Study, names: &[&str], rows: &[&[Judged]], results: &mut 
     }
 }
 
-fn judge(contender: Contender, footage: &Footage, machine: Machine) -> Result<Judged, OutputError> {
+fn judge(contender: Contender, footage: &Footage, machine: Machine) -> Judged {
     let (mut scorer, mut flips, mut count) = (Scorer::new(footage), 0.0, 0);
     play(footage, contender, machine, &mut |instant, shown| {
         if instant % STRIDE == 0 {
             flips += f64::from(mean_flip(footage, shown, footage.truth(instant)));
             count += 1;
         }
-        scorer.see(instant, shown)
-    })?;
+        scorer.see(instant, shown);
+    });
     let score = scorer.score();
-    Ok(Judged { rms: score.rms, flicker: score.flicker, flip: flips / f64::from(count.max(1)) })
+    Judged { rms: score.rms, flicker: score.flicker, flip: flips / f64::from(count.max(1)) }
 }
 
 /// The mean FLIP difference of two pictures.

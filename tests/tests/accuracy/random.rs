@@ -1,10 +1,12 @@
 //! Random scenes: light in every pixel, the same by kernel and twin, and near the truth.
 //!
 //! `LIGHTLOOM_RANDOM_CASES=2000 LIGHTLOOM_RANDOM_SEED=1 cargo test --release -p lightloom-tests --test accuracy random:: --
-//! --nocapture` draws as many as one has time for, and prints the worst; LIGHTLOOM_RANDOM_FIRST=n begins with case n.
+//! --nocapture` draws as many as one has time for, and prints the worst; LIGHTLOOM_RANDOM_FIRST=n begins with case n. With
+//! `LIGHTLOOM_RESULTS=1` the summary is kept as well.
 
 use lightloom_tests::draw;
 use lightloom_tests::random_scene::{Plan, Wanted, run};
+use lightloom_tests::results::{Program, Results};
 
 /// A minute on two cores.
 const CASES: u64 = 40;
@@ -25,7 +27,9 @@ fn random_scenes_are_light_by_every_device_and_near_the_truth() {
     };
     println!("{plan:?}");
     let summary = run(&plan);
-    println!("{summary}");
+    let mut results = Results::new(Program::Tests("accuracy"), "accuracy", "random scenes");
+    results.line(format!("```text\n{summary}\n```"));
+    results.finish().unwrap();
     if std::env::var_os("LIGHTLOOM_RANDOM_CASES").is_some() {
         for worst in summary.rounding.iter().flatten() {
             println!("case {}: {:#?}", worst.case, worst.scene);
