@@ -1,8 +1,8 @@
 //! Reads a hostile store: all that can be asked of it, with right checksums or wrong ones.
 #![no_main]
 
-use bricks::{BRICK_VOXELS, Brick, BrickSource, Codes, NodeKey, NodeSummary};
 use bricks::store::Store;
+use bricks::{BRICK_VOXELS, Brick, BrickSource, Codes, NodeKey, NodeSummary};
 use libfuzzer_sys::fuzz_target;
 use lightloom_fuzz::budget::Budget;
 use lightloom_fuzz::resign::{Repair, resign};

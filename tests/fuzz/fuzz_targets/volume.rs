@@ -2,7 +2,6 @@
 #![no_main]
 
 use bricks::volume::{ByteOrder, Element, Samples, VolumeReader};
-use volumes::{RawLayout, Selection, open};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use glam::{DVec3, UVec3};
@@ -15,6 +14,7 @@ use std::panic::PanicHookInfo;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use tempfile::TempDir;
+use volumes::{RawLayout, Selection, open};
 
 /// A volume of more bytes is opened, and not read.
 const MOST_BYTES: u64 = 1 << 20;

@@ -1,6 +1,7 @@
-//! What the fuzz targets share: formats of inputs, a limit of memory, and checksums made right.
+//! What the fuzz targets share: formats and protocols of inputs, a limit of memory, and checksums made right.
 
 pub mod budget;
 pub mod format;
+pub mod protocols;
 #[path = "../../../backend/bricks/src/store/resign.rs"]
 pub mod resign;

@@ -1,4 +1,7 @@
-//! Writes the inputs that fuzzing starts from: stores of every kind, and the volume files of the tests.
+//! Writes the inputs that fuzzing starts from: stores of every kind, the volume files of the tests, messages and texts.
+
+mod messages;
+mod text;
 
 use bricks::store::{BuildOptions, CodeBits, Codec, build};
 use bricks::volume::{Element, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
@@ -145,9 +148,14 @@ fn hostile() -> Result<Vec<(String, u8, Vec<u8>)>, Box<dyn Error>> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(std::env::args().nth(1).ok_or("name the folder for the seeds")?);
-    for name in ["store", "volume"] {
+    let folder = |name: &str| -> Result<PathBuf, Box<dyn Error>> {
         fs::create_dir_all(out.join(name))?;
-    }
-    stores(&out.join("store"))?;
-    volumes(&out.join("volume"))
+        Ok(out.join(name))
+    };
+    stores(&folder("store")?)?;
+    volumes(&folder("volume")?)?;
+    text::files(&folder("text")?)?;
+    messages::packets(&folder("packets")?)?;
+    messages::wire(&folder("wire")?)?;
+    messages::tapes(&folder("tape")?)
 }
