@@ -11,7 +11,7 @@ use bricks::store::CodeBits;
 use display_config::Display;
 use glam::DVec3;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::{compare, data, draw};
 use optics::{
     BandPicker, ClipPlane, Curve, CurveValue, Detail, Enhancer, LayerOpacity, Light, Material, Mimda,
@@ -290,7 +290,7 @@ fn filters(results: &mut Results, display: &Display) {
 
 /// What the process of [`compiling`] does: opens the GPU, draws one picture of few pixels, and prints how long it took.
 fn first_picture(display: &Display) {
-    let display = with_raster(display, 8, 8);
+    let display = display.with_rasters(8, 8);
     let scene = scenes::shells(&display);
     let started = Instant::now();
     draw::draw(
@@ -346,7 +346,7 @@ fn main() -> Result<(), String> {
         first_picture(&display);
         return Ok(());
     }
-    let display = with_raster(&display, RASTER[0], RASTER[1]);
+    let display = display.with_rasters(RASTER[0], RASTER[1]);
     println!("{} × {} pixels of {} projectors of desk8", RASTER[0], RASTER[1], PROJECTORS.len());
     for part in variable("LIGHTLOOM_BENCH_PARTS", "unused,enhancers,filter,compile").split(',') {
         let results = |part| Results::new(Program::Bench("kernels"), "kernels", part);

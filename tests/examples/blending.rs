@@ -6,7 +6,7 @@ use display_config::Display;
 use lightloom_tests::blending_scenes::{self, is_split};
 use lightloom_tests::presented::{Presented, picture};
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{TestScene, with_raster};
+use lightloom_tests::scenes::TestScene;
 use lightloom_tests::twin_scene::{TwinScene, view};
 use needs::Needs;
 use optics::{Curve, Light};
@@ -69,7 +69,7 @@ fn compare(
 
 fn main() -> Result<(), String> {
     let display = Display::load("desk8").expect("a preset");
-    let display = with_raster(&display, 240, 180);
+    let display = display.with_rasters(240, 180);
     let mut results = Results::new(Program::Study("blending"), "blending", "blending");
     results.line("| scene | how | samples per ray | processor time, ms | ratio |");
     results.line("| --- | --- | ---: | ---: | ---: |");

@@ -6,7 +6,7 @@
 
 use display_config::Display;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::{compare, draw};
 use protocol::DeviceChoice;
 
@@ -36,7 +36,7 @@ fn table(results: &mut Results, display: &Display, scene: &TestScene) {
 
 fn main() -> Result<(), String> {
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
-    let display = with_raster(&display, 160, 120);
+    let display = display.with_rasters(160, 120);
     let mut results = Results::new(Program::Study("levels"), "levels", "levels");
     results.line(
         "| scene | `lod_scale` | means alone: RMS, 99.9 %, largest of 255 | ms | with deviations | ms |",

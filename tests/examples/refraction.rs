@@ -7,7 +7,6 @@ use display_config::Display;
 use lightloom_tests::compare;
 use lightloom_tests::draw::{With, renderer};
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::with_raster;
 use lightloom_tests::techniques;
 use protocol::{DeviceChoice, FilterChoice};
 
@@ -16,7 +15,7 @@ const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 const STRIDE: u32 = 4;
 
 fn main() -> Result<(), String> {
-    let display = with_raster(&Display::load("desk8").expect("a preset"), 160, 120);
+    let display = Display::load("desk8").expect("a preset").with_rasters(160, 120);
     let mut results = Results::new(Program::Study("refraction"), "refraction", "tolerance");
     results.line("| scene | tolerance | samples per ray | seconds | RMS | 99.9 % | largest | not reached |");
     results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");

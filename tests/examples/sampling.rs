@@ -12,7 +12,7 @@ use lightloom_tests::compare;
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self, with_raster};
+use lightloom_tests::scenes::{self};
 use optics::{Light, Quality};
 use protocol::{DeviceChoice, FrameState};
 use std::sync::Arc;
@@ -25,7 +25,7 @@ const EDGE: u32 = 700;
 const STRIDE: u32 = 4;
 
 fn main() -> Result<(), String> {
-    let display = with_raster(&Display::load("holo72").map_err(|e| e.to_string())?, 320, 240);
+    let display = Display::load("holo72").map_err(|e| e.to_string())?.with_rasters(320, 240);
     let volume =
         ProceduralVolume::new("shells", UVec3::splat(EDGE), 1e-3).map_err(|error| error.to_string())?;
     let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(Arc::new(volume)));

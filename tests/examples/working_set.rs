@@ -20,7 +20,7 @@ use lightloom_tests::ideal_cut::{IdealCut, ideal_cut};
 use lightloom_tests::octaves::{Octaves, cloudy};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self, Colours, Points, scaled, with_raster};
+use lightloom_tests::scenes::{self, Colours, Points, scaled};
 use optics::Optics;
 use protocol::{DeviceChoice, FrameReport, FrameState};
 use std::collections::BTreeMap;
@@ -154,7 +154,7 @@ fn need(
 
 /// One perspective picture; the detail wanted is one voxel per pixel at any depth.
 fn window(holo: &Display) -> Display {
-    let mut display = with_raster(holo, WINDOW.0, WINDOW.1);
+    let mut display = holo.with_rasters(WINDOW.0, WINDOW.1);
     display.projectors = vec![display.projectors[36].clone()];
     display.pixel_size_m = display.width_m / f64::from(WINDOW.0);
     display.angular_accuracy = 0.0;
@@ -218,7 +218,7 @@ fn back_ends(
     for (opacity, factor) in &OPACITIES[..2] {
         for backend in CONVERGED {
             let counts = RASTERS.map(|(width, height)| {
-                let display = with_raster(holo, width, height);
+                let display = holo.with_rasters(width, height);
                 let frame = subject.frame(&display, *factor);
                 need(&display, &frame, &subject.source, &shares[backend], device).report.working_set_union
             });
@@ -232,7 +232,7 @@ fn back_ends(
     );
     results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     results.line("| the paper's | 1549 | 2087 | 1.35 | | | | |");
-    let display = with_raster(holo, counted.0, counted.1);
+    let display = holo.with_rasters(counted.0, counted.1);
     for (opacity, factor) in &OPACITIES[..2] {
         let frame = subject.frame(&display, *factor);
         let needs: Vec<(FrameReport, usize)> = shares

@@ -123,6 +123,14 @@ pub fn errors_between(found: &[ProjectorImage], expected: &[ProjectorImage]) -> 
     }))
 }
 
+/// The two lines above rows that begin with such columns and end in [`cells`].
+pub fn heads(columns: [&str; 2]) -> String {
+    let [first, second] = columns;
+    format!(
+        "| {first} | {second} | pixels | lit | RMS | 99.9 % | largest |\n| --- | --- | ---: | ---: | ---: | ---: | ---: |"
+    )
+}
+
 /// Cells of a table, of 1/255: pixels, those lit, RMS, what 99.9 % stay within, the largest.
 pub fn cells(errors: &Errors) -> String {
     let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|error| 255.0 * error);

@@ -88,14 +88,14 @@ pub fn ideal_cut(
 mod tests {
     use super::*;
     use crate::draw::{self, With};
-    use crate::scenes::{self, scaled, with_raster};
+    use crate::scenes::{self, scaled};
     use protocol::DeviceChoice;
 
     /// Rays sample no brick that the ideal cut lacks, and nearly all that it has where nothing hides anything.
     #[test]
     fn what_rays_sample_lies_in_the_ideal_cut() {
         let _turn = draw::turn();
-        let display = with_raster(&Display::load("desk8").unwrap(), 128, 96);
+        let display = Display::load("desk8").unwrap().with_rasters(128, 96);
         let mut scene = scenes::shells(&display);
         scene.frame.optics.extinction = scaled(&scene.frame.optics.extinction, 1e-6);
         let ideal = ideal_cut(&*scene.source, &display, &scene.frame, &[2]);

@@ -59,11 +59,6 @@ pub fn frame(
     FrameState { light, ..FrameState::still(display.observer_in_display, display_from_volume, optics) }
 }
 
-/// The display with rasters of `width` × `height` pixels, each on the whole screen.
-pub fn with_raster(display: &Display, width: u32, height: u32) -> Display {
-    display.with_rasters(width, height)
-}
-
 /// Whether pictures are to be tested whole: `LIGHTLOOM_FULL_SIZE=1`, for figures that are kept.
 pub fn full_size() -> bool {
     std::env::var("LIGHTLOOM_FULL_SIZE").as_deref() == Ok("1")
@@ -75,7 +70,7 @@ pub fn full_size() -> bool {
 /// The preset cannot be read.
 pub fn small_desk8(width: u32, height: u32) -> Display {
     let display = Display::load("desk8").expect("desk8 is a preset");
-    if full_size() { display } else { with_raster(&display, width, height) }
+    if full_size() { display } else { display.with_rasters(width, height) }
 }
 
 /// The curve with every value times `factor`.

@@ -32,7 +32,7 @@ use lightloom_tests::motion::{
 use lightloom_tests::octaves::{Octaves, cloudy};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self, with_raster};
+use lightloom_tests::scenes::{self};
 use optics::{Light, Optics};
 use protocol::{DeviceChoice, FrameState, Pace, ProjectorImage};
 use renderer::Renderer;
@@ -316,7 +316,7 @@ fn main() -> Result<(), String> {
     let Arguments { out, fade_s, fades_s, blended, frames, raster, has_shells, edge, upload_mib, device } =
         arguments()?;
     let display = Display::load("holo72").map_err(|error| error.to_string())?;
-    let display = with_raster(&display, raster.0, raster.1);
+    let display = display.with_rasters(raster.0, raster.1);
     let volume: Arc<dyn BrickSource> = if has_shells {
         let volume = ProceduralVolume::new("shells", UVec3::splat(edge), 1e-3);
         Arc::new(volume.map_err(|error| error.to_string())?)

@@ -53,7 +53,7 @@ fn main() -> Result<(), String> {
 
 /// Three volumes, each turned and with its extinction changed; one cut by a plane.
 fn footage(display: &Display) -> Result<Vec<Footage>, String> {
-    let small = scenes::with_raster(display, RASTER[0], RASTER[1]);
+    let small = display.with_rasters(RASTER[0], RASTER[1]);
     let mut all = vec![scenes::shells(&small), scenes::stored_vessels(&small)];
     all.extend(scenes::cranium(&small));
     let mut footage = Vec::new();

@@ -13,7 +13,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use lightloom_tests::compare::{Errors, errors_between};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use optics::Optics;
 use protocol::{DeviceChoice, FrameState, ProjectorImage, SubFrame};
 use renderer::output::{PictureRef, write_png};
@@ -112,7 +112,7 @@ fn main() -> Result<(), String> {
         Some("--worst") => Some(arguments.next().ok_or("--worst needs a folder")?.into()),
         Some(other) => return Err(format!("{other} is unknown; give nothing, or --worst DIR")),
     };
-    let display = with_raster(&Display::load("desk8").map_err(|error| error.to_string())?, 240, 180);
+    let display = Display::load("desk8").map_err(|error| error.to_string())?.with_rasters(240, 180);
     let mut all = vec![scenes::shells(&display), scenes::stored_vessels(&display)];
     all.extend(scenes::cranium(&display));
     let moved: Vec<_> = all

@@ -2,6 +2,7 @@
 
 pub mod budget;
 pub mod format;
+#[path = "../../../frontend/inputs/tests/protocols/mod.rs"]
 pub mod protocols;
 #[path = "../../../backend/bricks/src/store/resign.rs"]
 pub mod resign;

@@ -6,7 +6,6 @@ use super::judge::{Judge, Verdict};
 use super::truth::{LIT, Truth};
 use crate::draw::{self, With};
 use crate::remembered::Remembered;
-use crate::scenes::with_raster;
 use bricks::BrickSource;
 use display_config::Display;
 use optics::Quality;
@@ -57,7 +56,7 @@ fn limit_of_rounding(scene: &RandomScene) -> Limit {
 
 /// The display that random scenes are drawn on.
 pub fn display() -> Display {
-    with_raster(&Display::load("desk8").expect("a preset"), RASTER[0], RASTER[1])
+    Display::load("desk8").expect("a preset").with_rasters(RASTER[0], RASTER[1])
 }
 
 /// Draws a scene on every device there is, and compares.

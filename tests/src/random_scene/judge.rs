@@ -161,13 +161,12 @@ fn closer(quality: &Quality) -> Quality {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::with_raster;
     use crate::techniques;
     use display_config::Display;
 
     #[test]
     fn the_truth_holds_and_a_code_more_or_a_nan_does_not() {
-        let display = with_raster(&Display::load("desk8").unwrap(), 9, 7);
+        let display = Display::load("desk8").unwrap().with_rasters(9, 7);
         let scene = techniques::bumps(&display);
         let truth = Truth::new(&display, &scene.frame, &scene.source, &[5]);
         let judge = Judge::new(&truth, 1.0, &scene.frame.quality);

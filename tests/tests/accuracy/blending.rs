@@ -9,7 +9,7 @@ use lightloom_tests::blending_scenes::{self, LOOKS, is_split, presented};
 use lightloom_tests::compare::{Errors, Limits, errors_of, lod_rule};
 use lightloom_tests::draw;
 use lightloom_tests::presented::{Presented, picture};
-use lightloom_tests::scenes::{TestScene, with_raster};
+use lightloom_tests::scenes::TestScene;
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::FrameState;
 use rayon::prelude::*;
@@ -52,12 +52,12 @@ type Spoil = fn([u32; 2]) -> [u32; 2];
 type Plainest = Full<Plain, Over<false>>;
 
 fn display() -> Display {
-    with_raster(&Display::load("desk8").unwrap(), 97, 73)
+    Display::load("desk8").unwrap().with_rasters(97, 73)
 }
 
 /// Fewer pixels, for kernels: a GPU's driver may run on the processor.
 fn small_display() -> Display {
-    with_raster(&Display::load("desk8").unwrap(), 49, 37)
+    Display::load("desk8").unwrap().with_rasters(49, 37)
 }
 
 fn looks(scene: &TestScene) -> impl Iterator<Item = TestScene> {

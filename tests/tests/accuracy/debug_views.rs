@@ -3,7 +3,7 @@
 use display_config::Display;
 use lightloom_tests::compare::{Limits, errors_between};
 use lightloom_tests::draw::{self, Drawn, With, draw_with, renderer};
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use optics::DebugView;
 use protocol::{DeviceChoice, FilterChoice};
 use twin::debug::heat;
@@ -25,7 +25,7 @@ fn scene(display: &Display, lod_scale: f64, debug: Option<DebugView>) -> TestSce
 }
 
 fn display() -> Display {
-    with_raster(&Display::load("desk8").unwrap(), 96, 72)
+    Display::load("desk8").unwrap().with_rasters(96, 72)
 }
 
 fn drawn(device: DeviceChoice, lod_scale: f64, debug: Option<DebugView>) -> Drawn {

@@ -3,7 +3,7 @@
 use display_config::Display;
 use lightloom_tests::compare::{Limits, errors, errors_between, truth};
 use lightloom_tests::draw::{self, With, draw};
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::TwinScene;
 use optics::MimdaForm;
 use protocol::{DeviceChoice, FilterChoice, ProjectorImage};
@@ -16,7 +16,7 @@ const KEPT: Limits = Limits::of_255(0.15, 1.5, 4.0);
 const ROUNDING: Limits = Limits::of_255(0.005, 0.05, 1.5);
 
 fn display() -> Display {
-    with_raster(&Display::load("desk8").unwrap(), 96, 72)
+    Display::load("desk8").unwrap().with_rasters(96, 72)
 }
 
 /// Scenes of stores whose coarse levels are shown.

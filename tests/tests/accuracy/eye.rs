@@ -14,7 +14,7 @@ use lightloom_tests::compare::lod_rule;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::made_once::MadeOnce;
 use lightloom_tests::picture_difference::ImageDifference;
-use lightloom_tests::scenes::{self, TestScene, frame, optics, with_raster};
+use lightloom_tests::scenes::{self, TestScene, frame, optics};
 use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use rayon::prelude::*;
 use reference::{Integrator, Reference};
@@ -34,7 +34,7 @@ const PROMISE: (f64, f64) = (0.5 / 255.0, 4.0 / 255.0);
 
 /// holo72 with pixels of a centimetre.
 fn holo72_small() -> Display {
-    with_raster(&Display::load("holo72").unwrap(), 160, 90)
+    Display::load("holo72").unwrap().with_rasters(160, 90)
 }
 
 /// A sheet of 2 mm at depth z, beyond the screen's edges, with a pattern of waves some 0.12 m long.

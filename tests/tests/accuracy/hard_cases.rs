@@ -6,7 +6,7 @@ use glam::{DAffine3, DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::{ClosureVolume, bumps};
 use lightloom_tests::compare::{self, Limits, TruePixel, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
-use lightloom_tests::scenes::{Points, frame, optics, placed, with_raster};
+use lightloom_tests::scenes::{Points, frame, optics, placed};
 use needs::tables::TABLE_CELLS;
 use optics::{Curve, Light, Mimda, MimdaForm};
 use protocol::{FilterChoice, FrameState, ProjectorImage};
@@ -36,7 +36,7 @@ struct Case {
 
 /// Odd numbers of pixels, so that one column and one row look straight ahead.
 fn display() -> Display {
-    with_raster(&Display::load("desk8").unwrap(), 97, 73)
+    Display::load("desk8").unwrap().with_rasters(97, 73)
 }
 
 fn source(dims: [u32; 3], value: impl Fn(DVec3) -> f64 + Send + Sync + 'static) -> Arc<dyn BrickSource> {
@@ -81,7 +81,7 @@ impl Case {
 
     /// Few pixels, for cases whose rays take long.
     fn few_pixels(self) -> Self {
-        Self { display: with_raster(&self.display, 49, 37), ..self }
+        Self { display: self.display.with_rasters(49, 37), ..self }
     }
 
     fn with(mut self, change: impl FnOnce(&mut FrameState)) -> Self {

@@ -3,7 +3,7 @@
 use display_config::Display;
 use glam::DVec3;
 use lightloom_tests::draw::{self, With};
-use lightloom_tests::scenes::{self, with_raster};
+use lightloom_tests::scenes::{self};
 use optics::{ClipPlane, Enhancer, Probe, Ramp};
 use protocol::FrameState;
 
@@ -33,7 +33,7 @@ fn tools(away_m: f64) -> Vec<Enhancer> {
 #[test]
 fn tools_away_from_the_volume_change_nothing() {
     let _turn = draw::turn();
-    let display = with_raster(&Display::load("desk8").expect("a preset"), 40, 30);
+    let display = Display::load("desk8").expect("a preset").with_rasters(40, 30);
     let scene = scenes::shells(&display);
     for device in draw::devices() {
         let picture = |frame: &FrameState| {

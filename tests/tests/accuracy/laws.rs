@@ -7,7 +7,7 @@ use glam::{DQuat, DVec2, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Limits, errors_between};
 use lightloom_tests::draw::{self, With, draw, draw_with, renderer};
-use lightloom_tests::scenes::{self, TestScene, frame, optics, placed, with_raster};
+use lightloom_tests::scenes::{self, TestScene, frame, optics, placed};
 use optics::{Curve, Light, Mimda, MimdaForm};
 use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use std::sync::Arc;
@@ -77,7 +77,7 @@ fn share_right(image: &ProjectorImage, chords: &[f64], kappa: f64) -> f64 {
 #[test]
 fn a_constant_medium_has_the_opacity_of_its_chord() {
     let _turn = draw::turn();
-    let display = with_raster(&desk8(), 80, 60);
+    let display = desk8().with_rasters(80, 60);
     let dims = UVec3::new(57, 40, 29);
     let source: Arc<dyn BrickSource> = Arc::new(ClosureVolume::new(dims, (0.0, 1.0), |_| 0.5));
     let place = placed(&*source, 0.6 * display.height_m, DQuat::from_rotation_y(0.4));
@@ -120,7 +120,7 @@ fn a_constant_medium_has_the_opacity_of_its_chord() {
 
 /// desk8 with two projectors, one for each half of the screen: they need different bricks.
 fn halves() -> Display {
-    let mut display = with_raster(&desk8(), 160, 120);
+    let mut display = desk8().with_rasters(160, 120);
     display.projectors = display.projectors[3..5].to_vec();
     let half = DVec2::new(0.5 * display.width_m, display.height_m);
     for (projector, left) in display.projectors.iter_mut().zip([-half.x, 0.0]) {
@@ -173,7 +173,7 @@ fn a_small_cache_gives_the_same_bytes_where_it_suffices() {
 #[test]
 fn what_was_drawn_before_leaves_no_trace() {
     let _turn = draw::turn();
-    let display = with_raster(&desk8(), 160, 120);
+    let display = desk8().with_rasters(160, 120);
     let scene = scenes::shells(&display);
     let mut elsewhere = scene.frame.clone();
     elsewhere.display_from_volume = placed(&*scene.source, 2.0, DQuat::from_rotation_y(-0.7));
@@ -193,7 +193,7 @@ fn what_was_drawn_before_leaves_no_trace() {
 #[test]
 fn asking_for_the_finest_level_is_asking_for_finer_than_there_is() {
     let _turn = draw::turn();
-    let display = with_raster(&desk8(), 160, 120);
+    let display = desk8().with_rasters(160, 120);
     let scene = scenes::shells(&display);
     for device in draw::devices() {
         let at = |lod_scale: f64| {
@@ -210,7 +210,7 @@ fn asking_for_the_finest_level_is_asking_for_finer_than_there_is() {
 #[test]
 fn mimda_with_gamma_zero_is_ordinary_compositing_to_the_bit() {
     let _turn = draw::turn();
-    let display = with_raster(&desk8(), 160, 120);
+    let display = desk8().with_rasters(160, 120);
     let TestScene { frame, .. } = scenes::shells(&display);
     // One brick has one slot, so that a GPU, too, can be held to the bit.
     let source: Arc<dyn BrickSource> =
@@ -235,7 +235,7 @@ fn mimda_with_gamma_zero_is_ordinary_compositing_to_the_bit() {
 #[test]
 fn splitting_projectors_over_renderers_gives_the_same_bytes() {
     let _turn = draw::turn();
-    let display = with_raster(&desk8(), 160, 120);
+    let display = desk8().with_rasters(160, 120);
     let scene = scenes::shells(&display);
     for device in draw::devices() {
         let draw = |projectors: &[u32]| {

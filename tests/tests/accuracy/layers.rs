@@ -4,7 +4,7 @@ use bricks::BrickSource;
 use display_config::Display;
 use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
-use lightloom_tests::scenes::{frame, optics, placed, with_raster};
+use lightloom_tests::scenes::{frame, optics, placed};
 use protocol::FrameState;
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ pub const PROJECTORS: [u32; 2] = [1, 5];
 
 /// desk8 with few pixels.
 pub fn display() -> Display {
-    with_raster(&Display::load("desk8").unwrap(), 61, 45)
+    Display::load("desk8").unwrap().with_rasters(61, 45)
 }
 
 /// 56 voxels along each axis with these values, 0 to 1.

@@ -38,7 +38,7 @@ fn assert_same(display: &Display, scene: &TestScene) {
 #[test]
 fn lean_twins_draw_what_the_full_one_does_to_the_bit() {
     let _turn = draw::turn();
-    let display = scenes::with_raster(&Display::load("desk8").unwrap(), 80, 60);
+    let display = Display::load("desk8").unwrap().with_rasters(80, 60);
     let chains = [
         "clip plane",
         "probe",

@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Limits, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
-use lightloom_tests::scenes::{frame, optics, placed, with_raster};
+use lightloom_tests::scenes::{frame, optics, placed};
 use optics::Light;
 use std::path::Path;
 use std::sync::Arc;
@@ -73,7 +73,7 @@ fn replaced(nan: f64) -> Arc<dyn BrickSource> {
 fn what_is_no_number_is_seen_as_an_end_of_the_range() {
     let _turn = draw::turn();
     let folder = tempfile::tempdir().unwrap();
-    let display = with_raster(&Display::load("desk8").unwrap(), 97, 73);
+    let display = Display::load("desk8").unwrap().with_rasters(97, 73);
     let source: Arc<dyn BrickSource> = Arc::new(imported(folder.path()));
     let place = placed(&*source, 0.6 * display.height_m, DQuat::from_rotation_y(0.4));
     let optics = optics(

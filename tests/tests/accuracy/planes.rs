@@ -3,7 +3,7 @@
 use display_config::Display;
 use lightloom_tests::compare::{Errors, Limits, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{Curve, Quality};
 use planes::{Fan, Planes, Scratch};
@@ -139,7 +139,7 @@ fn a_view_is_the_same_whoever_shares_its_rows() {
 #[test]
 fn auto_casts_planes_where_many_views_share_them() {
     let _turn = draw::turn();
-    let small = |preset: &str| with_raster(&Display::load(preset).unwrap(), 32, 24);
+    let small = |preset: &str| Display::load(preset).unwrap().with_rasters(32, 24);
     let caster = |display: &Display, device: DeviceChoice, projectors: &[u32]| {
         let scene = scenes::shells(display);
         let with = With { caster: CasterChoice::Auto, ..With::device(device) };

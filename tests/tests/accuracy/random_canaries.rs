@@ -7,7 +7,7 @@ use lightloom_tests::blending_scenes;
 use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::draw;
 use lightloom_tests::random_scene::{Judge, Truth, Verdict};
-use lightloom_tests::scenes::{TestScene, with_raster};
+use lightloom_tests::scenes::TestScene;
 use lightloom_tests::techniques;
 use lightloom_tests::twin_scene::{TwinScene, view};
 use needs::tables::TABLE_CELLS;
@@ -270,7 +270,7 @@ fn picture(
 #[test]
 fn small_faults_are_found_by_the_limits_of_random_scenes() {
     let _turn = draw::turn();
-    let display = with_raster(&Display::load("desk8").unwrap(), RASTER[0], RASTER[1]);
+    let display = Display::load("desk8").unwrap().with_rasters(RASTER[0], RASTER[1]);
     let mut failed = Vec::new();
     for Canary { name, scene, fault } in CANARIES {
         let scene = scene(&display);

@@ -2,7 +2,7 @@
 
 use bricks::store::EightBits;
 use display_config::Display;
-use lightloom_tests::compare::{Errors, Limits, TruePixel, cells, errors, truth};
+use lightloom_tests::compare::{Errors, Limits, TruePixel, cells, errors, heads, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene, scaled};
@@ -73,8 +73,7 @@ fn default_quality_keeps_its_promise_on_every_scene() {
     let _turn = draw::turn();
     let display = scenes::small_desk8(160, 120);
     let mut results = Results::new(Program::Tests("accuracy"), "accuracy", "every scene");
-    results.line("| scene | device | pixels | lit | RMS | 99.9 % | largest |");
-    results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
+    results.line(heads(["scene", "device"]));
     for scene in scenes::all(&display) {
         let truth = truth(&display, &scene.frame, &scene.source, &PROJECTORS, stride(&scene));
         for device in draw::devices() {

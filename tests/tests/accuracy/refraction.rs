@@ -15,7 +15,7 @@ use std::sync::Arc;
 const PROJECTORS: [u32; 2] = [1, 5];
 
 fn test_display() -> Display {
-    scenes::with_raster(&Display::load("desk8").unwrap(), 160, 120)
+    Display::load("desk8").unwrap().with_rasters(160, 120)
 }
 
 fn draw_on(display: &Display, scene: &TestScene, device: DeviceChoice) -> Vec<ProjectorImage> {
@@ -111,7 +111,7 @@ fn a_surface_breaks_light_and_mirrors_it_beyond_the_critical_angle() {
 fn wild_indices_give_light_on_every_device() {
     let _turn = draw::turn();
     // What it is about needs no fine picture.
-    let display = scenes::with_raster(&Display::load("desk8").unwrap(), 32, 24);
+    let display = Display::load("desk8").unwrap().with_rasters(32, 24);
     let wild = [
         vec![(0.3, 0.1), (0.35, 5.0), (0.5, 0.2), (0.5, 3.0), (0.7, 0.01)],
         vec![(0.5, 1e-3), (0.5, 1e3)],

@@ -2,7 +2,7 @@
 
 use display_config::Display;
 use glam::DVec3;
-use lightloom_tests::compare::{self, Errors, Limits, cells, errors_between, errors_of};
+use lightloom_tests::compare::{self, Errors, Limits, cells, errors_between, errors_of, heads};
 use lightloom_tests::draw::{self, Drawn, With};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene};
@@ -43,7 +43,7 @@ fn small_display() -> Display {
 
 /// Fewer still, for what has to be the same to the bit in each.
 fn tiny_display() -> Display {
-    scenes::with_raster(&Display::load("desk8").unwrap(), 32, 24)
+    Display::load("desk8").unwrap().with_rasters(32, 24)
 }
 
 fn draw_on(display: &Display, scene: &TestScene, device: DeviceChoice) -> Arc<Drawn> {
@@ -118,8 +118,7 @@ fn the_reference_tells_the_same_picture() {
     let _turn = draw::turn();
     let display = test_display();
     let mut results = Results::new(Program::Tests("accuracy"), "accuracy", "techniques");
-    results.line("| scene | technique | pixels | lit | RMS | 99.9 % | largest |");
-    results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
+    results.line(heads(["scene", "technique"]));
     let mut failed = Vec::new();
     for_each_technique(&display, |base, scene| {
         let truth = compare::traced(&display, &scene.frame, &scene.source, &PROJECTORS, 4);

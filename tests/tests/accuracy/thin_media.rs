@@ -6,7 +6,7 @@ use glam::{DQuat, UVec3};
 use lightloom_tests::closure_volume::{ClosureVolume, bumps};
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors_of, truth};
 use lightloom_tests::draw::{self, With, draw};
-use lightloom_tests::scenes::{frame, optics, placed, with_raster};
+use lightloom_tests::scenes::{frame, optics, placed};
 use optics::Light;
 use protocol::{FrameState, ProjectorImage};
 use std::sync::Arc;
@@ -49,7 +49,7 @@ fn relative_errors(images: &[ProjectorImage], truth: &[TruePixel], factor: f64) 
 #[test]
 fn thin_media_keep_their_digits() {
     let _turn = draw::turn();
-    let display = with_raster(&Display::load("desk8").unwrap(), 97, 73);
+    let display = Display::load("desk8").unwrap().with_rasters(97, 73);
     let source: Arc<dyn BrickSource> =
         Arc::new(ClosureVolume::new(UVec3::new(56, 40, 30), (0.0, 1.0), bumps));
     for exponent in [-6, -5, -4, -3, -2] {

@@ -4,7 +4,7 @@ use bricks::{BRICK_VOXELS, NodeKey};
 use display_config::Display;
 use layout::FeedbackEntry;
 use lightloom_tests::draw;
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{AdapterWish, DeviceChoice, FilterChoice};
 use renderer::device::{
@@ -25,7 +25,7 @@ struct Stage {
 
 impl Stage {
     fn new(choice: DeviceChoice) -> Self {
-        let display = with_raster(&Display::load("desk8").unwrap(), 72, 54);
+        let display = Display::load("desk8").unwrap().with_rasters(72, 54);
         let shells = scenes::shells(&display);
         let scene = TwinScene::new(&display, &shells.frame, &*shells.source);
         let slots = (scene.atlas.len() / BRICK_VOXELS) as u64;
@@ -48,7 +48,7 @@ impl Stage {
 
     /// The same volume from coarser bricks: an index of other nodes.
     fn coarsen(&mut self) {
-        let display = with_raster(&Display::load("desk8").unwrap(), 72, 54);
+        let display = Display::load("desk8").unwrap().with_rasters(72, 54);
         let TestScene { mut frame, source, .. } = scenes::shells(&display);
         frame.quality.lod_scale = 3.0;
         let nodes = self.scene.nodes.len();

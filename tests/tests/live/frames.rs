@@ -8,7 +8,7 @@ use lightloom_tests::cold_start::cold_start;
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::faulty_source::{FOR_EVER, Fault, FaultySource};
 use lightloom_tests::remembered::Remembered;
-use lightloom_tests::scenes::{self, TestScene, with_raster};
+use lightloom_tests::scenes::{self, TestScene};
 use optics::{Light, Quality};
 use protocol::{Caster, CasterChoice, DeviceChoice, FrameReport, FrameState, Pace, ProjectorImage};
 use renderer::Renderer;
@@ -38,7 +38,7 @@ fn scene(display: &Display) -> TestScene {
 }
 
 fn display() -> Display {
-    with_raster(&Display::load("holo72").unwrap(), 40, 30)
+    Display::load("holo72").unwrap().with_rasters(40, 30)
 }
 
 fn renderer(display: &Display, source: &Arc<dyn BrickSource>, device: DeviceChoice, mib: u64) -> Renderer {

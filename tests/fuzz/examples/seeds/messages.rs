@@ -1,9 +1,8 @@
 //! Seeds of the targets that read messages: packets of inputs, the wire between processes, tapes.
 
 use glam::{DAffine3, DVec3};
-use inputs::vrpn::wire as vrpn;
 use inputs::{DeviceTime, Event, Pose, SourceId, What};
-use lightloom_fuzz::protocols::Protocol;
+use lightloom_fuzz::protocols::{PROTOCOLS, Protocol};
 use optics::{Curve, Optics};
 use protocol::wire::{WireMessage, encode};
 use protocol::{FrameState, FromBackend, FromFrontend, Mark, MarkShape, Paint, ScreenImage, SubFrame};
@@ -16,43 +15,10 @@ use world::{Deed, Moment};
 
 /// A message of every protocol of inputs.
 pub fn packets(out: &Path) -> Result<(), Box<dyn Error>> {
-    let dtrack = "fr 1\nts 5.0\n6d 2 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1] [1 1.0][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]\n\
-                  6df2 1 1 [0 1.000 6 2][1 2 3][1 0 0 0 1 0 0 0 1][2 0.5 -1]\n\
-                  6dmt2 1 1 [0 1.0 4 2.0][1 2 3][1 0 0 0 1 0 0 0 1][5][1 2 3 4 5 6]\n";
-    let json = r#"{"transforms":[{"translation":{"x":1,"y":2,"z":3},"rotation":{"pan":9,"tilt":0,"roll":0},"id":"a"}],
-                   "timing":{"sampleTimestamp":{"seconds":1,"nanoseconds":5}}}"#;
-    let mut cbor = Vec::new();
-    ciborium::into_writer(&serde_json::from_str::<serde_json::Value>(json)?, &mut cbor)?;
-    let segment = [b"OTrk\0\x01\0\x05\0\0\0\0\x80\x07\0\0".to_vec(), b"{\"a\":1}".to_vec()].concat();
-    let osc = b"#bundle\0\0\0\0\0\0\0\0\x01\0\0\0\x14/a/pose/1\0\0\0,ff\0\0\0\0\0\x3f\x80\0\0";
-    for (number, protocol) in (0_u8..).zip(Protocol::ALL) {
-        let bytes = match protocol {
-            Protocol::Dtrack => dtrack.into(),
-            Protocol::OpenTrackIo => segment.clone(),
-            Protocol::Json => json.into(),
-            Protocol::Cbor => cbor.clone(),
-            Protocol::Osc => osc.to_vec(),
-            Protocol::FreeD => vec![0xd1; 29],
-            Protocol::Gamepad => vec![1; 8],
-            Protocol::SpaceMouse => [1, 0, 0, 0].repeat(8),
-            Protocol::Vrpn => vrpn_messages(),
-        };
-        fs::write(out.join(format!("{protocol:?}")), [vec![number], bytes].concat())?;
+    for (number, Protocol { name, seed, .. }) in (0_u8..).zip(PROTOCOLS) {
+        fs::write(out.join(name), [vec![number], seed()].concat())?;
     }
     Ok(())
-}
-
-/// A device, types, and a message of each.
-fn vrpn_messages() -> Vec<u8> {
-    let time = Duration::from_secs(1);
-    let message =
-        |sender, kind, payload: &[u8]| vrpn::write(&vrpn::Message { time, sender, kind, payload }, 0);
-    let named = |name: &str| [&(name.len() as u32 + 1).to_be_bytes()[..], name.as_bytes(), &[0]].concat();
-    let types = ["vrpn_Tracker Pos_Quat", "vrpn_Button States", "vrpn_Analog Channel"];
-    let types = types.iter().zip(1..).map(|(name, number)| message(number, vrpn::TYPE, &named(name)));
-    let said = [&[0; 64][..], &[0, 0, 0, 1, 0, 0, 0, 1], &[0; 8]];
-    let said = said.iter().zip(1..).map(|(payload, kind)| message(1, kind, payload));
-    [message(1, vrpn::SENDER, &named("Wand"))].into_iter().chain(types).chain(said).flatten().collect()
 }
 
 /// Messages in both directions.

@@ -12,10 +12,6 @@ const FOLDERS: [(u8, &str); 4] = [
     (2, "frontend/exhibit/examples"),
 ];
 
-const LINE: &str = "name = \"a\"\nscreen_width_m = 0.4\nscreen_height_m = 0.3\npixel_size_m = 0.001\n\
-    angular_accuracy_deg = 0.5\nobserver_m = [0, 0, 1]\neta = 1\n[projector_line]\ncount = 3\nfrom_m = [-1, 0, -1]\n\
-    to_m = [1, 0, -1]\nwidth_px = 64\nheight_px = 48\ncovers = \"screen\"\nbackends = 2\n";
-
 /// Every such file.
 pub fn files(out: &Path) -> Result<(), Box<dyn Error>> {
     for (number, (kind, folder)) in FOLDERS.into_iter().enumerate() {
@@ -25,5 +21,5 @@ pub fn files(out: &Path) -> Result<(), Box<dyn Error>> {
             fs::write(out.join(format!("{number}_{name}")), [vec![kind], fs::read(&path)?].concat())?;
         }
     }
-    Ok(fs::write(out.join("line"), [b"\x00", LINE.as_bytes()].concat())?)
+    Ok(())
 }

@@ -6,29 +6,27 @@ use super::storage::{Storage, uniform};
 use layout::{PresentBlock, TILE_EDGE, binding};
 use shaders::compose::PresentKernel;
 
-/// One pass over a picture: a kernel, asked for when it is first used, and its uniform block.
+/// One pass over a picture: a kernel and its uniform block.
 #[derive(Debug)]
 pub(super) struct PresentPass {
     kernel: PresentKernel,
-    pipeline: Option<wgpu::ComputePipeline>,
     block: wgpu::Buffer,
 }
 
 impl PresentPass {
     pub(super) fn new(context: &Context, kernel: PresentKernel) -> Self {
-        Self { kernel, pipeline: None, block: uniform::<PresentBlock>(context, "present") }
+        Self { kernel, block: uniform::<PresentBlock>(context, "present") }
     }
 
     /// Hands it to the device: reads `picture`, and reads and writes the other buffers, each under its binding.
     pub(super) fn run(
-        &mut self,
+        &self,
         context: &Context,
         block: &PresentBlock,
         picture: &Storage,
         others: &[(u32, &Storage)],
     ) {
-        let kernel = self.kernel;
-        let pipeline = self.pipeline.get_or_insert_with(|| context.kernel(Kernel::Present(kernel)));
+        let pipeline = context.kernel(Kernel::Present(self.kernel));
         context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(block));
         let mut entries = vec![wgpu::BindGroupEntry {
             binding: binding::PRESENT,
@@ -46,7 +44,7 @@ impl PresentPass {
         let mut encoder = context.new_encoder();
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(pipeline);
+            pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &bind_group, &[]);
             let [width, height, ..] = block.raster.map(|along| along.div_ceil(TILE_EDGE));
             pass.dispatch_workgroups(width, height, 1);
