@@ -1,5 +1,6 @@
 //! A show on a cluster whose renderers are ended from outside, and what is seen of it meanwhile.
 
+use crate::machine;
 use crate::processes::{children, command_line, is_there, signal, variable};
 use crate::program::{Ran, Running, SMALL_DISPLAY, cluster, lightloom, pictures, run, start};
 use std::collections::BTreeMap;
@@ -60,6 +61,7 @@ impl Show {
     /// Begins one of so many seconds, and waits until all projectors show their complete pictures. None where there is no
     /// MPI, which is said aloud.
     pub fn begin(seconds: u32) -> Option<Self> {
+        machine::alone();
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
         let display = path("small4.toml");

@@ -13,6 +13,8 @@ pub mod draw;
 pub mod faulty_source;
 pub mod head;
 pub mod ideal_cut;
+#[cfg(unix)]
+pub mod machine;
 pub mod made_once;
 pub mod memory;
 pub mod motion;

@@ -1,5 +1,6 @@
 //! The real programs, run as a user would run them: nothing here may hang.
 
+use crate::machine;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -200,8 +201,9 @@ pub fn run(command: &mut Command) -> Ran {
     start(command).finish(LIMIT)
 }
 
-/// Starts a program as the head of a process group of its own.
+/// Starts a program as the head of a process group of its own, once no test has the machine alone.
 pub fn start(command: &mut Command) -> Running {
+    machine::beside_others();
     let output = || tempfile::tempfile().expect("a temporary file can be made");
     let (stdout, stderr) = (output(), output());
     let for_child = |file: &File| file.try_clone().expect("a file handle can be had twice");

@@ -1,5 +1,6 @@
 //! X servers without a screen: one desktop, or several named outputs.
 
+use crate::machine;
 use crate::program::{LIMIT, Running, SMALL_DISPLAY, lightloom, run};
 use serde_json::Value;
 use std::fs;
@@ -84,6 +85,7 @@ impl XServer {
     }
 
     fn start(mut command: Command) -> Option<Self> {
+        machine::alone();
         let program = command.get_program().to_string_lossy().into_owned();
         let Ok(mut server) = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn() else {
             lacks(&format!("there is no {program} on the path"));

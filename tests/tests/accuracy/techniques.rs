@@ -185,7 +185,11 @@ fn enhancers_that_do_nothing_are_none_to_the_bit() {
             plain.frame.optics.mimda = mimda;
             for device in draw::devices() {
                 let expected = &draw_on(&display, &plain, device).images;
-                let chains = neutral.iter().map(|&link| vec![link]).chain([neutral[..3].to_vec()]);
+                let mut chains = vec![neutral[..3].to_vec()];
+                // One by one in one field only on a GPU, whose driver may take seconds to compile each.
+                if device == DeviceChoice::Cpu || base.name == "bumps" {
+                    chains.extend(neutral.iter().map(|&link| vec![link]));
+                }
                 for chain in chains {
                     let mut scene = plain.clone();
                     scene.frame.optics.enhancers = chain;

@@ -1,5 +1,6 @@
 //! A display whose frames are controlled by error: the same pictures whoever draws them, complete at rest, and idle then.
 
+use lightloom_tests::machine;
 use lightloom_tests::program::{
     LIMIT, Pictures, assert_same, cluster, has_gpu, lightloom, pictures, run, small_display, start,
 };
@@ -129,6 +130,7 @@ fn used(process: u32) -> u64 {
 
 #[test]
 fn what_rests_is_complete_and_takes_no_core() {
+    machine::alone();
     for caster in ["rays", "planes"] {
         let stage = Stage::new();
         let (scene, display, dump) = (stage.scene(STILL), stage.display(), stage.path("dump"));

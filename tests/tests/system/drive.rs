@@ -1,5 +1,6 @@
 //! A display that is driven: the same pictures whoever draws them, on screens that keep time.
 
+use lightloom_tests::machine;
 use lightloom_tests::program::{
     LIMIT, Pictures, assert_same, cluster, has_gpu, lightloom, pictures, run, small_display, start,
 };
@@ -132,6 +133,7 @@ fn driven(arguments: &[&str]) -> Value {
 
 #[test]
 fn a_show_keeps_time_and_reports() {
+    machine::alone();
     let stage = Stage::new();
     let out = stage.path("out");
     let fixed = ["procedural:shells@32", "--display", &stage.display, "--device", "cpu", "--output", "none"];

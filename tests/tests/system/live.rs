@@ -1,5 +1,6 @@
 //! Live views on a cluster of back-ends: where they come to rest, what they record, and what damaged bricks do to them.
 
+use lightloom_tests::machine;
 use lightloom_tests::program::{
     Pictures, Ran, assert_same, cluster, files, has_gpu, lightloom, pictures, report, run, scene_of_skins,
     small_display,
@@ -216,6 +217,7 @@ fn each_back_end_records_a_store_that_comes_little_by_little() {
 /// The first to be at rest neither ends the run nor speaks for the other.
 #[test]
 fn a_back_end_with_nothing_to_do_leaves_the_other_its_time() {
+    machine::alone();
     let bench = Bench::to_the_left("procedural:shells@128");
     let complete = bench.complete("complete");
     assert_eq!(complete.shows(complete.last()), [true, true, false, false]);

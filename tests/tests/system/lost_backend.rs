@@ -1,5 +1,6 @@
 //! A back-end process that dies ends the run with a sentence that names it, within seconds.
 
+use lightloom_tests::machine;
 use lightloom_tests::processes::{children, command_line, is_there, ticks};
 use lightloom_tests::program::{cluster, files, run, start};
 use std::process::Command;
@@ -37,6 +38,7 @@ fn await_drawing(launcher: u32) -> Vec<u32> {
 
 #[test]
 fn a_back_end_killed_while_it_draws() {
+    machine::alone();
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let out_text = out.to_string_lossy().into_owned();
@@ -79,6 +81,7 @@ fn left_no_half_file(out: &std::path::Path) {
 
 #[test]
 fn a_run_that_loses_nobody() {
+    machine::alone();
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out").to_string_lossy().into_owned();
     let display = lightloom_tests::program::small_display(folder.path());
