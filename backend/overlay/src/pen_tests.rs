@@ -17,7 +17,7 @@ const BETWEEN: f64 = 1.5 / CLOSE_RAYS as f64;
 const WHITE: Paint = Paint { rgb: [1.0; 3], opacity: 1.0 };
 
 /// Whether the ray of a screen point meets a mark, told without any inverse.
-fn meets(law: &BeamLaw, screen: DVec2, shape: &MarkShape, letters: Option<&Letters>) -> bool {
+fn meets(law: &BeamLaw, screen: DVec2, shape: &MarkShape, letters: &[[DVec2; 2]]) -> bool {
     let ray = law.ray(screen);
     let at_depth = |z: f64| ray.at((z - ray.origin_in_display.z) / ray.direction_in_display.z);
     match shape {
@@ -51,26 +51,14 @@ fn meets(law: &BeamLaw, screen: DVec2, shape: &MarkShape, letters: Option<&Lette
         }
         MarkShape::Label { base_in_display: base, em_m, .. } => {
             let at = (at_depth(base.z) - base).truncate() / em_m;
-            letters.is_some_and(|letters| is_inside(letters, at))
+            is_inside(letters, at)
         }
     }
 }
 
-/// Whether a point is inside outlines, whose curves are cut into 64 pieces each.
-fn is_inside(letters: &Letters, at: DVec2) -> bool {
-    let mut winding = 0;
-    let mut edge = |a: DVec2, b: DVec2| {
-        if (a.y <= at.y) != (b.y <= at.y) {
-            let is_right = a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x) > at.x;
-            winding += if !is_right {
-                0
-            } else if b.y > a.y {
-                1
-            } else {
-                -1
-            };
-        }
-    };
+/// The edges of letters, whose curves are cut into 64 pieces each.
+fn edges(letters: &Letters) -> Vec<[DVec2; 2]> {
+    let mut edges = Vec::new();
     for (begin, parts) in &letters.contours {
         let mut here = *begin;
         for part in parts {
@@ -78,18 +66,37 @@ fn is_inside(letters: &Letters, at: DVec2) -> bool {
             for i in 1..=64 {
                 let t = f64::from(i) / 64.0;
                 let next = match *part {
-                    Part::Line(end) => from.lerp(end, t),
+                    Part::Line(end) => end,
                     Part::Quad(control, end) => from.lerp(control, t).lerp(control.lerp(end, t), t),
                     Part::Cubic(a, b, end) => {
                         let (p, q, r) = (from.lerp(a, t), a.lerp(b, t), b.lerp(end, t));
                         p.lerp(q, t).lerp(q.lerp(r, t), t)
                     }
                 };
-                edge(here, next);
+                edges.push([here, next]);
                 here = next;
+                if matches!(part, Part::Line(_)) {
+                    break;
+                }
             }
         }
-        edge(here, *begin);
+        edges.push([here, *begin]);
+    }
+    edges
+}
+
+/// Whether a point is inside what edges go around.
+fn is_inside(edges: &[[DVec2; 2]], at: DVec2) -> bool {
+    let mut winding = 0;
+    for &[a, b] in edges {
+        if (a.y <= at.y) != (b.y <= at.y) {
+            let is_right = a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x) > at.x;
+            winding += match (is_right, b.y > a.y) {
+                (false, _) => 0,
+                (true, true) => 1,
+                (true, false) => -1,
+            };
+        }
     }
     winding != 0
 }
@@ -109,10 +116,10 @@ fn compare(shape: &MarkShape, law: BeamLaw, raster: &Raster, drawn_law: BeamLaw)
     let mut pen = Pen::default();
     pen.draw(&[Mark { shape: shape.clone(), paint: WHITE }], &view, &mut rgba);
     let letters = match shape {
-        MarkShape::Label { text, .. } => Some(Font::new().letters(text)),
-        _ => None,
+        MarkShape::Label { text, .. } => edges(&Font::new().letters(text)),
+        _ => Vec::new(),
     };
-    let meets = |at: DVec2| meets(&law, raster.screen_from_pixel.apply(at), shape, letters.as_deref());
+    let meets = |at: DVec2| meets(&law, raster.screen_from_pixel.apply(at), shape, &letters);
     let among = |rays: u32, low: DVec2, high: DVec2| {
         let place = move |i: u32| (f64::from(i) + 0.5) / f64::from(rays);
         (0..rays * rays).map(move |i| low + (high - low) * DVec2::new(place(i % rays), place(i / rays)))

@@ -38,7 +38,7 @@ fn scene(display: &Display) -> TestScene {
 }
 
 fn display() -> Display {
-    Display::load("holo72").unwrap().with_rasters(40, 30)
+    Display::load("holo72").unwrap().with_rasters(28, 21)
 }
 
 fn renderer(display: &Display, source: &Arc<dyn BrickSource>, device: DeviceChoice, mib: u64) -> Renderer {

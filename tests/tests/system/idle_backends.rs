@@ -1,6 +1,6 @@
 //! Commands that need no back-end, started as a job that has some.
 
-use lightloom_tests::program::{cluster, run};
+use lightloom_tests::program::{cluster, run, small_display};
 use std::fs;
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,8 @@ fn commands_that_draw_nothing_let_their_back_ends_go() {
     let (store, exported, out) = (path("a.lloom"), path("a.nrrd"), path("out"));
     let import = ["import", "procedural:shells@16", "-o", &store];
     let accuracy = ["accuracy", "procedural:shells@16", "-o", &out, "--device", "cpu", "--stride", "40"];
-    let quick = ["--repetitions", "1", "--projectors", "1", "--display", "desk8"];
+    let display = small_display(folder.path());
+    let quick = ["--repetitions", "1", "--projectors", "1", "--display", &display];
     let commands: [(&[&str], &str); 7] = [
         (&import, "16 × 16 × 16 voxels"),
         (&["info", &store], "made from"),

@@ -15,6 +15,8 @@ use std::time::{Duration, Instant};
 const KILLS: u32 = 20;
 /// Bytes of a store that are changed, one at a time.
 const CHANGES: usize = 1000;
+/// Stores whose bricks are all read after a change: those where it lies at a multiple of this.
+const READ_EVERY: u64 = 4;
 /// Programs that read one store at once.
 const READERS: usize = 6;
 
@@ -89,7 +91,9 @@ fn every_changed_byte_of_a_real_store_is_found() {
                 let root = store.summary(NodeKey::ROOT);
                 assert!(root.min <= root.max);
                 let damages = store.verify(&|_, _| {}).damages;
-                read_all(&store, damages.len());
+                if place % READ_EVERY == 0 {
+                    read_all(&store, damages.len());
+                }
                 !damages.is_empty()
             }
         }
