@@ -1,35 +1,12 @@
 //! Hostile bytes: no parser panics on them, or takes more memory than their length allows.
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
+mod held;
 mod protocols;
 
+use held::held;
 use protocols::{PROTOCOLS, Protocol};
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::hint::black_box;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-
-/// The system's allocator, which keeps the most that was held at a time.
-struct Counting;
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-static LIVE: AtomicUsize = AtomicUsize::new(0);
-static PEAK: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: it is the system's allocator, and only counts beside.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        PEAK.fetch_max(LIVE.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
-        // SAFETY: the caller's promises are those that the system's allocator asks for.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        LIVE.fetch_sub(layout.size(), Relaxed);
-        // SAFETY: the same.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 /// Memory beside what grows with a message: buffers of the readers of JSON and CBOR, and of the test's own harness.
 const CONSTANT_BYTES: usize = 1 << 16;
@@ -68,14 +45,6 @@ impl Random {
         }
         bytes
     }
-}
-
-/// The most that was held while something was done, beyond what was held before.
-fn held(deed: impl FnOnce()) -> usize {
-    let before = LIVE.load(Relaxed);
-    PEAK.store(before, Relaxed);
-    deed();
-    PEAK.load(Relaxed).saturating_sub(before)
 }
 
 #[test]

@@ -1,18 +1,20 @@
 //! The records of a file, also those within its chunks.
 
-use mcap::read::{ChunkReader, LinearReader, Options};
+use crate::records::Records;
 use mcap::records::{ChunkHeader, Record};
-use mcap::{McapError, McapResult};
-use std::collections::VecDeque;
 
-/// A chunk that says that it holds more is spoiled: it would be given that much memory. Those of tapes hold a second.
-const LARGEST_CHUNK_BYTES: u64 = 256 << 20;
+/// A chunk that claims to hold more is spoiled: it would be given that much memory. Writers end a chunk after 768 KiB and a
+/// message.
+const LARGEST_CHUNK_BYTES: u64 = 16 << 20;
 
 /// Goes through a file once.
 pub struct Flattened<'a> {
-    file: LinearReader<'a>,
-    /// What is left of a chunk.
-    chunk: VecDeque<McapResult<Record<'static>>>,
+    file: Records<'a>,
+    /// The chunk that it is in, unpacked.
+    chunk: Vec<u8>,
+    /// The byte of the chunk that the next record begins at.
+    chunk_at: usize,
+    is_over: bool,
 }
 
 impl<'a> Flattened<'a> {
@@ -20,49 +22,59 @@ impl<'a> Flattened<'a> {
     ///
     /// # Errors
     /// It does not begin as these files do.
-    pub fn new(bytes: &'a [u8]) -> McapResult<Self> {
-        let file = LinearReader::new_with_options(bytes, Options::IgnoreEndMagic.into())?;
-        Ok(Self { file, chunk: VecDeque::new() })
+    pub fn new(bytes: &'a [u8]) -> Result<Self, String> {
+        if !bytes.starts_with(mcap::MAGIC) {
+            return Err("it does not begin as MCAP files do".to_owned());
+        }
+        let file = Records::new(bytes, mcap::MAGIC.len());
+        Ok(Self { file, chunk: Vec::new(), chunk_at: 0, is_over: false })
     }
 }
 
-/// All records of a chunk, if it is what its header says.
-fn unpacked(header: ChunkHeader, data: &[u8]) -> McapResult<VecDeque<McapResult<Record<'static>>>> {
-    if header.uncompressed_size > LARGEST_CHUNK_BYTES {
-        return Err(McapError::UnexpectedEof);
+/// What a chunk holds, if it is what its header says.
+fn unpacked(header: &ChunkHeader, data: &[u8]) -> Result<Vec<u8>, String> {
+    let claimed = header.uncompressed_size;
+    if claimed > LARGEST_CHUNK_BYTES {
+        return Err(format!("a chunk claims {claimed} bytes, and may have {LARGEST_CHUNK_BYTES}"));
     }
-    // Checked as a whole before any length in it is believed: the library's own reader reserves what a record says.
     let plain = match header.compression.as_str() {
-        "zstd" => zstd::bulk::decompress(data, header.uncompressed_size as usize)?,
+        "zstd" => zstd::bulk::decompress(data, claimed as usize)
+            .map_err(|error| format!("a chunk cannot be unpacked: {error}"))?,
         "" => data.to_vec(),
-        other => return Err(McapError::UnsupportedCompression(other.to_owned())),
+        other => return Err(format!("a chunk is packed by {other:?}, and tapes are by zstd")),
     };
-    let calculated = crc32fast::hash(&plain);
-    if header.uncompressed_crc != calculated {
-        return Err(McapError::BadChunkCrc { saved: header.uncompressed_crc, calculated });
+    if plain.len() as u64 != claimed {
+        return Err(format!("a chunk claims {claimed} bytes, and holds {}", plain.len()));
     }
-    let (size, compression) = (plain.len() as u64, String::new());
-    let header = ChunkHeader { compression, compressed_size: size, uncompressed_size: size, ..header };
-    let mut records = VecDeque::new();
-    for record in ChunkReader::new(header, &plain)? {
-        records.push_back(Ok(record?.into_owned()));
+    if crc32fast::hash(&plain) != header.uncompressed_crc {
+        return Err("the checksum of a chunk differs".to_owned());
     }
-    Ok(records)
+    Ok(plain)
 }
 
 impl<'a> Iterator for Flattened<'a> {
-    type Item = McapResult<Record<'a>>;
+    type Item = Result<Record<'a>, String>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            if let Some(record) = self.chunk.pop_front() {
-                return Some(record);
+            let mut chunk = Records::new(&self.chunk, self.chunk_at);
+            if let Some(record) = chunk.next() {
+                self.chunk_at = chunk.at();
+                return Some(record.map(Record::into_owned));
+            }
+            if self.is_over {
+                return None;
             }
             match self.file.next()? {
-                Ok(Record::Chunk { header, data }) => match unpacked(header, &data) {
-                    Ok(records) => self.chunk = records,
-                    Err(error) => return Some(Err(error)),
+                Ok(Record::Chunk { header, data }) => match unpacked(&header, &data) {
+                    Ok(plain) => (self.chunk, self.chunk_at) = (plain, 0),
+                    Err(what) => return Some(Err(what)),
                 },
+                // The signature of the format follows, and no record.
+                Ok(Record::Footer(footer)) => {
+                    self.is_over = true;
+                    return Some(Ok(Record::Footer(footer)));
+                }
                 other => return Some(other),
             }
         }

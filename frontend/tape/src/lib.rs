@@ -8,19 +8,21 @@
 //! | `record` | what a tape holds, one after the other |
 //! | `channels` | where each record stands in the file, and how it is written |
 //! | `writer`, `part` | tapes that are written while a show goes on |
-//! | `reader`, `flattened` | tapes that are read |
+//! | `reader`, `flattened`, `records`, `fields` | tapes that are read, down to the lengths that they claim |
 //! | `cut`, `export`, `info` | parts of tapes, tables of them, and what is on them |
 
 mod channels;
 mod cut;
 mod error;
 mod export;
+mod fields;
 mod flattened;
 mod head;
 mod info;
 mod part;
 mod reader;
 mod record;
+mod records;
 mod writer;
 
 pub use cut::cut;

@@ -57,7 +57,7 @@ impl Tape {
     }
 
     fn flattened(&self) -> Result<Flattened<'_>, String> {
-        Flattened::new(&self.bytes).map_err(|error| error.to_string())
+        Flattened::new(&self.bytes)
     }
 
     fn read_head(&self) -> Result<Head, TapeError> {
@@ -87,7 +87,7 @@ impl Tape {
                 // All that belongs to the head stands before the first channel.
                 Ok(records::Record::Channel(_) | records::Record::Message { .. }) => break,
                 Ok(_) => {}
-                Err(error) if found.is_none() => return Err(no_tape(error.to_string())),
+                Err(error) if found.is_none() => return Err(no_tape(error)),
                 Err(_) => break,
             }
         }
@@ -133,7 +133,7 @@ impl Pass<'_> {
                 }
                 Some(Ok(_)) => {}
                 Some(Err(_)) | None if self.has_data_end => return None,
-                Some(Err(error)) => return Some(Err(error.to_string())),
+                Some(Err(what)) => return Some(Err(what)),
                 None => return Some(Err("it was never completed".to_owned())),
             }
         }

@@ -9,9 +9,9 @@ use std::sync::LazyLock;
 use tape::{Format, Tape, cut, export, info};
 use tempfile::TempDir;
 
-/// Memory beside what grows with a tape: buffers of the writer of a cut.
-const CONSTANT_BYTES: usize = 16 << 20;
-/// Memory per byte of a tape: its chunks are packed by Zstandard, whose ratio the reader limits.
+/// Memory beside what grows with a tape: the 16 MiB that a chunk may have, and as much for the writer of a cut.
+const CONSTANT_BYTES: usize = 32 << 20;
+/// Memory per byte of a tape: a cut keeps what waits for the next frame, which chunks packed by Zstandard hold.
 const BYTES_PER_BYTE: usize = 1 << 12;
 /// Seconds of the part that is cut out.
 const PART: std::ops::Range<f64> = 0.5..1.5;

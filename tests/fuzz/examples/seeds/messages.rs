@@ -54,7 +54,7 @@ fn write<M: WireMessage>(out: &Path, name: &str, side: u8, messages: &[M]) -> Re
     Ok(())
 }
 
-/// A tape of a second, whole and cut short.
+/// A tape of a second: whole, cut short, and without chunks, whose checksums keep changes from what is in them.
 pub fn tapes(out: &Path) -> Result<(), Box<dyn Error>> {
     let head = Head {
         show: "open day".to_owned(),
@@ -78,5 +78,31 @@ pub fn tapes(out: &Path) -> Result<(), Box<dyn Error>> {
     }
     writer.finish()?;
     let bytes = fs::read(&path)?;
-    Ok(fs::write(out.join("cut"), &bytes[..bytes.len() * 2 / 3])?)
+    fs::write(out.join("cut"), &bytes[..bytes.len() * 2 / 3])?;
+    Ok(fs::write(out.join("flat"), without_chunks(&bytes)?)?)
+}
+
+/// The records of a tape in one row. A record is its kind, its length in eight bytes, and its body.
+fn without_chunks(bytes: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
+    /// The kinds of a chunk, and of the record that ends a file, before its last signature.
+    const CHUNK: u8 = 6;
+    const FOOTER: u8 = 2;
+    /// A chunk's bytes before its packed records.
+    const CHUNK_HEAD_BYTES: usize = 44;
+    let (signature, mut rest) = bytes.split_at_checked(8).ok_or("a tape has a signature")?;
+    let mut flat = signature.to_vec();
+    while let Some(([kind, length @ ..], body)) = rest.split_first_chunk::<9>() {
+        let length = u64::from_le_bytes(*length) as usize;
+        if *kind == CHUNK {
+            flat.extend(zstd::decode_all(&body[CHUNK_HEAD_BYTES..length])?);
+        } else {
+            flat.extend(&rest[..9 + length]);
+        }
+        rest = &body[length..];
+        if *kind == FOOTER {
+            break;
+        }
+    }
+    flat.extend(rest);
+    Ok(flat)
 }
