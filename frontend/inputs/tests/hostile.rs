@@ -5,8 +5,11 @@ mod held;
 mod protocols;
 
 use held::held;
+use inputs::opentrackio::packet::Encoding;
+use inputs::opentrackio::sample;
 use protocols::{PROTOCOLS, Protocol};
 use std::hint::black_box;
+use std::sync::Mutex;
 
 /// Memory beside what grows with a message: buffers of the readers of JSON and CBOR, and of the test's own harness.
 const CONSTANT_BYTES: usize = 1 << 16;
@@ -47,8 +50,25 @@ impl Random {
     }
 }
 
+/// Memory is counted for the whole process: one test at a time.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// A list in CBOR that claims to hold 2⁶⁴ − 1 transforms, and ends there.
+#[test]
+fn a_list_gets_no_memory_for_what_it_claims() {
+    let _turn = TURN.lock();
+    let list = |header: &[u8], items: &[u8]| [b"\xa1\x6atransforms", header, items].concat();
+    let parse = |bytes: &[u8]| sample::parse(Encoding::Cbor, bytes);
+    assert!(parse(&list(b"\x80", &[])).unwrap().is_empty(), "the canary: an honest list is read");
+    let bytes = list(&[0x9b, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff], &[]);
+    let taken = held(|| assert!(black_box(parse(&bytes)).is_err()));
+    let limit = BYTES_PER_BYTE * bytes.len();
+    assert!(taken <= limit, "{taken} bytes for {}", bytes.len());
+}
+
 #[test]
 fn no_parser_panics_or_takes_more_than_its_share() {
+    let _turn = TURN.lock();
     println!("seed {SEED}");
     let mut random = Random(SEED);
     assert!(held(|| drop(black_box(vec![0_u8; 1 << 20]))) >= 1 << 20, "the canary: memory is counted");

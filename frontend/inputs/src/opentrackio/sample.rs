@@ -5,7 +5,9 @@ use crate::pose::checked_pose;
 use crate::reading::{Parts, Said, Stamp};
 use crate::{Pose, Refusal};
 use glam::{DQuat, DVec3};
-use serde::Deserialize;
+use serde::de::{SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt::{self, Formatter};
 use std::time::Duration;
 
 /// Depth of lists in lists that CBOR may have; samples have five.
@@ -16,8 +18,36 @@ const SENSOR: u8 = 0;
 /// What is read of a sample; all that it says of lenses and the like is passed over.
 #[derive(Deserialize)]
 struct Sample {
-    transforms: Option<Vec<Transform>>,
+    transforms: Option<Transforms>,
     timing: Option<Timing>,
+}
+
+/// Serde's own lists reserve up to a megabyte for what CBOR claims; this one grows with what is read.
+#[derive(Default)]
+struct Transforms(Vec<Transform>);
+
+impl<'de> Deserialize<'de> for Transforms {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_seq(TransformsVisitor)
+    }
+}
+
+struct TransformsVisitor;
+
+impl<'de> Visitor<'de> for TransformsVisitor {
+    type Value = Transforms;
+
+    fn expecting(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a list of transforms")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Transforms, A::Error> {
+        let mut transforms = Vec::new();
+        while let Some(transform) = list.next_element()? {
+            transforms.push(transform);
+        }
+        Ok(Transforms(transforms))
+    }
 }
 
 #[derive(Deserialize)]
@@ -72,7 +102,7 @@ pub fn parse(encoding: Encoding, payload: &[u8]) -> Result<Parts, Refusal> {
         Some(time) => Some(Stamp::Epoch(Duration::new(time.seconds, time.nanoseconds))),
         None => None,
     };
-    let transforms = sample.transforms.unwrap_or_default();
+    let Transforms(transforms) = sample.transforms.unwrap_or_default();
     if transforms.is_empty() {
         return Ok(Parts::new());
     }
