@@ -53,7 +53,7 @@ fn read(store: &Store) {
 fn read_node(store: &Store, node: NodeKey) {
     let NodeSummary { min, max } = store.summary(node);
     assert!(min <= max && min.is_finite() && max.is_finite(), "{node}: {min} to {max}");
-    let _ = (store.stored_bytes(node), store.cells(node));
+    let _ = store.cells(node);
     if let Ok(Brick { codes, low, step, deviation, .. }) = store.brick(node) {
         let count = match &codes {
             Codes::U8(codes) => codes.len(),
