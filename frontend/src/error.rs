@@ -80,6 +80,14 @@ pub enum FrontendError {
     /// `--trace` without `--live`.
     #[error("--trace records what live frames ask for, and these frames are complete ones; add --live")]
     TraceOfCompleteFrames,
+    /// What is for a scene, asked for with an exhibit.
+    #[error(
+        "{option} is for scenes, and the items of an exhibit have scenes and looks of their own; leave it out, or give one of these scenes"
+    )]
+    NotForExhibits {
+        /// The option.
+        option: &'static str,
+    },
     /// A trace cannot be read, or is not of the volume that it is replayed with.
     #[error("{0}")]
     Trace(String),

@@ -30,10 +30,10 @@ pub struct SimulateArgs {
     /// Write what every projector is sent, too: its picture with the display's mesh, blend, black level and transfer curve.
     #[arg(long)]
     pub calibrated: bool,
-    /// A look of the library; a scene's own [optics] win over it. Without it, the volume's values choose one.
+    /// A look of the library; a scene's own [optics] win over it, and an exhibit has looks of its own. Without it, the volume's values choose one.
     #[arg(long, value_name = "NAME", value_enum)]
     pub look: Option<LookName>,
-    /// Quality, overriding the scene's.
+    /// Quality, overriding the scene's or exhibit's.
     #[arg(long, value_enum)]
     pub quality: Option<QualityPreset>,
     /// What was made of the scene, or of an exhibit in its place, when this tape was recorded. Without --frames, its last frame.

@@ -99,7 +99,9 @@ fn of_scene(args: &SimulateArgs) -> Result<Subject, FrontendError> {
 fn of_tape(args: &SimulateArgs, tape: &Path) -> Result<Subject, FrontendError> {
     let display = args.display.as_deref().map(adapter::load_display).transpose()?;
     let tape = Taped::open(tape, true)?;
-    let (mut theatre, look) = if adapter::is_exhibit(&args.scene) {
+    let is_exhibit = adapter::is_exhibit(&args.scene);
+    let (mut theatre, look) = if is_exhibit {
+        refuse_what_is_for_scenes(args)?;
         let (exhibit, ensemble, own) = load(Path::new(&args.scene)).map_err(refused)?;
         let theatre = Theatre::new(ensemble, display.unwrap_or(own), Pace::Complete);
         (theatre.with_marks(exhibit.marks), None)
@@ -111,12 +113,25 @@ fn of_tape(args: &SimulateArgs, tape: &Path) -> Result<Subject, FrontendError> {
         (Theatre::of_one(piece, cast(tape.has_inputs()), display, Pace::Complete), look)
     };
     theatre = theatre.with_sub_frames(false);
-    let Remade { frames: remade, news } = tape.remake(args.frames, &mut theatre)?;
+    let Remade { frames: mut remade, news } = tape.remake(args.frames, &mut theatre)?;
     news.iter().for_each(|news| warn(news));
     let ends = remade.keys().next().zip(remade.keys().next_back());
     let frames = ends.map_or(0..0, |(&first, &last)| first..last + 1);
-    let (scene, facts, display) = (theatre.scene().clone(), *theatre.facts(), theatre.display().clone());
+    let (mut scene, facts, display) = (theatre.scene().clone(), *theatre.facts(), theatre.display().clone());
+    // Only now: the frames of an exhibit were compared with those on the tape, which have the exhibit's own quality.
+    if let Some(preset) = args.quality.filter(|_| is_exhibit) {
+        scene.quality = preset.quality();
+        remade.values_mut().for_each(|frame| frame.quality = preset.quality());
+    }
     Ok(Subject { scene, facts, look, display, frames, remade })
+}
+
+fn refuse_what_is_for_scenes(args: &SimulateArgs) -> Result<(), FrontendError> {
+    let asked = [("--look", args.look.is_some()), ("--save-scene", args.save_scene.is_some())];
+    match asked.into_iter().find(|asked| asked.1) {
+        Some((option, _)) => Err(FrontendError::NotForExhibits { option }),
+        None => Ok(()),
+    }
 }
 
 fn frames(args: &SimulateArgs, scene: &Scene) -> Result<Range<u32>, FrontendError> {

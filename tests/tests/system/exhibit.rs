@@ -156,6 +156,30 @@ fn a_tape_shows_the_same_again_in_one_process_and_in_many() {
     assert!(!info.contains("it is whole"), "{info}");
 }
 
+#[test]
+fn a_frame_of_a_tape_is_simulated_at_the_quality_that_is_asked_for() {
+    let museum = Museum::new(TWO_ITEMS);
+    let (tape, out) = (museum.path("day.mcap"), museum.path("out"));
+    museum.shown("shown", &["--frames", "3", "--record", &tape]);
+    let simulate = |more: &[&str]| {
+        let fixed =
+            ["simulate", &museum.file, "--tape", &tape, "--out", &out, "--device", "cpu", "--caster", "rays"];
+        run(&mut lightloom(&[&fixed[..], more].concat()))
+    };
+    let samples = |more: &[&str]| {
+        let ran = simulate(&[&["--json"], more].concat()).succeeded();
+        assert!(!ran.stderr.contains("is not what it was"), "{}", ran.stderr);
+        let report: Value = serde_json::from_str(&ran.stdout).expect("--json prints JSON and nothing else");
+        report["total"]["samples"].as_u64().expect("a number of samples")
+    };
+    let (own, draft, fine) =
+        (samples(&[]), samples(&["--quality", "draft"]), samples(&["--quality", "fine"]));
+    assert_eq!(own, draft, "the exhibit's own quality is draft");
+    assert!(fine > draft, "{fine} samples at quality fine, {draft} at draft");
+    simulate(&["--look", "ct-bone"]).refused(&["--look is for scenes"]);
+    simulate(&["--save-scene", &museum.path("saved.toml")]).refused(&["--save-scene is for scenes"]);
+}
+
 /// Another volume is shown as it is in a show of its own, with nothing left of the one before.
 #[test]
 fn a_programme_goes_on_to_other_volumes() {
