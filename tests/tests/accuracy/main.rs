@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod blending;
+mod cut_short;
 mod debug_views;
 mod deviation;
 mod devices;

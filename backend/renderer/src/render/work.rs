@@ -156,6 +156,7 @@ impl Work {
         add(&mut self.found, &outcome.feedback);
         self.account.rays += outcome.rays;
         self.account.samples += outcome.samples;
+        self.account.is_cut_short |= outcome.is_cut_short;
         self.missing.resize(self.pending.tiles.len(), Vec::new());
         for (known, found) in self.missing.iter_mut().zip(outcome.missing_tiles) {
             known.extend(found);
