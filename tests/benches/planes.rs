@@ -8,7 +8,7 @@ use display_config::Display;
 use glam::DQuat;
 use lightloom_tests::memory::peak_mib;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::{compare, draw, scanned_head, scenes};
+use lightloom_tests::{askew, compare, draw, scanned_head, scenes};
 use optics::Light;
 use protocol::{CasterChoice, DeviceChoice, FrameState};
 use std::sync::Arc;
@@ -18,8 +18,13 @@ const COMPARED: [u32; 3] = [6, 35, 60];
 /// Every so many pixels of them, along x and y.
 const COMPARED_STRIDE: u32 = 12;
 
+/// The calibration of the projectors in scenes that are drawn calibrated, too.
+const SEED: u64 = 7;
+const CALIBRATED: [&str; 3] = ["head, semi-transparent", "head, opaque, shaded", "shells, shaded"];
+
 struct Scene {
-    name: &'static str,
+    name: String,
+    display: Display,
     source: Arc<dyn BrickSource>,
     frame: FrameState,
 }
@@ -35,16 +40,28 @@ fn scenes(display: &Display, folder: &std::path::Path) -> Vec<Scene> {
         ("head, opaque, shaded", opaque, Some(Light::default())),
     ] {
         let frame = scenes::frame(display, place, optics, light);
-        all.push(Scene { name, source: Arc::clone(&head), frame });
+        all.push((name, Arc::clone(&head), frame));
     }
     let shells = scenes::shells(display);
-    all.push(Scene { name: "shells, shaded", source: shells.source, frame: shells.frame });
+    all.push(("shells, shaded", shells.source, shells.frame));
     if let Some(cranium) = scenes::cranium(display) {
         let plain = FrameState { light: None, ..cranium.frame.clone() };
-        all.push(Scene { name: "cranium", source: Arc::clone(&cranium.source), frame: plain });
-        all.push(Scene { name: "cranium, shaded", source: cranium.source, frame: cranium.frame });
+        all.push(("cranium", Arc::clone(&cranium.source), plain));
+        all.push(("cranium, shaded", cranium.source, cranium.frame));
     }
-    all
+    let calibrated = askew::calibrated(display.clone(), SEED);
+    let mut scenes = Vec::new();
+    for (name, source, frame) in all {
+        let scene = |name: String, display: &Display| {
+            let (display, source, frame) = (display.clone(), Arc::clone(&source), frame.clone());
+            Scene { name, display, source, frame }
+        };
+        scenes.push(scene(name.to_owned(), display));
+        if CALIBRATED.contains(&name) {
+            scenes.push(scene(format!("{name}, calibrated"), &calibrated));
+        }
+    }
+    scenes
 }
 
 fn main() -> Result<(), String> {
@@ -58,7 +75,7 @@ fn main() -> Result<(), String> {
     let mut results = Results::new(Program::Bench("planes"), "planes", "cpu");
     results.line("| scene | caster | views | seconds | Gsamples | RMS, 99.9 %, largest error of 255 | bricks | peak MiB |");
     results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
-    for Scene { name, source, frame } in scenes(&display, folder.path()) {
+    for Scene { name, display, source, frame } in scenes(&display, folder.path()) {
         if !wanted.is_empty() && !wanted.split(';').any(|part| name == part) {
             continue;
         }

@@ -1,5 +1,6 @@
 //! Shared parts of the tests and benchmarks that span crates: scenes, truth, comparison.
 
+pub mod askew;
 pub mod blending_scenes;
 pub mod borders;
 pub mod calibrated;

@@ -5,10 +5,14 @@ use serde::{Deserialize, Serialize};
 /// What cast the rays of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Caster {
-    /// Row planes: each screen row sampled once, for so many views.
+    /// Row planes: each screen row sampled once for many views.
     Planes {
-        /// Views that shared it.
+        /// Views of the back-end.
         views: u32,
+        /// Fans that these are in: views share planes with those of their own fan alone.
+        fans: u32,
+        /// Views whose pictures are resampled from a raster that planes can cast.
+        resampled: u32,
     },
     /// Each ray alone.
     #[default]
@@ -20,7 +24,16 @@ pub enum Caster {
 impl std::fmt::Display for Caster {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Planes { views } => write!(f, "row planes, each for {views} views"),
+            &Self::Planes { views, fans, resampled } => {
+                match fans {
+                    1 => write!(f, "row planes, each for {views} views")?,
+                    _ => write!(f, "row planes in {fans} groups, for {views} views")?,
+                }
+                match resampled {
+                    0 => Ok(()),
+                    _ => write!(f, "; {resampled} pictures are resampled to calibrated rasters"),
+                }
+            }
             Self::Rays => write!(f, "rays"),
             Self::RaysBecause(why) => write!(f, "rays: {why}"),
         }

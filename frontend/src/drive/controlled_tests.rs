@@ -83,7 +83,7 @@ fn a_picture_of_rows_begins_with_every_eighth() {
     let mut controlled = controlled(2);
     let first = controlled.next(state(0, 0.0), NOW, || true).unwrap();
     assert_eq!(first.frame.refinement.unwrap().to, 2, "nobody knows yet who casts");
-    let caster = Caster::Planes { views: 8 };
+    let caster = Caster::Planes { views: 8, fans: 1, resampled: 0 };
     controlled.drawn(&FrameReport { caster, ..FrameReport::default() });
     controlled.finished(NOW);
     let second = controlled.next(state(1, 0.0), NOW, || true).unwrap();

@@ -135,7 +135,7 @@ mod tests {
     const PERIOD: Duration = Duration::from_millis(16);
 
     fn planes() -> Caster {
-        Caster::Planes { views: 8 }
+        Caster::Planes { views: 8, fans: 1, resampled: 0 }
     }
 
     /// Draws frames that take so long by rays and by planes; how many of them planes drew, and the last of all.

@@ -1,5 +1,7 @@
 //! Sets of blocks of a row, whole words at a time.
 
+use std::ops::Range;
+
 /// A set of numbers from 0 to some length, less one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Blocks {
@@ -17,11 +19,10 @@ impl Blocks {
         self.words.resize(len.div_ceil(BITS), 0);
     }
 
-    /// Makes it hold all numbers below `len`.
-    pub(crate) fn fill(&mut self, len: usize) {
+    /// Makes it hold some of the numbers below `len`.
+    pub(crate) fn fill(&mut self, len: usize, members: Range<usize>) {
         self.clear(len);
-        self.words.fill(u64::MAX);
-        self.trim();
+        members.for_each(|index| self.insert(index));
     }
 
     fn trim(&mut self) {
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn sets_are_met_and_left() {
         let mut all = Blocks::default();
-        all.fill(70);
+        all.fill(70, 0..70);
         assert_eq!(all.iter().count(), 70);
         all.subtract_moved(&of(70, &[0, 68]), [1, 1]);
         all.intersect(&of(70, &[0, 1, 68, 69]));

@@ -1,5 +1,6 @@
 //! The geometry that the rows of some views share.
 
+use crate::raster::{Footprint, RasterWarp};
 use twin::ProjectorRays;
 
 /// Views whose rows lie in the same planes and differ by a shift alone.
@@ -19,6 +20,10 @@ pub struct Fan {
     observer: [f64; 2],
     /// A of each view.
     pub(crate) offsets: Vec<f64>,
+    /// The part of the raster that each view looks at; None for all of it.
+    footprints: Vec<Option<Footprint>>,
+    /// The number of each view among all.
+    pub views: Vec<usize>,
     /// Pixels of a row, and rows.
     pub raster: [u32; 2],
 }
@@ -34,27 +39,18 @@ pub(crate) struct AtDepth {
 }
 
 impl Fan {
-    /// Of some views; or why they share no rows.
+    /// Of views of the same raster, which is level, and of the same beams but for A; these are their numbers, and the ways from the
+    /// raster to their own.
     ///
     /// # Errors
-    /// There is no view, or they differ in more than their place along x, or rows are not level.
-    pub fn of(views: &[ProjectorRays<f32>]) -> Result<Self, &'static str> {
-        let Some(first) = views.first() else { return Err("there are no views") };
-        let [across, down, corner] = first.screen_from_pixel.map(|column| column.0.map(f64::from));
-        let is_upright =
-            across[1] == 0.0 && across[2] == 0.0 && down[0] == 0.0 && down[2] == 0.0 && corner[2] == 1.0;
-        if !is_upright || across[0] <= 0.0 {
-            return Err("their rows are not level on the screen");
-        }
-        let is_alike = |view: &ProjectorRays<f32>| {
-            view.screen_from_pixel == first.screen_from_pixel
-                && view.raster == first.raster
-                && view.beam[1..] == first.beam[1..]
-        };
-        if !views.iter().all(is_alike) {
-            return Err("their projectors differ in more than their place along x");
-        }
-        let [_, slope, observer_y, observer_z] = first.beam.map(f64::from);
+    /// Their projectors do not lie behind the screen.
+    pub(crate) fn of(
+        rays: &[ProjectorRays<f32>],
+        warps: Vec<Option<RasterWarp>>,
+        views: Vec<usize>,
+    ) -> Result<Self, &'static str> {
+        let [across, down, corner] = rays[0].screen_from_pixel.map(|column| column.0.map(f64::from));
+        let [_, slope, observer_y, observer_z] = rays[0].beam.map(f64::from);
         if slope <= 0.0 {
             return Err("their projectors do not lie behind the screen");
         }
@@ -63,9 +59,37 @@ impl Fan {
             y: [corner[1], down[1]],
             slope,
             observer: [observer_y, observer_z],
-            offsets: views.iter().map(|view| f64::from(view.beam[0])).collect(),
-            raster: first.raster,
+            offsets: rays.iter().map(|view| f64::from(view.beam[0])).collect(),
+            footprints: warps.iter().map(|warp| warp.as_ref().map(RasterWarp::footprint)).collect(),
+            views,
+            raster: rays[0].raster,
         })
+    }
+
+    /// Those of its views that are among some, numbered as these are.
+    pub(crate) fn only(&self, some: &[usize]) -> Self {
+        let number = |view: &usize| some.iter().position(|known| known == view);
+        let mut kept: Vec<(usize, usize)> =
+            self.views.iter().enumerate().filter_map(|(i, view)| Some((number(view)?, i))).collect();
+        kept.sort_unstable();
+        Self {
+            offsets: kept.iter().map(|&(_, i)| self.offsets[i]).collect(),
+            footprints: kept.iter().map(|&(_, i)| self.footprints[i].clone()).collect(),
+            views: kept.iter().map(|&(number, _)| number).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The pixels of a row that a view looks at, from the first to before the last.
+    pub(crate) fn looked_at(&self, view: usize, row: u32) -> [usize; 2] {
+        let [width, _] = self.raster.map(|pixels| pixels as usize);
+        match &self.footprints[view] {
+            None => [0, width],
+            Some(footprint) => match footprint.columns(row) {
+                Some(columns) => columns.map(|column| (column.max(0.0) as usize).min(width)),
+                None => [0, 0],
+            },
+        }
     }
 
     /// Whether the grid goes as far from the viewers as z.

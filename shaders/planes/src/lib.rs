@@ -9,6 +9,7 @@
 mod blocks;
 mod classify;
 mod fan;
+mod fans;
 mod fill;
 mod fine;
 mod gradients;
@@ -17,6 +18,7 @@ mod leaves;
 mod march;
 mod means;
 mod need;
+mod raster;
 mod rough;
 mod row;
 mod sample;
@@ -27,6 +29,8 @@ mod thick;
 mod view_row;
 
 pub use fan::Fan;
+pub use fans::Fans;
 pub use march::RowCast;
+pub use raster::RasterWarp;
 pub use row::{Planes, Scratch};
 pub use slab::Slab;

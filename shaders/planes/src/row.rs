@@ -101,7 +101,10 @@ impl<'a> Planes<'a> {
         for (view, state) in scratch.views.iter_mut().enumerate() {
             state.begin(self.fan, view, row, light);
         }
-        let cast = if needs.levels == Levels::Quadrilinear {
+        let is_looked_at = scratch.views.iter().any(|view| !view.open.is_empty());
+        let cast = if !is_looked_at {
+            RowCast::default()
+        } else if needs.levels == Levels::Quadrilinear {
             self.march::<S, Full<Plain, Over<false>>>(simd, row, scratch)
         } else if needs.blends || needs.spreads {
             self.march::<S, Blended<Plain, Over<false>>>(simd, row, scratch)

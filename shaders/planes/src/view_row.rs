@@ -43,7 +43,8 @@ impl ViewRow {
                 (x[i], y[i], z[i]) = (way[0] * per_length, way[1] * per_length, way[2] * per_length);
             }
         }
-        self.open.fill(padded / LANES);
+        let [from, to] = fan.looked_at(view, row);
+        self.open.fill(padded / LANES, from / LANES..to.div_ceil(LANES));
     }
 }
 

@@ -21,6 +21,7 @@ mod lean_twins;
 mod non_finite;
 mod paper;
 mod planes;
+mod planes_shared;
 mod random;
 mod random_canaries;
 mod reference;

@@ -6,12 +6,13 @@ use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{Curve, Quality};
-use planes::{Fan, Planes, Scratch};
+use planes::{Fan, Fans, Planes, Scratch};
 use protocol::{Caster, CasterChoice, DeviceChoice};
 use twin::{FeedbackCell, ProjectorRays, SceneNumbers};
 
 const PROJECTORS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 const COMPARED: [u32; 2] = [0, 5];
+const SHARED: Caster = Caster::Planes { views: 8, fans: 1, resampled: 0 };
 
 fn display() -> Display {
     scenes::small_desk8(64, 48)
@@ -38,7 +39,7 @@ fn errors_of(display: &Display, scene: &TestScene, quality: Quality) -> Errors {
     frame.quality = quality;
     let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
     let drawn = draw(display, &frame, &scene.source, &PROJECTORS, with);
-    assert_eq!(drawn.report.caster, Caster::Planes { views: 8 });
+    assert_eq!(drawn.report.caster, SHARED);
     assert!(drawn.report.complete, "{}", drawn.report.shortfall);
     errors(&drawn.images, &truth)
 }
@@ -79,6 +80,12 @@ fn views_of(display: &Display, scene: &TestScene) -> (SceneNumbers<f32>, Vec<Pro
     (views[0].scene, views.iter().map(|view| view.rays).collect())
 }
 
+/// The fan of views that all share planes.
+fn only(fans: &Fans) -> &Fan {
+    assert_eq!(fans.count(), 1);
+    fans.iter().next().unwrap()
+}
+
 /// The rows of all views, as bytes.
 fn rows(planes: &Planes, fan: &Fan, views: usize) -> Vec<u32> {
     let mut scratch = Scratch::default();
@@ -99,11 +106,12 @@ fn every_level_of_instructions_gives_the_same_bytes() {
     for scene in [scenes::shells(&display), scenes::stored_vessels(&display), scenes::noise(&display)] {
         let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
         let (numbers, rays) = views_of(&display, &scene);
-        let fan = Fan::of(&rays).unwrap();
+        let fans = Fans::of(&rays).unwrap();
+        let fan = only(&fans);
         let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
         let casting = twin.casting(&numbers, &feedback);
-        let best = rows(&Planes::new(&casting, &fan), &fan, rays.len());
-        let plain = rows(&Planes::new(&casting, &fan).plainly(), &fan, rays.len());
+        let best = rows(&Planes::new(&casting, fan), fan, rays.len());
+        let plain = rows(&Planes::new(&casting, fan).plainly(), fan, rays.len());
         assert!(best == plain, "{}", scene.name);
         assert!(best.iter().any(|&bits| f32::from_bits(bits) > 0.1), "a black picture proves nothing");
         assert!(feedback.iter().any(|cell| cell.entry().rays > 0), "{}: no node was noted", scene.name);
@@ -122,8 +130,9 @@ fn a_view_is_the_same_whoever_shares_its_rows() {
         let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
         let casting = twin.casting(&numbers, &feedback);
         let cast = |rays: &[_]| {
-            let fan = Fan::of(rays).unwrap();
-            rows(&Planes::new(&casting, &fan), &fan, rays.len())
+            let fans = Fans::of(rays).unwrap();
+            let fan = only(&fans);
+            rows(&Planes::new(&casting, fan), fan, rays.len())
         };
         let together = cast(&rays);
         for index in [1, 6] {

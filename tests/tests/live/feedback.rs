@@ -60,8 +60,18 @@ impl Stage {
     fn cast(&mut self, view: usize, gather: Gather, counts: bool) -> CastOutcome {
         let View { scene, rays } = &self.views[view];
         let (views, part, needs) = (std::slice::from_ref(rays), Part::Every(Lattice::ALL), self.scene.needs);
-        let job =
-            CastJob { scene, views, first_picture: 0, needs, fan: None, part, gather, counts, stop: NEVER };
+        let job = CastJob {
+            scene,
+            views,
+            first_picture: 0,
+            needs,
+            fans: None,
+            mends: false,
+            part,
+            gather,
+            counts,
+            stop: NEVER,
+        };
         self.device.cast(&job).unwrap()
     }
 
@@ -156,7 +166,8 @@ fn views_cast_together_are_views_cast_one_by_one() {
             views: &views,
             first_picture: 1,
             needs: stage.scene.needs,
-            fan: None,
+            fans: None,
+            mends: false,
             part: Part::Every(Lattice::ALL),
             gather: Gather::Own,
             counts: true,

@@ -107,7 +107,10 @@ fn a_still_view_comes_to_rest_at_the_complete_picture_to_the_bit() {
         With { cache_bytes: 256 << 20, caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
     let planes = || draw::renderer(&display, &scene.source, &PROJECTORS, with).0;
     let (complete, report) = draw_with(&mut planes(), &plain);
-    assert!(report.complete && report.caster == Caster::Planes { views: 2 }, "{report:?}");
+    assert!(
+        report.complete && report.caster == Caster::Planes { views: 2, fans: 1, resampled: 0 },
+        "{report:?}"
+    );
     assert_same(&come_to_rest(&mut planes(), &plain).0, &complete, "row planes");
     // The canary: blending does something here.
     assert!(pictures[0].iter().zip(&pictures[2]).any(|(a, b)| a.rgba != b.rgba), "no borders are to be seen");

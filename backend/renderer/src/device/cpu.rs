@@ -1,6 +1,7 @@
 //! The CPU device: the kernels' f32 twin on all cores.
 
 use super::job::ViewJob;
+use super::mend::mend;
 use super::rows::cast_rows;
 use super::under_way::UnderWay;
 use super::{
@@ -96,10 +97,14 @@ impl CpuDevice {
                 feedback: if job.gather == Gather::Own { &own } else { &self.frame_feedback },
             },
         };
+        if let Some(fans) = job.fans.filter(|_| job.mends) {
+            let outcome = mend(&casting, job, fans, &self.pictures[job.first_picture..]);
+            return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
+        }
         self.pictures.resize_with(self.pictures.len().max(job.first_picture + job.views.len()), Vec::new);
-        if let Some(fan) = job.fan.filter(|_| job.lattice().step[0] == 1) {
+        if let Some(fans) = job.fans.filter(|_| job.lattice().step[0] == 1) {
             let pictures = &mut self.pictures[job.first_picture..][..job.views.len()];
-            let outcome = cast_rows(&casting, job, fan, pictures);
+            let outcome = cast_rows(&casting, job, fans, pictures);
             return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
         }
         let mut outcome = CastOutcome::nothing(job);
@@ -149,7 +154,8 @@ impl CpuDevice {
         let cast = &self.pictures[picture];
         self.shown.resize_with(self.shown.len().max(picture + 1), Vec::new);
         let shown = &mut self.shown[picture];
-        let before = has_before.then_some(&shown[..]);
+        // Another caster may have shown another raster.
+        let before = (has_before && shown.len() == cast.len()).then_some(&shown[..]);
         let mut now = reconstruct(cast.into(), before, raster, known, Thresholds::default());
         let is_behind = match (before, most_change) {
             (Some(before), Some(most)) => ease(before, now.to_mut(), most),

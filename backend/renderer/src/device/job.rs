@@ -2,7 +2,7 @@
 
 use layout::{FeedbackEntry, TILE_EDGE};
 use needs::Needs;
-use planes::Fan;
+use planes::Fans;
 use protocol::StopAsked;
 use std::borrow::Cow;
 use twin::{Lattice, ProjectorRays, SceneNumbers};
@@ -99,10 +99,13 @@ pub struct CastJob<'a> {
     pub first_picture: usize,
     /// What the scene needs of a kernel.
     pub needs: Needs,
-    /// What the rows of its views share, where they are cast in their planes, whole rows at a time; None for each ray alone.
-    pub fan: Option<&'a Fan>,
+    /// How the views share planes, where these are cast, whole rows at a time; None for each ray alone.
+    pub fans: Option<&'a Fans>,
     /// Which pixels.
     pub part: Part<'a>,
+    /// Whether pictures that planes have cast are mended: the views and tiles are then those of the projectors' own rasters, and
+    /// rays are cast for those of their pixels alone that cannot be resampled well. Their colours come with the outcome.
+    pub mends: bool,
     /// Where its feedback goes.
     pub gather: Gather,
     /// Whether to count samples and list missing tiles.
@@ -169,6 +172,9 @@ impl ViewJob<'_> {
     }
 }
 
+/// Some pixels of a picture: the place of each, row by row, and its colour.
+pub type Patch = Vec<(u32, [f32; 4])>;
+
 /// What a cast found.
 #[derive(Clone, Debug, Default)]
 pub struct CastOutcome {
@@ -178,6 +184,8 @@ pub struct CastOutcome {
     pub missing_tiles: Vec<Vec<u32>>,
     /// View by view, the tiles that were left.
     pub left: Vec<Vec<u32>>,
+    /// View by view, pixels that were mended.
+    pub mended: Vec<Patch>,
     /// Rays cast.
     pub rays: u64,
     /// Samples taken; 0 where they were not asked for.
@@ -191,7 +199,8 @@ impl CastOutcome {
     pub(super) fn nothing(job: &CastJob) -> Self {
         let lists = if job.counts { job.views.len() } else { 0 };
         let left = vec![Vec::new(); job.views.len()];
-        Self { missing_tiles: vec![Vec::new(); lists], left, ..Self::default() }
+        let mended = vec![Patch::default(); if job.mends { job.views.len() } else { 0 }];
+        Self { missing_tiles: vec![Vec::new(); lists], left, mended, ..Self::default() }
     }
 }
 

@@ -9,6 +9,7 @@ mod error;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod job;
+mod mend;
 mod rows;
 mod show;
 mod tag;
@@ -18,6 +19,6 @@ pub use choose::{CacheWish, ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use either::Device;
 pub use error::DeviceError;
-pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, TileGrid, coarse};
+pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, Patch, TileGrid, coarse};
 pub use show::{DevicePicture, FinishJob, ShowJob};
 pub use tag::{FeedbackTag, TaggedFeedback};

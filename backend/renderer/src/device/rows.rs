@@ -2,7 +2,7 @@
 
 use super::{CastJob, CastOutcome};
 use layout::TILE_EDGE;
-use planes::{Fan, Planes, RowCast, Scratch};
+use planes::{Fan, Fans, Planes, RowCast, Scratch};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use twin::Casting;
@@ -14,20 +14,33 @@ struct Band<'a> {
     pictures: Vec<&'a mut [f32]>,
 }
 
-/// Casts the rows that hold the tiles of a job.
+/// Casts the rows that hold the tiles of a job, fan by fan.
 pub(super) fn cast_rows(
+    casting: &Casting<f32>,
+    job: &CastJob,
+    fans: &Fans,
+    pictures: &mut [Vec<f32>],
+) -> CastOutcome {
+    let mut outcome = CastOutcome::nothing(job);
+    fans.iter().for_each(|fan| cast_fan(casting, job, fan, pictures, &mut outcome));
+    outcome
+}
+
+fn cast_fan(
     casting: &Casting<f32>,
     job: &CastJob,
     fan: &Fan,
     pictures: &mut [Vec<f32>],
-) -> CastOutcome {
+    outcome: &mut CastOutcome,
+) {
     let [width, height] = fan.raster;
-    let jobs: Vec<_> = job.view_jobs().collect();
+    let jobs: Vec<_> = job.view_jobs().filter(|(index, _)| fan.views.contains(index)).collect();
     let tiles = jobs.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
     let asked: BTreeSet<u32> = tiles.collect();
     let planes = Planes::new(casting, fan);
     let (step, first) = (job.lattice().step[1], job.lattice().first[1]);
-    let mut bands = bands(pictures, fan.raster, step);
+    let of_fan = pictures.iter_mut().enumerate().filter(|(index, _)| fan.views.contains(index));
+    let mut bands = bands(of_fan.map(|(_, picture)| picture), fan.raster, step);
     // The rows of a band that are cast, from its first.
     let cast_rows = |at: u32| {
         let rows = (height - at * TILE_EDGE * step).min(TILE_EDGE * step);
@@ -53,7 +66,6 @@ pub(super) fn cast_rows(
         .filter(|band| asked.contains(&band.at))
         .map_init(Scratch::default, |scratch, band| (band.at, cast(scratch, band)))
         .collect();
-    let mut outcome = CastOutcome::nothing(job);
     for (index, view) in &jobs {
         let rows_of = |of: &dyn Fn(&Option<RowCast>) -> bool| -> BTreeSet<u32> {
             found.iter().filter(|(_, cast)| of(cast)).map(|&(at, _)| at).collect()
@@ -69,15 +81,18 @@ pub(super) fn cast_rows(
     }
     for (at, cast) in &found {
         if let Some(cast) = cast {
-            outcome.rays += cast_rows(*at).count() as u64 * u64::from(width) * job.views.len() as u64;
+            outcome.rays += cast_rows(*at).count() as u64 * u64::from(width) * fan.views.len() as u64;
             outcome.samples += if job.counts { cast.samples } else { 0 };
         }
     }
-    outcome
 }
 
 /// The pictures, cut into rows of tiles that cast every `step`th row of pixels.
-fn bands(pictures: &mut [Vec<f32>], [width, height]: [u32; 2], step: u32) -> Vec<Band<'_>> {
+fn bands<'a>(
+    pictures: impl Iterator<Item = &'a mut Vec<f32>>,
+    [width, height]: [u32; 2],
+    step: u32,
+) -> Vec<Band<'a>> {
     let size = 4 * width as usize * height as usize;
     let rows = TILE_EDGE * step;
     let mut bands: Vec<Band> =

@@ -4,6 +4,7 @@ mod classes;
 mod ease;
 mod finish;
 mod reconstruct;
+mod resample;
 
 pub use classes::{Classes, lattice_of};
 pub use ease::ease;
@@ -13,3 +14,4 @@ pub use finish::Finisher;
 #[cfg(feature = "gpu")]
 pub use reconstruct::{Pass, passes};
 pub use reconstruct::{Raster, Thresholds, reconstruct};
+pub use resample::{Bends, resampled};

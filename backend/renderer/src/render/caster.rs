@@ -4,23 +4,25 @@ use super::RenderError;
 use crate::device::Device;
 use glam::DVec3;
 use needs::Needs;
-use planes::{Fan, Planes};
+use planes::{Fans, Planes};
 use protocol::{Caster, CasterChoice, FrameState};
 use twin::ProjectorRays;
 
-/// Where a display has fewer views, sampling planes for them takes about as long as casting their rays.
+/// Where fewer views share planes, sampling them takes about as long as casting the views' rays.
 const FEWEST_VIEWS: usize = 24;
 const TOO_FEW_VIEWS: &str = "the display has fewer than 24 projectors, too few for row planes to save time";
+const TOO_MANY_FANS: &str =
+    "the display's projectors differ: fewer than 24 of them share row planes, too few to save time";
 
-/// The caster of a frame, and what its rows share where that is row planes.
+/// The caster of a frame, and how its views share planes where that is row planes.
 #[derive(Debug)]
 pub(super) struct CasterOfFrame {
     pub(super) caster: Caster,
-    pub(super) fan: Option<Fan>,
+    pub(super) fans: Option<Fans>,
 }
 
 impl CasterOfFrame {
-    /// For some views of a display: `rays`, of `all`. The whole display decides, so that all back-ends cast alike.
+    /// For the views of some projectors, of `all`. The whole display decides, so that all back-ends cast alike.
     ///
     /// # Errors
     /// Planes were asked for and cannot serve the frame.
@@ -28,43 +30,50 @@ impl CasterOfFrame {
         asked: CasterChoice,
         device: &Device,
         needs: &Needs,
-        [rays, all]: [&[ProjectorRays<f32>]; 2],
+        (projectors, all): (&[u32], &[ProjectorRays<f32>]),
         frame: &FrameState,
         dims: DVec3,
     ) -> Result<Self, RenderError> {
-        let because = |why: &str| Self { caster: Caster::RaysBecause(why.to_owned()), fan: None };
-        match asked {
-            CasterChoice::Rays => return Ok(Self { caster: Caster::Rays, fan: None }),
-            CasterChoice::Auto if all.len() < FEWEST_VIEWS && !frame.welcomes_planes => {
-                return Ok(because(TOO_FEW_VIEWS));
-            }
-            CasterChoice::Auto | CasterChoice::Planes => {}
+        let because = |why: &str| Self { caster: Caster::RaysBecause(why.to_owned()), fans: None };
+        let spares = asked == CasterChoice::Auto && !frame.welcomes_planes;
+        if asked == CasterChoice::Rays {
+            return Ok(Self { caster: Caster::Rays, fans: None });
         }
-        match (shared_fan(device, needs, [rays, all], frame, dims), asked) {
-            (Ok(fan), _) => Ok(Self { caster: Caster::Planes { views: rays.len() as u32 }, fan: Some(fan) }),
+        if spares && all.len() < FEWEST_VIEWS {
+            return Ok(because(TOO_FEW_VIEWS));
+        }
+        match (fans_of(device, needs, all, frame, dims), asked) {
+            // Each fan takes about as long as so many views ray by ray.
+            (Ok(fans), _) if spares && all.len() < FEWEST_VIEWS * fans.count() => Ok(because(TOO_MANY_FANS)),
+            (Ok(fans), _) => {
+                let views: Vec<usize> = projectors.iter().map(|&projector| projector as usize).collect();
+                let fans = fans.only(&views);
+                let [views, count, resampled] =
+                    [views.len(), fans.count(), fans.resampled()].map(|count| count as u32);
+                Ok(Self { caster: Caster::Planes { views, fans: count, resampled }, fans: Some(fans) })
+            }
             (Err(why), CasterChoice::Planes) => Err(RenderError::Planes(why)),
             (Err(why), _) => Ok(because(why)),
         }
     }
 }
 
-/// What the views' rows share; or why planes cannot serve the frame.
-fn shared_fan(
+/// How all views share planes; or why these cannot serve the frame.
+fn fans_of(
     device: &Device,
     needs: &Needs,
-    [rays, all]: [&[ProjectorRays<f32>]; 2],
+    all: &[ProjectorRays<f32>],
     frame: &FrameState,
     dims: DVec3,
-) -> Result<Fan, &'static str> {
+) -> Result<Fans, &'static str> {
     if !device.has_planes() {
         return Err("a GPU has no kernels for them yet, --device cpu has");
     }
     if let Some(why) = Planes::refusal(needs) {
         return Err(why);
     }
-    Fan::of(all)?;
-    let fan = Fan::of(rays)?;
+    let fans = Fans::of(all)?;
     let corner = |i: u32| dims * DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
-    let is_near = (0..8).all(|i| fan.reaches(frame.display_from_volume.transform_point3(corner(i)).z));
-    if is_near { Ok(fan) } else { Err("the volume reaches to where all beams cross") }
+    let is_near = (0..8).all(|i| fans.reaches(frame.display_from_volume.transform_point3(corner(i)).z));
+    if is_near { Ok(fans) } else { Err("the volume reaches to where all beams cross") }
 }

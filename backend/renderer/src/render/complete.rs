@@ -110,13 +110,14 @@ impl Complete {
             Stage::Begun => self.cast(work, Stage::Looking, None),
             Stage::Looking if has_changed => self.cast(work, Stage::Looking, None),
             Stage::Looking => self.cast(work, Stage::Casting, None),
-            Stage::Casting if has_changed && self.hides_something(engine) => {
+            Stage::Casting if has_changed && (work.mended.is_some() || self.hides_something(engine)) => {
                 self.cast(work, Stage::Casting, None);
             }
             Stage::Casting if has_changed => {
                 let missing = std::mem::take(&mut work.missing);
                 self.cast(work, Stage::Casting, Some(missing));
             }
+            Stage::Casting if work.begin_mending() => {}
             Stage::Casting => self.end_views(work, engine),
         }
         Ok(None)

@@ -3,9 +3,10 @@
 use super::account::milliseconds;
 use super::engine::Engine;
 use super::work::Work;
-use crate::device::{DeviceError, DevicePicture, FinishJob, ShowJob};
-use crate::present::Raster;
+use crate::device::{DeviceError, DevicePicture, FinishJob, Patch, ShowJob};
+use crate::present::{Raster, resampled};
 use overlay::View;
+use planes::RasterWarp;
 use protocol::{FrameState, ProjectorImage, ScreenImage};
 use std::time::Instant;
 
@@ -16,6 +17,10 @@ pub(super) struct Final {
     /// Pixels along x and y.
     size: [u32; 2],
     picture: Shown,
+    /// The way to its raster from the one that was cast; None where that is the same.
+    warp: Option<RasterWarp>,
+    /// Pixels of its own.
+    patch: Patch,
 }
 
 /// What is shown of a view.
@@ -38,22 +43,26 @@ impl Engine {
         for projector in std::mem::take(&mut work.finals) {
             let started = Instant::now();
             let Some(view) = work.view_of(projector) else { continue };
-            let (size, picture) = (work.setting.rays[view].raster, self.show(work, projector, view)?);
-            let taken = take(self, &work.frame, &Final { projector, view, size, picture })?;
+            let (size, warp) = (work.setting.own_raster(view), work.setting.warp(view).copied());
+            let (picture, is_as_cast) = self.show(work, projector, view)?;
+            let mended = work.mended.as_mut().filter(|_| is_as_cast);
+            let patch = mended.map_or_else(Patch::default, |mended| std::mem::take(&mut mended[view]));
+            let taken = take(self, &work.frame, &Final { projector, view, size, picture, warp, patch })?;
             work.account.stages.readback_ms += milliseconds(started);
             sink(taken);
         }
         Ok(())
     }
 
-    /// What is shown of the picture of a view: it depends on the frames before where there are many.
-    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<Shown, DeviceError> {
+    /// What is shown of the picture of a view: it depends on the frames before where there are many. And whether that is all as it
+    /// was cast, where all was.
+    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<(Shown, bool), DeviceError> {
         let picture = work.picture_of(view);
         if work.refined.is_some() {
-            return Ok(Shown::Filled);
+            return Ok((Shown::Filled, true));
         }
         if !work.is_of_many() {
-            return Ok(Shown::Device(DevicePicture::Cast(picture)));
+            return Ok((Shown::Device(DevicePicture::Cast(picture)), true));
         }
         let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
         let is_behind = self.device.show(&ShowJob {
@@ -64,30 +73,38 @@ impl Engine {
             most_change: if work.eases { easing.most_change(projector, now_s) } else { None },
         })?;
         easing.show(projector, now_s, is_behind);
-        Ok(Shown::Device(DevicePicture::Shown(picture)))
+        Ok((Shown::Device(DevicePicture::Shown(picture)), !is_behind))
     }
 
     /// Its linear colours.
     pub(super) fn colours(&mut self, frame: &FrameState, of: &Final) -> Result<ProjectorImage, DeviceError> {
-        let &Final { projector, view, size: [width, height], picture } = of;
-        let mut rgba = match picture {
-            Shown::Device(picture) => self.device.picture(picture)?.into_owned(),
-            Shown::Filled => self.refining.shown(view).to_vec(),
+        let &Final { projector, view, size: [width, height], picture, ref warp, ref patch } = of;
+        let shown = match picture {
+            Shown::Device(picture) => self.device.picture(picture)?,
+            Shown::Filled => self.refining.shown(view).into(),
         };
+        let mut rgba = match warp {
+            Some(warp) => resampled(&shown, warp),
+            None => shown.into_owned(),
+        };
+        for &(pixel, colour) in patch {
+            rgba[4 * pixel as usize..][..4].copy_from_slice(&colour);
+        }
         self.mark(frame, projector, &mut rgba);
         Ok(ProjectorImage { projector, width, height, rgba })
     }
 
     /// The codes that its projector shows it with.
     pub(super) fn codes(&mut self, frame: &FrameState, of: &Final) -> Result<ScreenImage, DeviceError> {
-        let &Final { projector, view, size: [width, height], picture } = of;
+        let &Final { projector, view, size: [width, height], picture, ref warp, .. } = of;
         let finisher = &self.finishers[view];
+        let is_as_shown = frame.marks.is_empty() && warp.is_none();
         let rgb = match picture {
-            Shown::Device(picture) if frame.marks.is_empty() => {
+            Shown::Device(picture) if is_as_shown => {
                 let raster = Raster::of([width, height]);
                 self.device.codes(&FinishJob { picture, raster, view, finisher })?
             }
-            Shown::Filled if frame.marks.is_empty() => finisher.codes(self.refining.shown(view)),
+            Shown::Filled if is_as_shown => finisher.codes(self.refining.shown(view)),
             Shown::Device(_) | Shown::Filled => {
                 let rgba = self.colours(frame, of)?.rgba;
                 self.finishers[view].codes(&rgba)

@@ -47,6 +47,9 @@ impl LiveFrame {
                 work.begin_cast(pending);
                 return Ok(None);
             }
+            if work.begin_mending() {
+                return Ok(None);
+            }
             return self.end(work, engine, upkeep).map(Some);
         }
         engine.take_feedback()?;

@@ -26,7 +26,7 @@ impl Engine {
             for (place, (lattice, tiles)) in order.casts(units).into_iter().enumerate() {
                 if all.len() == place {
                     let views = 0..setting.rays.len();
-                    all.push(Pending { views, lattice, counts: true, tiles: Vec::new() });
+                    all.push(Pending { views, lattice, counts: true, mends: false, tiles: Vec::new() });
                 }
                 all[place].tiles.push(tiles);
             }
@@ -36,13 +36,18 @@ impl Engine {
 
     /// The order of each view.
     fn orders_of(&mut self, setting: &Setting) -> Vec<Arc<Order>> {
-        let grain = if setting.caster.fan.is_some() { Grain::Rows } else { Grain::Pixels };
+        let grain = if setting.caster.fans.is_some() { Grain::Rows } else { Grain::Pixels };
         setting.rays.iter().map(|rays| self.refining.order(grain, rays.raster)).collect()
     }
 
     /// A part of the way to a picture is cast: makes what is shown of it, and tells what may be wrong with that.
     pub(super) fn refine(&mut self, work: &mut Work) -> Result<(), RenderError> {
         let Some(Refinement { to, .. }) = work.frame.refinement else { return Ok(()) };
+        if work.frame.pace == Pace::Complete {
+            let mended = work.mended.take();
+            self.refining.mended = mended.or(self.refining.mended.take());
+            work.mended = self.refining.mended.clone().filter(|_| to >= Refinement::UNITS);
+        }
         let orders = self.orders_of(&work.setting);
         let cast: Result<Vec<Vec<f32>>, DeviceError> = (0..work.setting.rays.len())
             .map(|view| Ok(self.device.picture(DevicePicture::Cast(work.picture_of(view)))?.into_owned()))
@@ -86,8 +91,10 @@ impl Engine {
         let Some(first) = orders.first().map(|order| order.first()) else { return Ok((0, 0)) };
         let setting = Setting::new(self, &newest)?;
         let views = setting.rays.len();
-        // Of another caster the pixels are not the same.
-        if setting.caster.fan.is_some() != work.setting.caster.fan.is_some() {
+        // Of another caster, or on another raster, the pixels are not the same.
+        let are_cast_alike = setting.caster.fans.is_some() == work.setting.caster.fans.is_some()
+            && setting.rays.iter().zip(&work.setting.rays).all(|(a, b)| a.raster == b.raster);
+        if !are_cast_alike {
             return Ok((0, 0));
         }
         match newest.pace {
@@ -115,9 +122,10 @@ impl Engine {
             scene: &setting.scene,
             views: &setting.rays,
             first_picture: setting.rays.len(),
-            fan: setting.caster.fan.as_ref(),
+            fans: setting.caster.fans.as_ref(),
             needs: Needs { blends: self.shelf.blends, spreads: self.shelf.spreads, ..setting.needs },
             part: Part::Every(lattice),
+            mends: false,
             gather: Gather::Own,
             counts: false,
             stop: NEVER,

@@ -1,5 +1,6 @@
 //! What is known of pictures that become finer from frame to frame.
 
+use crate::device::Patch;
 use crate::refine::{Filled, Grain, Order};
 use protocol::Refinement;
 use std::sync::Arc;
@@ -20,6 +21,8 @@ pub(super) struct Refining {
     /// Of each view: what is shown, and what was of the picture before, at its end.
     pub(super) filled: Vec<Filled>,
     pub(super) before: Vec<Filled>,
+    /// What was mended of the pictures, where they were cast whole when they were begun.
+    pub(super) mended: Option<Vec<Patch>>,
     /// Whether the device has index and tables of another state.
     pub(super) is_disturbed: bool,
     /// Whether the picture was begun with all the detail that there is room for and that can be read.
@@ -38,6 +41,7 @@ impl Refining {
             self.configuration = Some(refinement.configuration);
             self.done = 0;
             self.is_disturbed = false;
+            self.mended = None;
             self.before = std::mem::take(&mut self.filled);
         }
         self.done

@@ -1,22 +1,21 @@
 //! Pictures that are cast unit by unit come to the full picture, and tell what they err.
 
 use super::Renderer;
-use super::test_scene::{Pictures, draw, frame, options};
+use super::test_scene::{Pictures, Way, draw, frame};
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use glam::{DVec3, UVec3};
-use protocol::{CasterChoice, FrameState, Pace, Refined, Refinement, RenderEvent, RendererOptions};
+use protocol::{FrameState, Pace, Refined, Refinement, RenderEvent, RendererOptions};
 use std::sync::Arc;
 
-const BOTH: [CasterChoice; 2] = [CasterChoice::Rays, CasterChoice::Planes];
 const UNITS: u32 = Refinement::UNITS;
 
 fn source() -> Arc<dyn BrickSource> {
     Arc::new(ProceduralVolume::new("shells", UVec3::splat(100), 1e-3).unwrap())
 }
 
-fn renderer(caster: CasterChoice, projectors: Vec<u32>) -> Renderer {
-    let options = RendererOptions { caster, projectors, ..options() };
+fn renderer(way: Way, projectors: Vec<u32>) -> Renderer {
+    let options = RendererOptions { projectors, ..way.options() };
     let mut renderer = Renderer::new(&options, source()).unwrap().0;
     draw(&mut renderer, &frame(0.05)).unwrap();
     renderer
@@ -61,11 +60,11 @@ fn rms(a: &Pictures, b: &Pictures) -> f64 {
 
 #[test]
 fn units_come_to_the_full_picture_to_the_bit_whatever_came_before() {
-    for (caster, pace) in BOTH.into_iter().flat_map(|caster| [(caster, LIVE), (caster, Pace::Complete)]) {
-        let (still, mut renderer) = (frame(0.05), renderer(caster, vec![0, 1]));
+    for (way, pace) in Way::ALL.into_iter().flat_map(|way| [(way, LIVE), (way, Pace::Complete)]) {
+        let (still, mut renderer) = (frame(0.05), renderer(way, vec![0, 1]));
         let full = draw(&mut renderer, &still).unwrap().0;
         // Of a raster as small as this, the first units of rows have none to compare with.
-        let first = if caster == CasterChoice::Planes { 5 } else { 1 };
+        let first = if way != Way::Rays { 5 } else { 1 };
         for (configuration, steps) in [(1, vec![first, 8, 16, 40, 64]), (2, vec![64]), (3, vec![5, 64])] {
             // Somewhere else before.
             go_on(&mut renderer, &part(&moved(&still, 0.02), pace, 100 + configuration, 7), None);
@@ -73,9 +72,9 @@ fn units_come_to_the_full_picture_to_the_bit_whatever_came_before() {
             for to in steps {
                 let (pictures, refined) = go_on(&mut renderer, &part(&still, pace, configuration, to), None);
                 let now = (rms(&pictures, &full), refined.spatial);
-                assert_eq!(now.0 == 0.0, to == UNITS, "{caster:?} {pace:?} {to}: {now:?}");
+                assert_eq!(now.0 == 0.0, to == UNITS, "{way:?} {pace:?} {to}: {now:?}");
                 assert_eq!((refined.done, refined.spatial == 0), (to, to == UNITS));
-                assert!(now.0 < before.0 && now.1 < before.1, "{caster:?} {pace:?} {to}: {before:?} {now:?}");
+                assert!(now.0 < before.0 && now.1 < before.1, "{way:?} {pace:?} {to}: {before:?} {now:?}");
                 before = now;
             }
         }
@@ -85,7 +84,7 @@ fn units_come_to_the_full_picture_to_the_bit_whatever_came_before() {
 
 #[test]
 fn a_unit_casts_a_sixty_fourth_of_the_rays_and_none_twice() {
-    let mut renderer = renderer(CasterChoice::Rays, vec![0, 1]);
+    let mut renderer = renderer(Way::Rays, vec![0, 1]);
     let still = frame(0.05);
     let mut rays = 0;
     for to in 1..=UNITS {
@@ -98,8 +97,8 @@ fn a_unit_casts_a_sixty_fourth_of_the_rays_and_none_twice() {
 
 #[test]
 fn the_newest_state_is_as_far_as_it_has_moved_and_looking_at_it_changes_nothing() {
-    for (caster, pace) in BOTH.into_iter().flat_map(|caster| [(caster, LIVE), (caster, Pace::Complete)]) {
-        let (still, mut renderer) = (frame(0.05), renderer(caster, vec![0, 1]));
+    for (way, pace) in Way::ALL.into_iter().flat_map(|way| [(way, LIVE), (way, Pace::Complete)]) {
+        let (still, mut renderer) = (frame(0.05), renderer(way, vec![0, 1]));
         let full = draw(&mut renderer, &still).unwrap().0;
         let mut far = frame(0.05);
         far.optics.extinction = optics::Curve::constant(0.5);
@@ -109,7 +108,7 @@ fn the_newest_state_is_as_far_as_it_has_moved_and_looking_at_it_changes_nothing(
             to += 10;
             let newest = FrameState { pace, ..newest.clone() };
             let refined = go_on(&mut renderer, &part(&still, pace, 1, to), Some(&newest)).1;
-            assert!(refined.compared > 0, "{caster:?} {pace:?}");
+            assert!(refined.compared > 0, "{way:?} {pace:?}");
             mean(refined.change, refined.compared)
         };
         let (none, little, more, most) = (
@@ -118,17 +117,17 @@ fn the_newest_state_is_as_far_as_it_has_moved_and_looking_at_it_changes_nothing(
             distance(&moved(&still, 0.02)),
             distance(&far),
         );
-        assert_eq!(none, 0.0, "{caster:?} {pace:?}");
-        assert!(0.0 < little && little < more && more < most, "{caster:?} {pace:?} {little} {more} {most}");
+        assert_eq!(none, 0.0, "{way:?} {pace:?}");
+        assert!(0.0 < little && little < more && more < most, "{way:?} {pace:?} {little} {more} {most}");
         let (pictures, refined) = go_on(&mut renderer, &part(&still, pace, 1, UNITS), None);
-        assert_eq!(pictures, full, "{caster:?} {pace:?}");
+        assert_eq!(pictures, full, "{way:?} {pace:?}");
         assert_eq!(refined.compared, 0);
     }
 }
 
 #[test]
 fn a_picture_that_is_begun_tells_how_far_it_is_from_the_one_before() {
-    let mut renderer = renderer(CasterChoice::Rays, vec![0, 1]);
+    let mut renderer = renderer(Way::Rays, vec![0, 1]);
     let still = frame(0.05);
     let first = go_on(&mut renderer, &part(&still, LIVE, 1, 1), None).1;
     assert_eq!(first.compared, 0, "there is none before");
@@ -140,10 +139,10 @@ fn a_picture_that_is_begun_tells_how_far_it_is_from_the_one_before() {
 
 #[test]
 fn sums_of_errors_do_not_depend_on_who_draws_what() {
-    for caster in BOTH {
+    for way in Way::ALL {
         let newest = moved(&frame(0.05), 0.01);
         let sums = |projectors: Vec<u32>| {
-            let mut renderer = renderer(caster, projectors);
+            let mut renderer = renderer(way, projectors);
             let draw = |renderer: &mut Renderer, to| {
                 go_on(renderer, &part(&frame(0.05), Pace::Complete, 1, to), Some(&newest)).1
             };
@@ -152,15 +151,15 @@ fn sums_of_errors_do_not_depend_on_who_draws_what() {
         let (both, left, right) = (sums(vec![0, 1]), sums(vec![0]), sums(vec![1]));
         for ((both, left), right) in both.into_iter().zip(left).zip(right) {
             assert!(both.change > 0 && both.spatial > 0);
-            assert_eq!(both.change, left.change + right.change, "{caster:?}");
-            assert_eq!(both.spatial, left.spatial + right.spatial, "{caster:?}");
+            assert_eq!(both.change, left.change + right.change, "{way:?}");
+            assert_eq!(both.spatial, left.spatial + right.spatial, "{way:?}");
         }
     }
 }
 
 #[test]
 fn a_picture_that_went_on_without_this_back_end_is_begun_whole() {
-    let mut renderer = renderer(CasterChoice::Rays, vec![0, 1]);
+    let mut renderer = renderer(Way::Rays, vec![0, 1]);
     let full = draw(&mut renderer, &frame(0.05)).unwrap().0;
     // It was away while units 1 to 30 were cast.
     let whole = go_on(&mut renderer, &part(&frame(0.05), LIVE, 9, 31), None);
@@ -170,8 +169,8 @@ fn a_picture_that_went_on_without_this_back_end_is_begun_whole() {
 
 #[test]
 fn detail_that_comes_is_told_of_until_all_is_there() {
-    let mut renderer = Renderer::new(&options(), source()).unwrap().0;
-    let full = draw(&mut Renderer::new(&options(), source()).unwrap().0, &frame(0.05)).unwrap().0;
+    let mut renderer = Renderer::new(&Way::Rays.options(), source()).unwrap().0;
+    let full = draw(&mut Renderer::new(&Way::Rays.options(), source()).unwrap().0, &frame(0.05)).unwrap().0;
     let at = |configuration: u32| FrameState { time_s: f64::from(configuration), ..frame(0.05) };
     let mut begun = 0;
     let (mut pictures, mut refined) = go_on(&mut renderer, &part(&at(begun), LIVE, begun, UNITS), None);

@@ -9,6 +9,7 @@ use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
 use crate::device::DevicePicture;
+use crate::present::resampled;
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
@@ -109,15 +110,19 @@ impl Renderer {
     }
 
     /// The picture of a projector of this frame as it stands now, final or not: what has not been cast is as it was before.
-    /// A complete frame keeps the one that it works at.
+    /// A complete frame keeps the one that it works at. What is resampled is not mended here.
     ///
     /// # Errors
     /// The device stopped answering.
     pub fn picture(&mut self, projector: u32) -> Result<Option<ProjectorImage>, RenderError> {
         let Some(Course { work, .. }) = &self.course else { return Ok(None) };
         let Some(view) = work.view_of(projector) else { return Ok(None) };
-        let [width, height] = work.setting.rays[view].raster;
-        let rgba = self.engine.device.picture(DevicePicture::Cast(work.picture_of(view)))?.into_owned();
+        let [width, height] = work.setting.own_raster(view);
+        let cast = self.engine.device.picture(DevicePicture::Cast(work.picture_of(view)))?;
+        let rgba = match work.setting.warp(view) {
+            Some(warp) => resampled(&cast, warp),
+            None => cast.into_owned(),
+        };
         Ok(Some(ProjectorImage { projector, width, height, rgba }))
     }
 

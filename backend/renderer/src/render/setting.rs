@@ -8,6 +8,7 @@ use super::views::{rays_of, scene_numbers};
 use bricks::LodRule;
 use needs::Needs;
 use needs::tables::Tables;
+use planes::RasterWarp;
 use protocol::FrameState;
 use std::sync::Arc;
 use twin::{ProjectorRays, SceneNumbers};
@@ -21,8 +22,10 @@ pub(super) struct Setting {
     pub(super) scene: SceneNumbers<f32>,
     /// Index of each view's projector in the display.
     pub(super) projectors: Vec<u32>,
-    /// Of each view.
+    /// Of each view, as they are cast: row planes may cast another raster than the projector's own.
     pub(super) rays: Vec<ProjectorRays<f32>>,
+    /// The same of the projectors' own rasters.
+    pub(super) own_rays: Vec<ProjectorRays<f32>>,
     /// Blending apart, which depends on the working set.
     pub(super) needs: Needs,
     pub(super) tables: Arc<Tables>,
@@ -41,13 +44,18 @@ impl Setting {
         let needs =
             Needs { debug: frame.debug, ..Needs::of(&frame.optics, frame.light.as_ref(), &frame.quality) };
         let all = rays_of(display, frame)?;
-        let rays: Vec<_> = projectors.iter().map(|&projector| all[projector as usize]).collect();
         let dims = shape.dims().as_dvec3();
         let asked = engine.options.caster;
-        let caster = CasterOfFrame::choose(asked, &engine.device, &needs, [&rays, &all], frame, dims)?;
+        let caster = CasterOfFrame::choose(asked, &engine.device, &needs, (&projectors, &all), frame, dims)?;
+        let own_rays: Vec<_> = projectors.iter().map(|&projector| all[projector as usize]).collect();
+        let rays = match &caster.fans {
+            Some(fans) => fans.rays().collect(),
+            None => own_rays.clone(),
+        };
         Ok(Self {
             scene,
             rays,
+            own_rays,
             caster,
             projectors,
             needs,
@@ -55,6 +63,16 @@ impl Setting {
             has_borders: !lod.is_uniform(&shape),
             lod,
         })
+    }
+
+    /// Pixels of a view's own raster along x and y.
+    pub(super) fn own_raster(&self, view: usize) -> [u32; 2] {
+        self.own_rays[view].raster
+    }
+
+    /// The way from the raster that is cast of a view to its own; None where that is the same.
+    pub(super) fn warp(&self, view: usize) -> Option<&RasterWarp> {
+        self.caster.fans.as_ref()?.warp(view)
     }
 
     /// Rays of all views.

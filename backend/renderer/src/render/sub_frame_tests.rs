@@ -1,19 +1,17 @@
 //! Frames that cast a quarter of their pixels, and come to the full picture.
 
 use super::Renderer;
-use super::test_scene::{Pictures, draw, frame, options};
+use super::test_scene::{Pictures, Way, draw, frame};
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use glam::{DVec3, UVec3};
-use protocol::{CasterChoice, FrameState, Pace, RendererOptions, SubFrame};
+use protocol::{FrameState, Pace, RendererOptions, SubFrame};
 use std::sync::Arc;
 
-const BOTH: [CasterChoice; 2] = [CasterChoice::Rays, CasterChoice::Planes];
-
-fn renderer(caster: CasterChoice) -> Renderer {
+fn renderer(way: Way) -> Renderer {
     let source: Arc<dyn BrickSource> =
         Arc::new(ProceduralVolume::new("shells", UVec3::splat(100), 1e-3).unwrap());
-    let options = RendererOptions { caster, ..options() };
+    let options = way.options();
     let mut renderer = Renderer::new(&options, source).unwrap().0;
     draw(&mut renderer, &frame(0.05)).unwrap();
     renderer
@@ -46,24 +44,18 @@ fn differing(a: &Pictures, b: &Pictures) -> f64 {
 
 #[test]
 fn a_still_view_comes_to_the_full_picture_to_the_bit() {
-    for (caster, paced) in
-        BOTH.into_iter().flat_map(|caster| [(caster, live as fn(&_, _) -> _), (caster, complete)])
+    for (way, paced) in Way::ALL.into_iter().flat_map(|way| [(way, live as fn(&_, _) -> _), (way, complete)])
     {
-        let (still, mut renderer) = (frame(0.05), renderer(caster));
+        let (still, mut renderer) = (frame(0.05), renderer(way));
         let full = draw(&mut renderer, &still).unwrap().0;
-        let casts = if caster == CasterChoice::Rays { 4 } else { 2 };
+        let casts = if way == Way::Rays { 4 } else { 2 };
         // Wherever it was, and whatever the number of the frame.
         for first in [0, 5, 11] {
             draw(&mut renderer, &paced(&moved(&still), first)).unwrap();
             for cast in 1..=6 {
                 let (pictures, report) = draw(&mut renderer, &paced(&still, first + cast)).unwrap();
                 let is_full = pictures == full;
-                assert_eq!(
-                    is_full,
-                    cast >= casts,
-                    "{caster:?} {first} {cast}: {}",
-                    differing(&pictures, &full)
-                );
+                assert_eq!(is_full, cast >= casts, "{way:?} {first} {cast}: {}", differing(&pictures, &full));
                 assert!(is_full || !report.complete, "a picture that is not complete does not say so");
             }
         }
@@ -79,24 +71,24 @@ fn path() -> Vec<FrameState> {
 
 #[test]
 fn complete_sub_frames_are_the_same_whoever_draws_the_other_projectors() {
-    for caster in BOTH {
+    for way in Way::ALL {
         let draw_all = |projectors: Vec<u32>| -> Vec<Pictures> {
             let source: Arc<dyn BrickSource> =
                 Arc::new(ProceduralVolume::new("shells", UVec3::splat(100), 1e-3).unwrap());
-            let options = RendererOptions { caster, projectors, ..options() };
+            let options = RendererOptions { projectors, ..way.options() };
             let mut renderer = Renderer::new(&options, source).unwrap().0;
             path().iter().map(|frame| draw(&mut renderer, frame).unwrap().0).collect()
         };
         let (both, left, right) = (draw_all(vec![0, 1]), draw_all(vec![0]), draw_all(vec![1]));
         for (frame, both) in both.iter().enumerate() {
-            assert_eq!(both, &[&left[frame][..], &right[frame][..]].concat(), "{caster:?} {frame}");
+            assert_eq!(both, &[&left[frame][..], &right[frame][..]].concat(), "{way:?} {frame}");
         }
     }
 }
 
 #[test]
 fn kinds_of_frames_in_turn_do_not_disturb_each_other() {
-    let (still, mut renderer) = (frame(0.05), renderer(CasterChoice::Rays));
+    let (still, mut renderer) = (frame(0.05), renderer(Way::Rays));
     let full = draw(&mut renderer, &still).unwrap().0;
     for index in 0..3 {
         draw(&mut renderer, &moved(&still)).unwrap();
@@ -110,21 +102,21 @@ fn kinds_of_frames_in_turn_do_not_disturb_each_other() {
 
 #[test]
 fn a_frame_casts_its_share_of_the_rays() {
-    for (caster, share) in [(CasterChoice::Rays, 4), (CasterChoice::Planes, 2)] {
-        let mut renderer = renderer(caster);
+    for (way, share) in [(Way::Rays, 4), (Way::Planes, 2)] {
+        let mut renderer = renderer(way);
         let full =
             draw(&mut renderer, &FrameState { sub_frame: None, ..live(&frame(0.05), 0) }).unwrap().1.rays;
         let rays: Vec<u64> =
             (1..=4).map(|i| draw(&mut renderer, &live(&frame(0.05), i)).unwrap().1.rays).collect();
-        assert_eq!(rays.iter().sum::<u64>() * share / 4, full, "{caster:?} {rays:?}");
+        assert_eq!(rays.iter().sum::<u64>() * share / 4, full, "{way:?} {rays:?}");
     }
 }
 
 #[test]
 fn what_moves_is_nearer_to_the_full_picture_than_the_one_before() {
-    for caster in BOTH {
+    for way in Way::ALL {
         let (first, second) = (frame(0.05), moved(&frame(0.05)));
-        let mut renderer = renderer(caster);
+        let mut renderer = renderer(way);
         let before = draw(&mut renderer, &first).unwrap().0;
         let truth = draw(&mut renderer, &second).unwrap().0;
         (1..=4).for_each(|i| drop(draw(&mut renderer, &live(&first, i)).unwrap()));
@@ -135,14 +127,14 @@ fn what_moves_is_nearer_to_the_full_picture_than_the_one_before() {
             squares.sqrt()
         };
         // The raster is small, and it jumps by several pixels: how much nearer is a study's affair.
-        assert!(error(&shown) < 0.75 * error(&before), "{caster:?} {} {}", error(&shown), error(&before));
+        assert!(error(&shown) < 0.75 * error(&before), "{way:?} {} {}", error(&shown), error(&before));
     }
 }
 
 #[test]
 fn a_sub_frame_that_is_left_off_is_not_taken_for_cast() {
     use std::sync::atomic::{AtomicU32, Ordering};
-    let (still, mut renderer) = (frame(0.05), renderer(CasterChoice::Rays));
+    let (still, mut renderer) = (frame(0.05), renderer(Way::Rays));
     let full = draw(&mut renderer, &still).unwrap().0;
     (0..4).for_each(|i| drop(draw(&mut renderer, &live(&still, i)).unwrap()));
     renderer.restart(&live(&moved(&still), 4)).unwrap();

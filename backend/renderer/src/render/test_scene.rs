@@ -5,7 +5,7 @@ use bricks::BrickSource;
 use display_config::{Display, Finish, Homography, Projector, Raster};
 use glam::{DAffine3, DVec2, DVec3};
 use optics::{Curve, Light, Optics, Quality};
-use protocol::{FrameReport, FrameState, RenderEvent, RendererOptions};
+use protocol::{CasterChoice, FrameReport, FrameState, RenderEvent, RendererOptions};
 use std::sync::Arc;
 
 /// Two projectors of 48 × 36 pixels, one the mirror image of the other.
@@ -57,6 +57,34 @@ pub(super) fn frame(least: f64) -> FrameState {
 /// Both projectors on the CPU, with a cache that holds any volume of these tests.
 pub(super) fn options() -> RendererOptions {
     RendererOptions::in_process(display(), vec![0, 1])
+}
+
+/// Ways to cast: rays, row planes, and row planes of projectors that hang askew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Way {
+    Rays,
+    Planes,
+    CalibratedPlanes,
+}
+
+impl Way {
+    pub(super) const ALL: [Self; 3] = [Self::Rays, Self::Planes, Self::CalibratedPlanes];
+
+    /// The options of [`options`], cast this way.
+    pub(super) fn options(self) -> RendererOptions {
+        let mut options = options();
+        options.caster = if self == Self::Rays { CasterChoice::Rays } else { CasterChoice::Planes };
+        if self == Self::CalibratedPlanes {
+            for (projector, turn) in options.display.projectors.iter_mut().zip([0.03, -0.02]) {
+                let askew = DVec2::from_angle(turn);
+                let corners = [(-0.21, 0.16), (0.205, 0.15), (0.2, -0.155), (-0.2, -0.15)];
+                let corners = corners.map(|corner| askew.rotate(DVec2::from(corner)));
+                let map = Homography::of_corners(projector.raster.size(), corners).unwrap();
+                projector.raster.screen_from_pixel = map;
+            }
+        }
+        options
+    }
 }
 
 /// The renderer of these options.

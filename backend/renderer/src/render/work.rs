@@ -4,11 +4,11 @@ use super::RenderError;
 use super::account::{Account, milliseconds};
 use super::engine::Engine;
 use super::setting::Setting;
-use crate::device::{CastJob, Gather, Part, TileGrid};
+use crate::device::{CastJob, Gather, Part, Patch, TileGrid};
 use crate::present::{Classes, lattice_of};
 use layout::FeedbackEntry;
 use needs::Needs;
-use protocol::{FrameState, Pace, Refined, StopAsked};
+use protocol::{FrameState, Pace, Refined, Refinement, StopAsked};
 use std::ops::Range;
 use std::time::Instant;
 use twin::Lattice;
@@ -22,6 +22,8 @@ pub(super) struct Pending {
     pub(super) lattice: Lattice,
     /// Whether to count their samples and to list tiles that missed something.
     pub(super) counts: bool,
+    /// Whether they mend what was resampled; the pixels are then those of the projectors' own rasters.
+    pub(super) mends: bool,
     /// These tiles of each.
     pub(super) tiles: Vec<Vec<u32>>,
 }
@@ -29,14 +31,23 @@ pub(super) struct Pending {
 impl Pending {
     /// None.
     fn none() -> Self {
-        Self { views: 0..0, lattice: Lattice::ALL, counts: false, tiles: Vec::new() }
+        Self { views: 0..0, lattice: Lattice::ALL, counts: false, mends: false, tiles: Vec::new() }
     }
 
     /// All tiles of some views.
     pub(super) fn all(setting: &Setting, views: Range<usize>, lattice: Lattice) -> Self {
         let tiles = |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, lattice).count()).collect();
         let tiles = setting.rays[views.clone()].iter().map(|rays| tiles(rays.raster)).collect();
-        Self { views, lattice, counts: true, tiles }
+        Self { views, lattice, counts: true, mends: false, tiles }
+    }
+
+    /// Those that mend the pictures of all views.
+    fn mending(setting: &Setting) -> Self {
+        let tiles =
+            |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, Lattice::ALL).count()).collect();
+        let views = 0..setting.rays.len();
+        let tiles = views.clone().map(|view| tiles(setting.own_raster(view))).collect();
+        Self { views, lattice: Lattice::ALL, counts: true, mends: true, tiles }
     }
 
     /// Whether these only look ahead: nothing is shown of them.
@@ -58,6 +69,8 @@ pub(super) struct Work {
     pub(super) pending: Pending,
     /// What the rays of the cast under way found, by places of the index; a live frame leaves it on the device.
     pub(super) found: Vec<FeedbackEntry>,
+    /// View by view, the pixels of final pictures that were mended; none before.
+    pub(super) mended: Option<Vec<Patch>>,
     /// Tiles of the cast under way of which a ray met a node that is too coarse, view by view.
     pub(super) missing: Vec<Vec<u32>>,
     /// Projectors whose pictures are final and have not been presented.
@@ -82,6 +95,7 @@ impl Work {
             account,
             pending: Pending::none(),
             found: Vec::new(),
+            mended: None,
             missing: Vec::new(),
             finals: Vec::new(),
             known: Classes::ALL,
@@ -115,7 +129,7 @@ impl Work {
 
     /// The pixels that it shows as they are cast.
     pub(super) fn lattice(&self) -> Lattice {
-        self.glance.unwrap_or_else(|| lattice_of(self.frame.sub_frame, self.setting.caster.fan.is_some()))
+        self.glance.unwrap_or_else(|| lattice_of(self.frame.sub_frame, self.setting.caster.fans.is_some()))
     }
 
     /// The view of a projector.
@@ -125,12 +139,29 @@ impl Work {
 
     /// Views of a complete frame that are cast together.
     pub(super) fn views_at_once(&self) -> usize {
-        if self.setting.caster.fan.is_some() { self.setting.rays.len() } else { 1 }
+        if self.setting.caster.fans.is_some() { self.setting.rays.len() } else { 1 }
+    }
+
+    /// Begins to mend what is resampled of pictures that are completely cast. Whether there is anything to mend that is not yet.
+    pub(super) fn begin_mending(&mut self) -> bool {
+        let is_whole = match (self.frame.pace, self.frame.refinement) {
+            // Of a complete frame every pixel is cast when its picture is begun.
+            (Pace::Live { .. }, Some(refinement)) => refinement.to >= Refinement::UNITS,
+            _ => self.known == Classes::ALL,
+        };
+        let is_resampled = self.setting.caster.fans.as_ref().is_some_and(|fans| fans.resampled() > 0);
+        let begins = is_whole && is_resampled && self.glance.is_none() && self.mended.is_none();
+        if begins {
+            self.begin_cast(Pending::mending(&self.setting));
+            self.mended = Some(vec![Patch::default(); self.setting.rays.len()]);
+        }
+        begins
     }
 
     /// Begins another cast.
     pub(super) fn begin_cast(&mut self, pending: Pending) {
         self.pending = pending;
+        self.mended = None;
         self.found.clear();
         self.missing.clear();
     }
@@ -138,15 +169,17 @@ impl Work {
     /// Casts what is pending, as far as `stop` allows.
     pub(super) fn cast(&mut self, engine: &mut Engine, stop: StopAsked) -> Result<(), RenderError> {
         let started = Instant::now();
-        let Pending { views, lattice, counts, tiles } = &self.pending;
+        let Pending { views, lattice, counts, mends, tiles } = &self.pending;
+        let rays = if *mends { &self.setting.own_rays } else { &self.setting.rays };
         let outcome = engine.device.cast(&CastJob {
             scene: &self.setting.scene,
-            views: &self.setting.rays[views.clone()],
+            views: &rays[views.clone()],
+            mends: *mends,
             first_picture: match self.pending.is_look() && self.is_of_many() {
                 true => self.setting.rays.len(),
                 false => self.picture_of(views.start),
             },
-            fan: self.setting.caster.fan.as_ref(),
+            fans: self.setting.caster.fans.as_ref(),
             needs: Needs { blends: engine.shelf.blends, spreads: engine.shelf.spreads, ..self.setting.needs },
             part: Part::Tiles { lattice: *lattice, tiles },
             gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },
@@ -154,6 +187,9 @@ impl Work {
             stop,
         })?;
         add(&mut self.found, &outcome.feedback);
+        for (known, found) in self.mended.iter_mut().flatten().zip(outcome.mended) {
+            known.extend(found);
+        }
         self.account.rays += outcome.rays;
         self.account.samples += outcome.samples;
         self.account.is_cut_short |= outcome.is_cut_short;

@@ -1,0 +1,45 @@
+//! Pixels that cannot be resampled well from what planes have cast: each gets a ray of its own.
+
+use super::job::{Patch, ViewJob};
+use super::{CastJob, CastOutcome};
+use crate::present::Bends;
+use planes::Fans;
+use rayon::prelude::*;
+use twin::{Cast, Casting, cast_pixels};
+
+/// The largest bend of colours from pixel to pixel that is left to resampling, in tolerances: a bend of b errs by about b/8 halfway,
+/// and by more beside an edge. Chosen so that resampling adds little to what planes err.
+const MOST_BEND: f32 = 160.0;
+
+/// Mends pictures of the fans' views, as far as the job's `stop` allows.
+pub(super) fn mend(casting: &Casting<f32>, job: &CastJob, fans: &Fans, pictures: &[Vec<f32>]) -> CastOutcome {
+    let mut outcome = CastOutcome::nothing(job);
+    for (index, view) in job.view_jobs() {
+        let Some(warp) = fans.warp(index) else { continue };
+        let bends = Bends::of(&pictures[index], warp, MOST_BEND * casting.scene.tolerance);
+        let cast = |&tile: &u32| (!(job.stop)()).then(|| mend_tile(casting, &view, &bends, tile));
+        let found: Vec<Option<(Patch, bool)>> = view.tiles.par_iter().map(cast).collect();
+        for (&tile, found) in view.tiles.iter().zip(found) {
+            match found {
+                None => outcome.left[index].push(tile),
+                Some((patch, is_missing)) => {
+                    outcome.rays += patch.len() as u64;
+                    outcome.mended[index].extend(patch);
+                    if job.counts && is_missing {
+                        outcome.missing_tiles[index].push(tile);
+                    }
+                }
+            }
+        }
+    }
+    outcome
+}
+
+/// The mended pixels of a tile, and whether one of their rays met a node that is too coarse.
+fn mend_tile(casting: &Casting<f32>, view: &ViewJob, bends: &Bends, tile: u32) -> (Patch, bool) {
+    let pixels: Vec<(u32, u32)> = view.pixels(tile).filter(|&(x, y)| bends.are_near(x, y)).collect();
+    let casts: Vec<Cast<f32>> = cast_pixels(casting, view.rays, &pixels);
+    let place = |(x, y): (u32, u32)| y * view.rays.raster[0] + x;
+    let patch = pixels.iter().zip(&casts).map(|(&pixel, cast)| (place(pixel), cast.rgba)).collect();
+    (patch, casts.iter().any(|cast| cast.is_missing))
+}
