@@ -22,6 +22,8 @@ pub struct Fan {
     pub(crate) offsets: Vec<f64>,
     /// The part of the raster that each view looks at; None for all of it.
     footprints: Vec<Option<Footprint>>,
+    /// The rays of each view.
+    pub(crate) rays: Vec<ProjectorRays<f32>>,
     /// The number of each view among all.
     pub views: Vec<usize>,
     /// Pixels of a row, and rows.
@@ -45,7 +47,7 @@ impl Fan {
     /// # Errors
     /// Their projectors do not lie behind the screen.
     pub(crate) fn of(
-        rays: &[ProjectorRays<f32>],
+        rays: Vec<ProjectorRays<f32>>,
         warps: Vec<Option<RasterWarp>>,
         views: Vec<usize>,
     ) -> Result<Self, &'static str> {
@@ -61,8 +63,9 @@ impl Fan {
             observer: [observer_y, observer_z],
             offsets: rays.iter().map(|view| f64::from(view.beam[0])).collect(),
             footprints: warps.iter().map(|warp| warp.as_ref().map(RasterWarp::footprint)).collect(),
-            views,
             raster: rays[0].raster,
+            rays,
+            views,
         })
     }
 
@@ -75,6 +78,7 @@ impl Fan {
         Self {
             offsets: kept.iter().map(|&(_, i)| self.offsets[i]).collect(),
             footprints: kept.iter().map(|&(_, i)| self.footprints[i].clone()).collect(),
+            rays: kept.iter().map(|&(_, i)| self.rays[i]).collect(),
             views: kept.iter().map(|&(number, _)| number).collect(),
             ..self.clone()
         }

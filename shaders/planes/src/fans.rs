@@ -43,7 +43,7 @@ impl Fans {
                 rays = common.0;
             }
             let warps = group.views.iter().map(|&view| found[view].1).collect();
-            fans.push(Fan::of(&rays, warps, group.views)?);
+            fans.push(Fan::of(rays, warps, group.views)?);
         }
         Ok(Self { fans, views: found })
     }

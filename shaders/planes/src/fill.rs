@@ -350,15 +350,17 @@ impl Line<'_> {
             if every == 1 && slab.scalars[place].is_nan() {
                 continue;
             }
-            // Three rows for each of the scalars'.
-            let at = place + 2 * (place / slab.stride) * slab.stride;
+            // So many rows for each of the scalars'.
+            let at = place + (slab.gradient_rows - 1) * (place / slab.stride) * slab.stride;
             let is_known = [0, 1, 2].iter().any(|axis| slab.gradients[at + axis * slab.stride] != 0.0);
             if is_known && !self.is_own(column) {
                 continue;
             }
-            let gradient = Gradients::new::<K>(self.casting, &self.brick, &self.ray, self.x_of(column)).at;
-            for axis in 0..3 {
-                slab.gradients[at + axis * slab.stride] = gradient.0[axis];
+            let found = Gradients::new::<K>(self.casting, &self.brick, &self.ray, self.x_of(column));
+            for (level, gradient) in [found.at, found.coarse, found.coarsest].into_iter().enumerate() {
+                for axis in (0..3).take_while(|axis| 3 * level + axis < slab.gradient_rows) {
+                    slab.gradients[at + (3 * level + axis) * slab.stride] = gradient.0[axis];
+                }
             }
         }
     }

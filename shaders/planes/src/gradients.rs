@@ -25,7 +25,10 @@ pub(crate) fn spread_gradients<S: Simd>(simd: S, slab: &mut Slab, block: usize, 
                 let first = phase - phase % every;
                 let next = slab.step(first, every);
                 let ends = [(depth, first, 0), (depth, next.0, next.1)];
-                put_between(simd, slab, block, ends, (depth, phase), (phase % every) as f32 / every as f32);
+                let share = (phase % every) as f32 / every as f32;
+                for level in 0..slab.gradient_rows / 3 {
+                    put_between(simd, slab, (block, level), ends, (depth, phase), share);
+                }
             }
         }
         if shows_in_front {
@@ -33,7 +36,9 @@ pub(crate) fn spread_gradients<S: Simd>(simd: S, slab: &mut Slab, block: usize, 
                 let share = (between - before) as f32 / (depth - before) as f32;
                 for phase in 0..slab.phases {
                     let ends = [(before, phase, 0), (depth, phase, 0)];
-                    put_between(simd, slab, block, ends, (between, phase), share);
+                    for level in 0..slab.gradient_rows / 3 {
+                        put_between(simd, slab, (block, level), ends, (between, phase), share);
+                    }
                 }
             }
         }
@@ -41,20 +46,21 @@ pub(crate) fn spread_gradients<S: Simd>(simd: S, slab: &mut Slab, block: usize, 
     }
 }
 
-/// Eight gradients that lie a `share` of the way from some to others, each of a depth, a phase, and so many entries further. Where
+/// Eight gradients of a level that lie a `share` of the way from some to others, each of a depth, a phase, and so many entries further. Where
 /// only one of both is known, it serves.
 #[inline(always)]
 fn put_between<S: Simd>(
     simd: S,
     slab: &mut Slab,
-    block: usize,
+    (block, level): (usize, usize),
     ends: [(usize, usize, usize); 2],
     (depth, phase): (usize, usize),
     share: f32,
 ) {
-    let (a, b) = (gradient(simd, slab, block, ends[0]), gradient(simd, slab, block, ends[1]));
+    let at = (block, level);
+    let (a, b) = (gradient(simd, slab, at, ends[0]), gradient(simd, slab, at, ends[1]));
     let (has_a, has_b) = (has_direction(simd, a), has_direction(simd, b));
-    let start = 3 * slab.row_start(depth, phase) + block * LANES;
+    let start = slab.gradient_start(depth, phase, level) + block * LANES;
     for axis in 0..3 {
         let (from, to) = (has_a.select(a[axis], b[axis]), has_b.select(b[axis], a[axis]));
         let at = start + axis * slab.stride;
@@ -66,10 +72,10 @@ fn put_between<S: Simd>(
 fn gradient<S: Simd>(
     simd: S,
     slab: &Slab,
-    block: usize,
+    (block, level): (usize, usize),
     (depth, phase, further): (usize, usize, usize),
 ) -> [f32x8<S>; 3] {
-    let start = 3 * slab.row_start(depth, phase) + block * LANES + further;
+    let start = slab.gradient_start(depth, phase, level) + block * LANES + further;
     each!(axis of 3 => load(simd, &slab.gradients, start + axis * slab.stride))
 }
 

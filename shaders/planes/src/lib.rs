@@ -18,6 +18,7 @@ mod leaves;
 mod march;
 mod means;
 mod need;
+mod pixels;
 mod raster;
 mod rough;
 mod row;

@@ -59,6 +59,10 @@ pub(crate) struct March<'a> {
     /// Voxels per metre of depth.
     pub(crate) speed: f64,
     pub(crate) keeps: Keeps,
+    /// γ of importance accumulation; 0 where there is none.
+    pub(crate) gamma: f32,
+    /// Whether each pixel goes through the rays' own code.
+    pub(crate) is_by_pixel: bool,
     /// The largest error of a cell's light that distances between samples may make, and that means may.
     pub(crate) tolerances: [f32; 2],
 }
@@ -145,6 +149,7 @@ impl March<'_> {
             tables: self.grid.casting.tables,
             variation: self.variation,
             thickness: extinction * step as f32,
+            gamma: self.gamma,
             tolerance: self.tolerances[0],
         };
         judge.find(simd, slab, &room.wanted, &mut room.bends, &mut room.need);
@@ -214,10 +219,12 @@ impl March<'_> {
             let tolerance = self.tolerances[1] / (1 << spacing) as f32;
             let classing = Classing { steep: self.steep, variation: self.variation, thickness, tolerance };
             classing.find_blocks(simd, slab, wanted);
-            if self.keeps.gradients {
+            if self.keeps.gradient_levels > 0 {
                 self.grid.fill_gradients::<S, K>(simd, slab, spans, wanted, self.keeps, spacing);
             }
-            classing.settle(simd, slab, wanted);
+            if !self.is_by_pixel {
+                classing.settle(simd, slab, wanted);
+            }
             for (view, state) in views.iter_mut().enumerate() {
                 if pixels_of(state, reaches[view], &need[spacing], closer, pixels) {
                     let sweep = Sweep {
@@ -228,6 +235,7 @@ impl March<'_> {
                         thickness,
                         steep: self.steep,
                         tolerance,
+                        is_by_pixel: self.is_by_pixel,
                     };
                     sweep.add(simd, state, pixels, places);
                 }

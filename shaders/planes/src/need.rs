@@ -19,6 +19,8 @@ pub(crate) struct Judge<'a> {
     pub(crate) variation: &'a Variation,
     /// Optical depth from one sample to the next where the table says 1.
     pub(crate) thickness: f32,
+    /// γ of importance accumulation; 0 where there is none.
+    pub(crate) gamma: f32,
     /// The largest error of a cell's light.
     pub(crate) tolerance: f32,
 }
@@ -86,7 +88,8 @@ impl Judge<'_> {
                     continue;
                 }
                 let mut found = worst.unwrap_or(0.0);
-                if self.variation.total(lowest, highest, reach) * per <= 0.5 {
+                let rise = self.gamma * self.variation.total_importance(lowest, highest, reach);
+                if self.variation.total(lowest, highest, reach) * per <= 0.5 && rise <= 0.5 * self.tolerance {
                     worst = Some(found);
                     continue;
                 }
@@ -104,6 +107,10 @@ impl Judge<'_> {
                     }
                     let change = self.variation.change(low[lane], high[lane], error[lane]);
                     found = found.max(self.thickness * change);
+                    if self.gamma > 0.0 {
+                        let rise = self.variation.change_of_importance(low[lane], high[lane], error[lane]);
+                        found = found.max(self.gamma * rise);
+                    }
                     worst = Some(found);
                 }
             }

@@ -50,6 +50,8 @@ pub(crate) struct Variation {
     most: Vec<f32>,
     each: Vec<[f32; 4]>,
     values: Vec<[f32; 4]>,
+    /// The same of importance; empty where there is none.
+    importance: Vec<f32>,
 }
 
 impl Variation {
@@ -62,12 +64,20 @@ impl Variation {
             most[cell] += (0..4).map(change).fold(0.0, f32::max);
             (0..4).for_each(|c| each[cell][c] += change(c));
         }
+        let mut importance = vec![0.0f32; if tables.importance.is_empty() { 0 } else { TABLE_CELLS + 1 }];
+        for (ends, node) in tables.importance.windows(2).zip(&tables.optics) {
+            let cell = (node.position as usize).min(TABLE_CELLS - 1) + 1;
+            importance[cell] += (ends[1].value - ends[0].value).abs();
+        }
+        for cell in 1..importance.len() {
+            importance[cell] += importance[cell - 1];
+        }
         for cell in 1..=TABLE_CELLS {
             most[cell] += most[cell - 1];
             (0..4).for_each(|c| each[cell][c] += each[cell - 1][c]);
         }
         let value = |cell: usize| locate(tables, cell as f32 / TABLE_CELLS as f32).value();
-        Self { most, each, values: (0..=TABLE_CELLS).map(value).collect() }
+        Self { most, each, values: (0..=TABLE_CELLS).map(value).collect(), importance }
     }
 
     /// The cells' borders around scalars from `low` to `high`, and `around` them.
@@ -83,6 +93,24 @@ impl Variation {
     pub(crate) fn total(&self, low: f32, high: f32, around: f32) -> f32 {
         let [from, to] = Self::borders(low, high, around);
         self.most[to] - self.most[from]
+    }
+
+    /// All of the variation of importance around some scalars.
+    #[inline(always)]
+    pub(crate) fn total_importance(&self, low: f32, high: f32, around: f32) -> f32 {
+        if self.importance.is_empty() {
+            return 0.0;
+        }
+        let [from, to] = Self::borders(low, high, around);
+        self.importance[to] - self.importance[from]
+    }
+
+    /// How much the importance of scalars from `low` to `high` changes if they are wrong by `error`.
+    #[inline(always)]
+    pub(crate) fn change_of_importance(&self, low: f32, high: f32, error: f32) -> f32 {
+        let [from, to] = Self::borders(low, high, error);
+        let share = 2.0 * error * TABLE_CELLS as f32 / (to - from) as f32;
+        self.total_importance(low, high, error) * share.min(1.0)
     }
 
     /// How much a mean over scalars from `low` to `high` changes if both are wrong by `error`.

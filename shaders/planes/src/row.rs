@@ -11,7 +11,8 @@ use crate::slab::Keeps;
 use crate::steep::Steep;
 use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
-use needs::{Levels, Shading};
+use needs::{Chain, Compositing, Needs, Shading, Way};
+use optics::DebugView;
 use twin::Casting;
 use twin::composite::Over;
 use twin::kernel::{Blended, Full, Kernel, Lean};
@@ -66,20 +67,23 @@ impl<'a> Planes<'a> {
     }
 
     /// Why rays have to serve these needs instead.
-    pub fn refusal(needs: &needs::Needs) -> Option<&'static str> {
-        if needs.way != needs::Way::Straight {
-            return Some("light is bent");
+    pub fn refusal(needs: &Needs) -> Option<&'static str> {
+        match needs.debug {
+            _ if needs.way != Way::Straight => Some("light is bent"),
+            Some(DebugView::Samples) => Some("the samples of each ray are counted"),
+            _ => None,
         }
-        if needs.compositing != needs::Compositing::Over || needs.tells_importance {
-            return Some("importance is accumulated");
-        }
-        if needs.chain != needs::Chain::EMPTY {
-            return Some("the scene has enhancers");
-        }
-        if needs.has_materials || needs.shading.has_detail() {
-            return Some("shading has materials or shows detail");
-        }
-        needs.debug.map(|_| "a debug view is shown")
+    }
+
+    /// Whether what follows a sample goes pixel by pixel through the rays' own code, which takes about as long as rays do.
+    pub fn is_by_pixel(needs: &Needs) -> bool {
+        let &Needs { compositing, tells_importance, chain, has_materials, shading, debug, .. } = needs;
+        compositing != Compositing::Over
+            || tells_importance
+            || chain != Chain::EMPTY
+            || has_materials
+            || shading.has_detail()
+            || debug.is_some()
     }
 
     /// Casts a row of all views into `out`: for each view RGBA, pixel by pixel.
@@ -104,7 +108,7 @@ impl<'a> Planes<'a> {
         let is_looked_at = scratch.views.iter().any(|view| !view.open.is_empty());
         let cast = if !is_looked_at {
             RowCast::default()
-        } else if needs.levels == Levels::Quadrilinear {
+        } else if needs.reads_grandparents() {
             self.march::<S, Full<Plain, Over<false>>>(simd, row, scratch)
         } else if needs.blends || needs.spreads {
             self.march::<S, Blended<Plain, Over<false>>>(simd, row, scratch)
@@ -131,7 +135,13 @@ impl<'a> Planes<'a> {
         }
         let scene = self.casting.scene;
         let along_ray = DVec3::new(0.0, self.fan.y_slope(row), 1.0);
-        let lights = self.casting.needs.shading != Shading::Plain;
+        let needs = self.casting.needs;
+        let gradient_levels = match needs.shading {
+            Shading::Unsharp | Shading::Exaggerated => 3,
+            Shading::Phong => 1,
+            Shading::Plain => usize::from(needs.chain.needs_gradient()),
+        };
+        let is_by_pixel = Self::is_by_pixel(needs);
         let march = March {
             grid: Grid {
                 casting: self.casting,
@@ -147,7 +157,9 @@ impl<'a> Planes<'a> {
                 tolerance: scene.tolerance * ORDER_ERROR,
             },
             speed: (self.volume_from_display.matrix3 * along_ray).length(),
-            keeps: Keeps { spreads: self.casting.needs.spreads, gradients: lights },
+            keeps: Keeps { spreads: needs.spreads, gradient_levels, means: !is_by_pixel },
+            gamma: if needs.compositing == Compositing::Over { 0.0 } else { scene.gamma },
+            is_by_pixel,
             tolerances: [SPACING_ERROR, MEAN_ERROR].map(|error| scene.tolerance * error),
         };
         march.run::<S, K>(simd, leaves, views, room)

@@ -38,11 +38,13 @@ pub struct Slab {
     pub(crate) scalars: Vec<f32>,
     /// Half-width of the scalars that each stands for, likewise; empty where each stands for itself.
     pub(crate) spreads: Vec<f32>,
-    /// Gradients, three rows per depth and phase; empty where no light falls.
+    /// Gradients, three rows per level, depth and phase; empty where nothing asks for any.
     pub(crate) gradients: Vec<f32>,
     /// Between depths, where anything shows: optical depth times colour, lit but for the highlight, and optical depth, of a ray
     /// along z; where light falls the gradient as well.
     pub(crate) means: Vec<f32>,
+    /// Rows of gradients per depth and phase: three for each level that is asked for.
+    pub(crate) gradient_rows: usize,
     /// Rows of means per cell and phase.
     pub(crate) mean_rows: usize,
     /// Cell by cell, the largest error of light that each block's means make; [`EMPTY`] where nothing shows.
@@ -59,7 +61,10 @@ pub struct Slab {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Keeps {
     pub(crate) spreads: bool,
-    pub(crate) gradients: bool,
+    /// Levels of gradients: none, the sample's own, or all three.
+    pub(crate) gradient_levels: usize,
+    /// Means of what lies between depths.
+    pub(crate) means: bool,
 }
 
 /// Gives a list room for `len` numbers, whatever they are.
@@ -97,11 +102,13 @@ impl Slab {
         let (rows, cells) = (self.depths.len() * self.phases, self.cells());
         let of = |keeps: bool, len: usize| if keeps { len } else { 0 };
         reserve(&mut self.scalars, rows * self.stride);
-        self.mean_rows = if keeps.gradients { LIT_ROWS } else { PLAIN_ROWS };
-        reserve(&mut self.means, self.mean_rows * cells * self.phases * self.stride);
+        self.gradient_rows = 3 * keeps.gradient_levels;
+        self.mean_rows = if keeps.gradient_levels > 0 { LIT_ROWS } else { PLAIN_ROWS };
+        let means = of(keeps.means, self.mean_rows * cells * self.phases * self.stride);
+        reserve(&mut self.means, means);
         for (list, len) in [
             (&mut self.spreads, of(keeps.spreads, rows * self.stride)),
-            (&mut self.gradients, of(keeps.gradients, 3 * rows * self.stride)),
+            (&mut self.gradients, self.gradient_rows * rows * self.stride),
         ] {
             list.truncate(len);
             reserve(list, len);
@@ -120,7 +127,7 @@ impl Slab {
                     self.spreads[at].fill(0.0);
                 }
             }
-            for start in (0..of(keeps.gradients, 3 * rows)).map(|row| row * self.stride) {
+            for start in (0..self.gradient_rows * rows).map(|row| row * self.stride) {
                 self.gradients[start + entries.start..start + entries.end].fill(0.0);
             }
         }
@@ -179,6 +186,12 @@ impl Slab {
     #[inline(always)]
     pub(crate) fn mean_start(&self, cell: usize, phase: usize) -> usize {
         self.mean_rows * self.row_start(cell, phase)
+    }
+
+    /// Where the rows of a level's gradients begin.
+    #[inline(always)]
+    pub(crate) fn gradient_start(&self, depth: usize, phase: usize, level: usize) -> usize {
+        self.gradient_rows * self.row_start(depth, phase) + 3 * level * self.stride
     }
 
     /// Where the row of a phase at a depth begins, in lists of one row for each.

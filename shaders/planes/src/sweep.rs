@@ -12,11 +12,11 @@ use twin::tables::is_vacant_around;
 
 /// Where a view's pixels meet the columns at one depth: between two columns, the same share of each for all of them.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+pub(crate) struct Place {
     /// The phases of both.
     phases: [usize; 2],
     /// Entry of pixel 0, and by how much the second column's is further.
-    entry: i64,
+    pub(crate) entry: i64,
     further: usize,
     /// The second column's share.
     part: f32,
@@ -53,13 +53,15 @@ pub(crate) struct Sweep<'a> {
     pub(crate) steep: Steep<'a>,
     /// The largest error of a cell's light that means may make.
     pub(crate) tolerance: f32,
+    /// Whether each pixel goes through the rays' own code.
+    pub(crate) is_by_pixel: bool,
 }
 
 /// Places of all cells' middles, and of all depths.
 #[derive(Debug, Default)]
 pub(crate) struct Places {
-    middles: Vec<Place>,
-    depths: Vec<Place>,
+    pub(crate) middles: Vec<Place>,
+    pub(crate) depths: Vec<Place>,
 }
 
 /// What lies between two columns, for eight pixels.
@@ -119,9 +121,14 @@ impl Sweep<'_> {
                 places.find(slab, fan, self.view);
                 is_placed = true;
             }
-            self.add_block(simd, view, places, block);
             let at = block * LANES;
-            if view.rgba[3][at..at + LANES].iter().all(|&alpha| 1.0 - alpha < termination) {
+            let is_closed = if self.is_by_pixel {
+                self.add_pixels(simd, view, places, block)
+            } else {
+                self.add_block(simd, view, places, block);
+                view.rgba[3][at..at + LANES].iter().all(|&alpha| 1.0 - alpha < termination)
+            };
+            if is_closed {
                 view.open.remove(block);
             }
         }
@@ -298,7 +305,7 @@ impl Sweep<'_> {
 
     /// What a row of a list holds at an end of a cell, where the list has `rows` rows a depth and phase.
     #[inline(always)]
-    fn fetch<S: Simd>(
+    pub(crate) fn fetch<S: Simd>(
         &self,
         simd: S,
         list: &[f32],

@@ -10,6 +10,8 @@ use glam::DAffine3;
 pub(crate) struct ViewRow {
     /// Premultiplied red, green and blue, then opacity, each for all pixels.
     pub(crate) rgba: [Vec<f32>; 4],
+    /// The largest importance so far, where the scene accumulates any.
+    pub(crate) importance: Vec<f32>,
     /// Metres of each ray per metre of depth.
     pub(crate) lengths: Vec<f32>,
     /// Half-way between the light and the eye, unit vectors, each coordinate for all pixels; empty where no light falls.
@@ -27,6 +29,8 @@ impl ViewRow {
             channel.clear();
             channel.resize(padded, 0.0);
         }
+        self.importance.clear();
+        self.importance.resize(padded, 0.0);
         self.lengths.resize(padded, 0.0);
         fan.lengths(view, row, &mut self.lengths);
         if let Some(light) = toward_light {

@@ -1,8 +1,10 @@
 //! A ray's path through one brick: light and steps.
 
+use super::along::Along;
 use super::composite::{Accumulated, Composite, Light, Sample};
 use super::debug::debug_light;
 use super::enhance::{Chain, Segment};
+use super::features::Features;
 use super::gradient::Gradients;
 use super::kernel::Kernel;
 use super::levels::Brick;
@@ -82,10 +84,32 @@ pub(super) struct Straight<'a, F> {
     pub(super) ray: &'a Ray<F>,
 }
 
+impl<F: Real> Along<F> for Straight<'_, F> {
+    #[inline(always)]
+    fn ray(&self) -> &Ray<F> {
+        self.ray
+    }
+
+    #[inline(always)]
+    fn scalar_at<K: Features>(&self, casting: &Casting<F>, t: F) -> F {
+        self.brick.scalar_at::<K>(casting, self.ray, t)
+    }
+
+    #[inline(always)]
+    fn spread_at<K: Features>(&self, casting: &Casting<F>, t: F) -> F {
+        self.brick.spread_at::<K>(casting, self.ray, t)
+    }
+
+    #[inline(always)]
+    fn gradients_at<K: Features>(&self, casting: &Casting<F>, t: F) -> Gradients<F> {
+        Gradients::new::<K>(casting, self.brick, self.ray, t)
+    }
+}
+
 /// A pair of steps of equal length, of which the second may take another way.
-pub(super) struct PairOfSteps<'a, F> {
-    pub(super) first: Straight<'a, F>,
-    pub(super) second: Straight<'a, F>,
+pub(super) struct PairOfSteps<F, W> {
+    pub(super) first: W,
+    pub(super) second: W,
     /// Where each begins on its way.
     pub(super) t: [F; 2],
     /// Metres of each.
@@ -99,8 +123,8 @@ pub(super) struct PairOfSteps<'a, F> {
 }
 
 /// One step along a way.
-struct Step<'a, F> {
-    way: Straight<'a, F>,
+struct Step<F, W> {
+    way: W,
     /// All of it as one segment.
     whole: Sample<F>,
     scalars: (F, F),
@@ -138,41 +162,41 @@ fn add_whole<F: Real, K: Kernel>(
 
 /// Adds one step, split into parts.
 #[inline(always)]
-fn add_parts<F: Real, K: Kernel>(
+fn add_parts<F: Real, K: Kernel, W: Along<F>>(
     casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
-    step: &Step<F>,
+    step: &Step<F, W>,
     parts: F,
 ) -> Accumulated<F> {
     if K::IS_FULL {
-        add_parts_apart::<F, K>(casting, chain, front, step, parts)
+        add_parts_apart::<F, K, W>(casting, chain, front, step, parts)
     } else {
-        add_parts_here::<F, K>(casting, chain, front, step, parts)
+        add_parts_here::<F, K, W>(casting, chain, front, step, parts)
     }
 }
 
 /// The same, not inlined: there is much of it in kernels with everything.
 #[inline(never)]
-fn add_parts_apart<F: Real, K: Kernel>(
+fn add_parts_apart<F: Real, K: Kernel, W: Along<F>>(
     casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
-    step: &Step<F>,
+    step: &Step<F, W>,
     parts: F,
 ) -> Accumulated<F> {
-    add_parts_here::<F, K>(casting, chain, front, step, parts)
+    add_parts_here::<F, K, W>(casting, chain, front, step, parts)
 }
 
 #[inline(always)]
-fn add_parts_here<F: Real, K: Kernel>(
+fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
     casting: &Casting<F>,
     chain: &Chain<F>,
     mut front: Accumulated<F>,
-    step: &Step<F>,
+    step: &Step<F, W>,
     parts: F,
 ) -> Accumulated<F> {
-    let Straight { brick, ray } = step.way;
+    let (way, ray) = (&step.way, step.way.ray());
     let part = step.length / parts;
     let thickness = casting.scene.extinction_per_metre * part;
     let half = F::of(0.5);
@@ -182,17 +206,17 @@ fn add_parts_here<F: Real, K: Kernel>(
     let count = parts.to_index();
     for j in 1..=count {
         let t = step.t0 + F::of_u32(j) * part;
-        let to = if j < count { brick.scalar_at::<K>(casting, ray, t) } else { end };
+        let to = if j < count { way.scalar_at::<K>(casting, t) } else { end };
         let to_located = locate(casting.tables, to);
         let middle = t - half * part;
-        let spread = brick.spread_at::<K>(casting, ray, middle);
+        let spread = way.spread_at::<K>(casting, middle);
         let located = [&from_located, &to_located];
         let plain = sample_over::<F, K::Composite>(casting, located, (from, to), spread);
         if !K::Composite::is_clear(plain.k[3]) {
             let mut gradients = Gradients::NONE;
             let enhancers_look = chain.spread::<K>(casting, middle) > F::ZERO;
             if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
-                gradients = Gradients::new::<K>(casting, brick, ray, middle);
+                gradients = way.gradients_at::<K>(casting, middle);
             }
             let mut samples = [plain];
             let segment = Segment { ray, t: middle, length: part, scalars: (from, to) };
@@ -223,11 +247,11 @@ fn add_parts_here<F: Real, K: Kernel>(
 
 /// Adds a pair of steps. Returns what was gathered, and the number of parts that each step was split into.
 #[inline(always)]
-pub(super) fn add_pair<F: Real, K: Kernel>(
+pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
-    steps: &PairOfSteps<F>,
+    steps: &PairOfSteps<F, W>,
 ) -> (Accumulated<F>, F) {
     let scene = casting.scene;
     let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range, spreads } = *steps;
@@ -239,17 +263,17 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
     let chain_spread = chain.spread::<K>(casting, middle);
     let enhancers_look = chain_spread > F::ZERO;
     if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
-        gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
+        gradients = first.gradients_at::<K>(casting, middle);
     }
     let half = F::of(0.5) * length;
     if K::ENHANCES {
         let both = F::of(2.0) * length;
         let segment = |ray, t, length, scalars| Segment { ray, t, length, scalars };
         let segments = [
-            segment(first.ray, t0 + half, length, (s0, s1)),
-            segment(second.ray, t1 + half, length, (s1, s2)),
-            segment(first.ray, middle, both, (s0, s2)),
-            segment(first.ray, middle, both, range),
+            segment(first.ray(), t0 + half, length, (s0, s1)),
+            segment(second.ray(), t1 + half, length, (s1, s2)),
+            segment(first.ray(), middle, both, (s0, s2)),
+            segment(first.ray(), middle, both, range),
         ];
         let mut samples = [pair.first, pair.second, pair.both, pair.reach];
         chain.enhance::<K, 4>(casting, &mut samples, segments, &gradients);
@@ -261,19 +285,19 @@ pub(super) fn add_pair<F: Real, K: Kernel>(
         .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
     if parts > F::ONE {
         let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };
-        let front = add_parts::<F, K>(casting, chain, front, &step, parts);
+        let front = add_parts::<F, K, W>(casting, chain, front, &step, parts);
         let step = Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length };
-        return (add_parts::<F, K>(casting, chain, front, &step, parts), parts);
+        return (add_parts::<F, K, W>(casting, chain, front, &step, parts), parts);
     }
     // The light in the middle of the pair serves both steps.
     let mut light = Lighting::NONE;
     if K::Shade::reads_gradients(casting.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
         if !enhancers_look {
-            gradients = Gradients::new::<K>(casting, first.brick, first.ray, middle);
+            gradients = first.gradients_at::<K>(casting, middle);
         }
         let material = material_of_pair::<F, K>(casting, [s0, s1, s2]);
-        light = K::Shade::lighting(casting, &gradients, first.ray, material);
+        light = K::Shade::lighting(casting, &gradients, first.ray(), material);
     }
-    let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray, t0 + half));
-    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray, t1 + half)), parts)
+    let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray(), t0 + half));
+    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray(), t1 + half)), parts)
 }

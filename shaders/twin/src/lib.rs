@@ -7,9 +7,11 @@
 //! f32 and widened; and where the composer puts one module or another into a slot, the twin has generics for shading and
 //! compositing and branches for the rest, of which twins for plain scenes have none: see [`kernel`].
 
+mod along;
 mod brick;
 mod cast;
 mod casting;
+mod cell;
 pub mod composite;
 pub mod debug;
 pub mod enhance;
@@ -40,6 +42,7 @@ mod way;
 
 pub use cast::cast_in_full;
 pub use casting::Casting;
+pub use cell::{Cell, RayOnItsWay, add_cell, still_to_come};
 pub use observer::{FeedbackCell, Observer};
 pub use outcome::Cast;
 pub use pixels::cast_pixels;

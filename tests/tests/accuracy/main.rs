@@ -22,6 +22,7 @@ mod non_finite;
 mod paper;
 mod planes;
 mod planes_shared;
+mod planes_techniques;
 mod random;
 mod random_canaries;
 mod reference;

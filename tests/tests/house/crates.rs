@@ -13,7 +13,7 @@ pub const CRATES: [(&str, &str, &[&str]); 24] = [
     ("optics", "shaders/optics", &[]),
     ("needs", "shaders/needs", &["layout", "optics"]),
     ("twin", "shaders/twin", &["display-config", "layout", "needs", "optics"]),
-    ("planes", "shaders/planes", &["layout", "needs", "twin"]),
+    ("planes", "shaders/planes", &["layout", "needs", "optics", "twin"]),
     ("shaders", "shaders", &["layout", "needs", "optics"]),
     ("bricks", "backend/bricks", &["display-config", "layout", "optics"]),
     ("volumes", "backend/volumes", &["bricks"]),

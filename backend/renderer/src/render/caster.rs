@@ -11,6 +11,7 @@ use twin::ProjectorRays;
 /// Where fewer views share planes, sampling them takes about as long as casting the views' rays.
 const FEWEST_VIEWS: usize = 24;
 const TOO_FEW_VIEWS: &str = "the display has fewer than 24 projectors, too few for row planes to save time";
+const BY_PIXEL: &str = "importance, enhancers, materials, detail and debug views go pixel by pixel through row planes, which saves no time";
 const TOO_MANY_FANS: &str =
     "the display's projectors differ: fewer than 24 of them share row planes, too few to save time";
 
@@ -41,6 +42,9 @@ impl CasterOfFrame {
         }
         if spares && all.len() < FEWEST_VIEWS {
             return Ok(because(TOO_FEW_VIEWS));
+        }
+        if spares && Planes::refusal(needs).is_none() && Planes::is_by_pixel(needs) {
+            return Ok(because(BY_PIXEL));
         }
         match (fans_of(device, needs, all, frame, dims), asked) {
             // Each fan takes about as long as so many views ray by ray.

@@ -94,7 +94,7 @@ impl<F: Real> Walk<F> {
             range,
             spreads,
         };
-        let (added, parts) = add_pair::<F, K>(casting, &self.chain, self.front, &steps);
+        let (added, parts) = add_pair::<F, K, _>(casting, &self.chain, self.front, &steps);
         self.front = added;
         self.cast.samples += 2 * (parts.to_index() - 1);
         let is_last = K::Composite::still_to_come(casting, self.front) < casting.scene.termination;

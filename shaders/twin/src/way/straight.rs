@@ -78,7 +78,7 @@ fn march<F: Real, K: Kernel>(
             range,
             spreads,
         };
-        let (added, parts) = add_pair::<F, K>(casting, chain, front, &steps);
+        let (added, parts) = add_pair::<F, K, _>(casting, chain, front, &steps);
         front = added;
         marched.samples += 2 * (parts.to_index() - 1);
         if K::Composite::still_to_come(casting, front) < casting.scene.termination {
