@@ -17,6 +17,6 @@ fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     var count = 0u;
     let colour = cast_ray(ray_of_pixel(vec2<f32>(pixel) + 0.5), &count);
     let index = pixel.y * projector.raster.x + pixel.x;
-    pixels[index] = debug_pixel(colour, count & SAMPLES);
+    pixels[index] = debug_pixel(colour, count & ~MISSING);
     counts[index] = count;
 }

@@ -6,12 +6,6 @@ use bytemuck::{Pod, Zeroable};
 pub const TILE_EDGE: u32 = 8;
 /// Set in a pixel's count of samples where its ray met a node that is too coarse.
 pub const MISSING: u32 = 0x8000_0000;
-/// Set in a pixel's count of samples where the driver left a loop before the ray was at its end: Mesa's llvmpipe does, without
-/// a word, when the rays that it casts together have gone round loops 65,535 times. What is lost within the last pair of steps
-/// alone goes unnoticed.
-pub const CUT_SHORT: u32 = 0x4000_0000;
-/// The rest of a pixel's count: samples.
-pub const SAMPLES: u32 = !(MISSING | CUT_SHORT);
 
 /// The uniform block of one view. Every member fills 16 bytes.
 #[repr(C)]

@@ -4,8 +4,7 @@ use layout::present::{
     CODES, CURVE_NUMBERS, DITHER_BITS, HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED, MOST_PAIRS, NOWHERE,
 };
 use layout::{
-    CODE_OF_ZERO, CODES_PER_LEVEL, CUT_SHORT, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, SAMPLES, TILE_EDGE,
-    binding, brick,
+    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, TILE_EDGE, binding, brick,
 };
 use optics::MOST_ENHANCERS;
 
@@ -34,8 +33,6 @@ pub(super) fn wgsl() -> String {
         ("NO_NODE", NO_NODE),
         ("NO_SLOT", NO_SLOT),
         ("MISSING", MISSING),
-        ("CUT_SHORT", CUT_SHORT),
-        ("SAMPLES", SAMPLES),
         ("TILE_EDGE", TILE_EDGE),
         ("DITHER_BITS", DITHER_BITS),
         ("HAS_WARP", HAS_WARP),

@@ -50,8 +50,7 @@ fn is_in_volume(point: vec3<f32>) -> bool {
     return all(point >= vec3<f32>(0.0)) && all(point <= scene.volume.xyz);
 }
 
-// Colour and opacity of a ray, then the number of samples, with MISSING where a node was too coarse, and CUT_SHORT where the
-// driver left a loop. A CPU leaves none: the twin has no such mark.
+// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
 fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     let span = clip_to_volume(eye_ray);
     if span.x >= span.y {
@@ -59,15 +58,12 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     }
     var walk = start_walk(eye_ray, span.x);
     let longest_way = scene.resolution.w * LONGEST_WAY_DIAGONALS;
-    var goes_on = true;
     while walk.at != NO_NODE && walk.bent.way < longest_way {
-        goes_on = go_on(&walk);
-        if !goes_on {
+        if !go_on(&walk) {
             break;
         }
     }
-    let is_at_end = !goes_on || walk.at == NO_NODE || walk.bent.way >= longest_way;
-    *count = walk.count | select(CUT_SHORT, 0u, is_at_end);
+    *count = walk.count;
     return vec4<f32>(walk.front.rgb, walk.front.alpha);
 }
 

@@ -4,8 +4,6 @@ struct Marched {
     front: Accumulated,
     samples: u32,
     is_done: bool,
-    // Whether the driver left the loop before its end.
-    is_cut_short: bool,
 }
 
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out too
@@ -17,7 +15,7 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
     var pairs = max(1.0, ceil(span / (2.0 * longest_step(voxel, brick, ray, t_in))));
     var step = 0.5 * span / pairs;
     var front = front_of_brick;
-    var marched = Marched(front, 0u, false, false);
+    var marched = Marched(front, 0u, false);
     var known = false;
     var s2 = 0.0;
     var i = 0.0;
@@ -59,13 +57,11 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
             break;
         }
     }
-    marched.is_cut_short = !marched.is_done && i < pairs;
     marched.front = front;
     return marched;
 }
 
-// Colour and opacity of a ray, then the number of samples, with MISSING where a node was too coarse, and CUT_SHORT where the
-// driver left a loop. A CPU leaves none: the twin has no such mark.
+// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
 fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     var front = nothing_accumulated();
     let span = clip_to_volume(ray);
@@ -76,7 +72,6 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     follow_chain(ray);
     var t = span.x;
     var at = leaf_at(point_on(ray, t), ray);
-    var is_at_end = false;
     while at != NO_NODE {
         let node = nodes[at];
         let exit = exit_of(node, ray);
@@ -93,23 +88,18 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
                 front = marched.front;
                 is_done = marched.is_done;
                 *count += marched.samples;
-                *count |= select(0u, CUT_SHORT, marched.is_cut_short);
                 t = until;
             }
-            *count |= select(0u, CUT_SHORT, t < t_out && !is_done);
             *count |= select(0u, MISSING, node.deficit > 0.0);
             if is_done {
-                is_at_end = true;
                 break;
             }
         }
         if t_out >= span.y {
-            is_at_end = true;
             break;
         }
         t = t_out;
         at = leaf_beyond(node, exit.axis, point_on(ray, t), ray);
     }
-    *count |= select(0u, CUT_SHORT, at != NO_NODE && !is_at_end);
     return vec4<f32>(front.rgb, front.alpha);
 }

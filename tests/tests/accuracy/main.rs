@@ -6,7 +6,6 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod blending;
-mod cut_short;
 mod debug_views;
 mod deviation;
 mod devices;

@@ -190,8 +190,6 @@ pub struct CastOutcome {
     pub rays: u64,
     /// Samples taken; 0 where they were not asked for.
     pub samples: u64,
-    /// Whether the driver left rays before their end.
-    pub is_cut_short: bool,
 }
 
 impl CastOutcome {

@@ -12,8 +12,6 @@ pub(super) struct Account {
     pub(super) rays: u64,
     /// Samples along them.
     pub(super) samples: u64,
-    /// Whether the driver left some of them before their end.
-    pub(super) is_cut_short: bool,
     /// Rays that are final.
     pub(super) done: u64,
     /// Rays of the frame.
@@ -29,7 +27,6 @@ impl Account {
             stages: Stages::default(),
             rays: 0,
             samples: 0,
-            is_cut_short: false,
             done: 0,
             total,
             bricks_loaded: 0,

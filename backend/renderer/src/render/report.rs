@@ -8,8 +8,6 @@ use protocol::{FrameReport, Upkeep};
 
 /// Damaged bricks that a report names one by one.
 const MOST_DAMAGES: usize = 16;
-/// Why a frame lacks light that no brick would bring.
-const CUT_SHORT: &str = "the graphics driver gave up on rays of too many steps before their end; take longer steps, or the device cpu";
 
 impl Engine {
     /// What both kinds of frames report; `short` says why a frame is not complete, damage apart.
@@ -22,9 +20,7 @@ impl Engine {
         let damage = &self.stock.damage;
         let guessed = (work.known != Classes::ALL)
             .then(|| "some pixels are reconstructed from those beside them".to_owned());
-        let cut_short = work.account.is_cut_short.then(|| CUT_SHORT.to_owned());
-        let shortfall = short.or(guessed).into_iter().chain(cut_short).chain(self.damages());
-        let shortfall = shortfall.collect::<Vec<_>>().join("; ");
+        let shortfall = short.or(guessed).into_iter().chain(self.damages()).collect::<Vec<_>>().join("; ");
         FrameReport {
             frame: work.frame.index,
             backend: self.options.backend,

@@ -192,7 +192,6 @@ impl Work {
         }
         self.account.rays += outcome.rays;
         self.account.samples += outcome.samples;
-        self.account.is_cut_short |= outcome.is_cut_short;
         self.missing.resize(self.pending.tiles.len(), Vec::new());
         for (known, found) in self.missing.iter_mut().zip(outcome.missing_tiles) {
             known.extend(found);

@@ -5,7 +5,7 @@ use super::readback::Readback;
 use super::storage::{Storage, uniform};
 use crate::device::job::{CastOutcome, ViewJob};
 use crate::device::{CastJob, DeviceError};
-use layout::{CUT_SHORT, MISSING, SAMPLES, ViewBlock};
+use layout::{MISSING, ViewBlock};
 use twin::Tiling;
 
 /// The buffers of one view.
@@ -77,9 +77,8 @@ impl ViewBuffers {
             let mut is_missing = false;
             for (x, y) in view.pixels(tile) {
                 let count = counts[y as usize * self.raster[0] as usize + x as usize];
-                outcome.samples += u64::from(count & SAMPLES);
+                outcome.samples += u64::from(count & !MISSING);
                 is_missing |= count & MISSING != 0;
-                outcome.is_cut_short |= count & CUT_SHORT != 0;
             }
             if is_missing {
                 outcome.missing_tiles[index].push(tile);
