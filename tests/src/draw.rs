@@ -38,8 +38,11 @@ pub struct With {
 }
 
 impl With {
+    /// Row planes, at the defaults of the device that has them.
+    pub const PLANES: Self = Self { caster: CasterChoice::Planes, ..Self::device(DeviceChoice::Cpu) };
+
     /// A device at its defaults.
-    pub fn device(device: DeviceChoice) -> Self {
+    pub const fn device(device: DeviceChoice) -> Self {
         Self { device, filter: FilterChoice::Auto, caster: CasterChoice::Rays, cache_bytes: 256 << 20 }
     }
 }

@@ -10,7 +10,7 @@ use needs::tables::Tables;
 use needs::{Compositing, Needs, Way};
 use protocol::FrameState;
 use reference::StoredField;
-use renderer::device::{CastJob, Device, DevicePicture, Gather, NEVER, Part};
+use renderer::device::{CastJob, CastOutcome, Device, DevicePicture, Gather, NEVER, Part};
 use renderer::working_set::{Cut, IndexRules, build_index, refresh, settle};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -218,23 +218,33 @@ impl TwinScene {
     }
 }
 
-/// Every pixel of a view of what was loaded, and the number of samples taken.
-pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>, u64) {
+/// Casts every pixel of a view of what was loaded, ray by ray.
+pub fn cast(
+    device: &mut Device,
+    needs: Needs,
+    view: &View<f32>,
+    gather: Gather,
+    counts: bool,
+) -> CastOutcome {
     let View { scene, rays } = view;
     let (views, part) = (std::slice::from_ref(rays), Part::Every(Lattice::ALL));
-    let outcome = device
-        .cast(&CastJob {
-            scene,
-            views,
-            first_picture: 0,
-            needs,
-            fans: None,
-            mends: false,
-            part,
-            gather: Gather::Own,
-            counts: true,
-            stop: NEVER,
-        })
-        .expect("the device stays");
+    let job = CastJob {
+        scene,
+        views,
+        first_picture: 0,
+        needs,
+        fans: None,
+        mends: false,
+        part,
+        gather,
+        counts,
+        stop: NEVER,
+    };
+    device.cast(&job).expect("the device stays")
+}
+
+/// Every pixel of a view of what was loaded, and the number of samples taken.
+pub fn picture(device: &mut Device, needs: Needs, view: &View<f32>) -> (Vec<f32>, u64) {
+    let outcome = cast(device, needs, view, Gather::Own, true);
     (device.picture(DevicePicture::Cast(0)).expect("the device stays").into_owned(), outcome.samples)
 }

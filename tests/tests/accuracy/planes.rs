@@ -20,7 +20,7 @@ fn display() -> Display {
 
 /// What planes keep at default quality, about 1.4 times what they err: most of it is what a scalar half-way between two samples
 /// is off, where it was thought to be small enough.
-fn promised(display: &Display) -> Vec<(TestScene, Limits)> {
+pub fn promised(display: &Display) -> Vec<(TestScene, Limits)> {
     let mut all = vec![
         (scenes::shells(display), Limits::of_255(0.25, 4.0, 6.0)),
         (scenes::marschner_lobb(display), Limits::of_255(0.9, 10.0, 11.0)),
@@ -37,8 +37,7 @@ fn errors_of(display: &Display, scene: &TestScene, quality: Quality) -> Errors {
     let mut frame = scene.frame.clone();
     let truth = truth(display, &frame, &scene.source, &COMPARED, 2);
     frame.quality = quality;
-    let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
-    let drawn = draw(display, &frame, &scene.source, &PROJECTORS, with);
+    let drawn = draw(display, &frame, &scene.source, &PROJECTORS, With::PLANES);
     assert_eq!(drawn.report.caster, SHARED);
     assert!(drawn.report.complete, "{}", drawn.report.shortfall);
     errors(&drawn.images, &truth)
@@ -68,8 +67,7 @@ fn a_medium_that_is_too_thick_by_a_twentieth_is_found() {
     let truth = truth(&display, &scene.frame, &scene.source, &COMPARED, 2);
     let mut frame = scene.frame.clone();
     frame.optics.extinction = scenes::scaled(&frame.optics.extinction, 1.05);
-    let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
-    let spoiled = errors(&draw(&display, &frame, &scene.source, &PROJECTORS, with).images, &truth);
+    let spoiled = errors(&draw(&display, &frame, &scene.source, &PROJECTORS, With::PLANES).images, &truth);
     assert!(!limits.hold(&spoiled), "{spoiled}");
 }
 
@@ -169,8 +167,7 @@ fn what_planes_cannot_draw_is_refused_by_name() {
     let scene = scenes::shells(&display);
     let mut frame = scene.frame.clone();
     frame.optics.refraction = Some(Curve::new(vec![(0.0, 1.0), (1.0, 1.2)]).unwrap());
-    let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
-    let (mut renderer, _) = draw::renderer(&display, &scene.source, &PROJECTORS, with);
+    let (mut renderer, _) = draw::renderer(&display, &scene.source, &PROJECTORS, With::PLANES);
     let error = renderer.draw(&frame, &mut |_| {}).unwrap_err().to_string();
     assert_eq!(error, "row planes cannot draw this frame: light is bent; --caster rays can");
     // The renderer goes on.

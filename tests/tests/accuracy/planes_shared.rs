@@ -1,21 +1,16 @@
 //! Row planes of displays whose projectors differ: at several distances from the screen, and calibrated.
 
+use super::planes::promised;
 use display_config::Display;
 use lightloom_tests::askew;
-use lightloom_tests::compare::{Errors, Limits, errors, truth};
+use lightloom_tests::compare::{Errors, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
-use protocol::{Caster, CasterChoice, DeviceChoice};
+use protocol::{Caster, CasterChoice};
 
 const ALL: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 const COMPARED: [u32; 2] = [4, 5];
 const SEED: u64 = 7;
-const PLANES: With = With {
-    device: DeviceChoice::Cpu,
-    filter: protocol::FilterChoice::Auto,
-    caster: CasterChoice::Planes,
-    cache_bytes: 256 << 20,
-};
 
 fn calibrated() -> Display {
     askew::calibrated(scenes::small_desk8(160, 120), SEED)
@@ -29,27 +24,14 @@ fn drawn(display: &Display, scene: &TestScene, with: With) -> (Errors, Caster) {
     (errors(&drawn.images, &truth), drawn.report.caster)
 }
 
-fn scenes_of(display: &Display) -> Vec<TestScene> {
-    let mut all = vec![
-        scenes::shells(display),
-        scenes::marschner_lobb(display),
-        scenes::sparse_vessels(display),
-        scenes::stored_vessels(display),
-        scenes::noise(display),
-    ];
-    all.extend(scenes::cranium(display));
-    all.extend(scenes::head_mri(display));
-    all
-}
-
 #[test]
 fn projectors_at_several_distances_share_planes_with_those_at_their_own() {
     let _turn = draw::turn();
     let even = scenes::small_desk8(64, 48);
     let display = askew::in_rows(even.clone(), &[0.0, 10.0, 0.0]);
-    for scene in scenes_of(&display) {
-        let (found, caster) = drawn(&display, &scene, PLANES);
-        let (alike, _) = drawn(&even, &scene, PLANES);
+    for (scene, _) in promised(&display) {
+        let (found, caster) = drawn(&display, &scene, With::PLANES);
+        let (alike, _) = drawn(&even, &scene, With::PLANES);
         println!("{:20} {found}; of one distance {alike}", scene.name);
         assert_eq!(caster, Caster::Planes { views: 8, fans: 2, resampled: 0 });
         assert_eq!(caster.to_string(), "row planes in 2 groups, for 8 views");
@@ -58,34 +40,23 @@ fn projectors_at_several_distances_share_planes_with_those_at_their_own() {
     }
 }
 
-/// What level projectors keep, see `planes`: calibrated ones have to keep it, too.
-fn promised(display: &Display) -> Vec<(TestScene, Limits)> {
-    let mut all = vec![
-        (scenes::shells(display), Limits::of_255(0.25, 4.0, 6.0)),
-        (scenes::marschner_lobb(display), Limits::of_255(0.9, 10.0, 11.0)),
-        (scenes::sparse_vessels(display), Limits::of_255(0.3, 6.0, 13.0)),
-        (scenes::stored_vessels(display), Limits::of_255(0.35, 8.0, 13.0)),
-        (scenes::noise(display), Limits::of_255(2.0, 13.0, 16.0)),
-    ];
-    all.extend(scenes::cranium(display).map(|scene| (scene, Limits::of_255(0.5, 6.0, 9.0))));
-    all.extend(scenes::head_mri(display).map(|scene| (scene, Limits::of_255(0.7, 8.0, 12.0))));
-    all
-}
-
 #[test]
 fn calibrated_projectors_keep_what_planes_promise() {
     let _turn = draw::turn();
     let display = calibrated();
     let even = scenes::small_desk8(160, 120);
     for (scene, limits) in promised(&display) {
-        let (found, caster) = drawn(&display, &scene, PLANES);
-        let (level, _) = drawn(&even, &scene, PLANES);
+        let (found, caster) = drawn(&display, &scene, With::PLANES);
+        let (level, _) = drawn(&even, &scene, With::PLANES);
         println!("{:20} {found}; level {level}", scene.name);
         assert_eq!(caster, Caster::Planes { views: 8, fans: 1, resampled: 8 });
         assert!(limits.hold(&found), "{}: {found}", scene.name);
     }
     assert!(
-        drawn(&display, &scenes::shells(&display), PLANES).1.to_string().contains("8 pictures are resampled")
+        drawn(&display, &scenes::shells(&display), With::PLANES)
+            .1
+            .to_string()
+            .contains("8 pictures are resampled")
     );
 }
 
@@ -95,7 +66,7 @@ fn a_calibration_that_is_not_followed_is_found() {
     let (display, even) = (calibrated(), scenes::small_desk8(160, 120));
     let (scene, limits) = promised(&display).swap_remove(1);
     let truth = truth(&display, &scene.frame, &scene.source, &COMPARED, 3);
-    let spoiled = errors(&draw(&even, &scene.frame, &scene.source, &ALL, PLANES).images, &truth);
+    let spoiled = errors(&draw(&even, &scene.frame, &scene.source, &ALL, With::PLANES).images, &truth);
     assert!(!limits.hold(&spoiled), "{spoiled}");
 }
 
@@ -104,8 +75,8 @@ fn resampled_pictures_are_the_same_whoever_draws_the_other_projectors() {
     let _turn = draw::turn();
     let display = calibrated();
     let scene = scenes::marschner_lobb(&display);
-    let together = draw(&display, &scene.frame, &scene.source, &ALL, PLANES).images;
-    let alone = draw(&display, &scene.frame, &scene.source, &[5, 2], PLANES).images;
+    let together = draw(&display, &scene.frame, &scene.source, &ALL, With::PLANES).images;
+    let alone = draw(&display, &scene.frame, &scene.source, &[5, 2], With::PLANES).images;
     for picture in &alone {
         assert!(picture.rgba == together[picture.projector as usize].rgba, "{}", picture.projector);
         assert!(picture.rgba.iter().any(|&c| c > 0.1), "a black picture proves nothing");
@@ -118,7 +89,7 @@ fn auto_counts_the_views_that_share_planes() {
     let wide = Display::load("holo72").unwrap().with_rasters(32, 24);
     let caster = |display: Display| {
         let scene = scenes::shells(&display);
-        let with = With { caster: CasterChoice::Auto, ..PLANES };
+        let with = With { caster: CasterChoice::Auto, ..With::PLANES };
         draw(&display, &scene.frame, &scene.source, &[0, 5, 70], with).report.caster.to_string()
     };
     assert_eq!(caster(askew::in_rows(wide.clone(), &[0.0, 10.0])), "row planes in 2 groups, for 3 views");

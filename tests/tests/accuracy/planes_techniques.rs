@@ -57,11 +57,10 @@ fn planes_cast_every_technique_but_refraction() {
         let mut all: Vec<_> = named.filter(|scene| scene.frame.optics.refraction.is_none()).collect();
         all.push(accumulated(&base, "MImDA, as published", MimdaForm::Paper));
         all.push(accumulated(&base, "MImDA, consistent", MimdaForm::Consistent));
-        let with = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
-        let plain = draw::draw(&display, &base.frame, &base.source, &ALL, with);
+        let plain = draw::draw(&display, &base.frame, &base.source, &ALL, With::PLANES);
         for scene in all {
             let truth = truth_of(&display, &scene);
-            let drawn = draw::draw(&display, &scene.frame, &scene.source, &ALL, with);
+            let drawn = draw::draw(&display, &scene.frame, &scene.source, &ALL, With::PLANES);
             assert!(drawn.report.complete, "{}", drawn.report.shortfall);
             assert!(matches!(drawn.report.caster, Caster::Planes { .. }), "{:?}", drawn.report.caster);
             let found = compare::errors(&drawn.images, &truth);

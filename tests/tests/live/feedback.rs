@@ -4,6 +4,7 @@ use bricks::{BRICK_VOXELS, NodeKey};
 use display_config::Display;
 use layout::FeedbackEntry;
 use lightloom_tests::draw;
+use lightloom_tests::presented;
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{AdapterWish, DeviceChoice, FilterChoice};
@@ -58,21 +59,7 @@ impl Stage {
     }
 
     fn cast(&mut self, view: usize, gather: Gather, counts: bool) -> CastOutcome {
-        let View { scene, rays } = &self.views[view];
-        let (views, part, needs) = (std::slice::from_ref(rays), Part::Every(Lattice::ALL), self.scene.needs);
-        let job = CastJob {
-            scene,
-            views,
-            first_picture: 0,
-            needs,
-            fans: None,
-            mends: false,
-            part,
-            gather,
-            counts,
-            stop: NEVER,
-        };
-        self.device.cast(&job).unwrap()
+        presented::cast(&mut self.device, self.scene.needs, &self.views[view], gather, counts)
     }
 
     fn own(&mut self, view: usize) -> Vec<FeedbackEntry> {

@@ -10,7 +10,7 @@ use lightloom_tests::faulty_source::{FOR_EVER, Fault, FaultySource};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::scenes::{self, TestScene};
 use optics::{Light, Quality};
-use protocol::{Caster, CasterChoice, DeviceChoice, FrameReport, FrameState, Pace, ProjectorImage};
+use protocol::{Caster, DeviceChoice, FrameReport, FrameState, Pace, ProjectorImage};
 use renderer::Renderer;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
@@ -103,9 +103,7 @@ fn a_still_view_comes_to_rest_at_the_complete_picture_to_the_bit() {
             }
         }
     }
-    let with =
-        With { cache_bytes: 256 << 20, caster: CasterChoice::Planes, ..With::device(DeviceChoice::Cpu) };
-    let planes = || draw::renderer(&display, &scene.source, &PROJECTORS, with).0;
+    let planes = || draw::renderer(&display, &scene.source, &PROJECTORS, With::PLANES).0;
     let (complete, report) = draw_with(&mut planes(), &plain);
     assert!(
         report.complete && report.caster == Caster::Planes { views: 2, fans: 1, resampled: 0 },

@@ -36,18 +36,15 @@ impl Pending {
 
     /// All tiles of some views.
     pub(super) fn all(setting: &Setting, views: Range<usize>, lattice: Lattice) -> Self {
-        let tiles = |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, lattice).count()).collect();
-        let tiles = setting.rays[views.clone()].iter().map(|rays| tiles(rays.raster)).collect();
-        Self { views, lattice, counts: true, mends: false, tiles }
+        let rasters = setting.rays[views.clone()].iter().map(|rays| rays.raster);
+        Self { lattice, counts: true, mends: false, tiles: every_tile(rasters, lattice), views }
     }
 
     /// Those that mend the pictures of all views.
     fn mending(setting: &Setting) -> Self {
-        let tiles =
-            |[width, height]: [u32; 2]| (0..TileGrid::new(width, height, Lattice::ALL).count()).collect();
-        let views = 0..setting.rays.len();
-        let tiles = views.clone().map(|view| tiles(setting.own_raster(view))).collect();
-        Self { views, lattice: Lattice::ALL, counts: true, mends: true, tiles }
+        let (views, lattice) = (0..setting.rays.len(), Lattice::ALL);
+        let rasters = views.clone().map(|view| setting.own_raster(view));
+        Self { lattice, counts: true, mends: true, tiles: every_tile(rasters, lattice), views }
     }
 
     /// Whether these only look ahead: nothing is shown of them.
@@ -58,6 +55,11 @@ impl Pending {
     pub(super) fn is_empty(&self) -> bool {
         self.tiles.iter().all(Vec::is_empty)
     }
+}
+
+/// All tiles of some rasters, those of each in a list.
+fn every_tile(rasters: impl Iterator<Item = [u32; 2]>, lattice: Lattice) -> Vec<Vec<u32>> {
+    rasters.map(|[width, height]| (0..TileGrid::new(width, height, lattice).count()).collect()).collect()
 }
 
 /// A frame under work.
