@@ -222,11 +222,12 @@ impl<'a> Controlled<'a> {
 
     /// What is shown of an instant once so many units are cast, and its ζ.
     fn filled(&mut self, instant: usize, done: u32) -> f64 {
-        let before = &self.before;
-        let filled = self.footage.pictures(instant).iter().enumerate();
-        let filled =
-            filled.map(|(view, image)| fill(image.rgba.clone(), before.get(view), &self.order, done));
-        self.filled = filled.collect();
+        let pictures = self.footage.pictures(instant);
+        self.filled.resize_with(pictures.len(), Filled::default);
+        for (view, (image, filled)) in pictures.iter().zip(&mut self.filled).enumerate() {
+            let last = std::mem::take(filled);
+            *filled = fill(image.rgba.clone(), self.before.get(view), last, &self.order, done);
+        }
         let pixels: usize = self.filled.iter().map(|one| one.rgba.len() / 4).sum();
         self.filled.iter().map(|one| one.spatial).sum::<u64>() as f64 * ERROR_UNIT / pixels.max(1) as f64
     }

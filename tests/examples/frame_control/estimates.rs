@@ -5,7 +5,7 @@ use frontend::tune::Footage;
 use lightloom_tests::random::Random;
 use lightloom_tests::results::Results;
 use protocol::ProjectorImage;
-use renderer::refine::{ERROR_UNIT, Grain, Order, UNITS, change_at, fill, sparse};
+use renderer::refine::{ERROR_UNIT, Filled, Grain, Order, UNITS, change_at, fill, sparse};
 
 /// Pictures of each scenario that are looked at.
 const PICTURES: usize = 150;
@@ -53,7 +53,7 @@ fn spatial(footage: &Footage, order: &Order, random: &mut Random) -> Pair {
     let (instant, done) = (instant(footage, random), 1 + random.below(u64::from(UNITS) - 1) as u32);
     let (mut estimate, mut truth, mut pixels) = (0, 0.0, 0);
     for image in footage.pictures(instant) {
-        let filled = fill(image.rgba.clone(), None, order, done);
+        let filled = fill(image.rgba.clone(), None, Filled::default(), order, done);
         estimate += filled.spatial;
         truth += distance(&filled.rgba, &image.rgba);
         pixels += image.rgba.len() / 4;

@@ -1,8 +1,8 @@
 //! The CPU device: the kernels' f32 twin on all cores.
 
-use super::job::ViewJob;
 use super::mend::mend;
 use super::rows::cast_rows;
+use super::tiles::{TileFound, cast_tiles};
 use super::under_way::UnderWay;
 use super::{
     CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShowJob, TaggedFeedback,
@@ -11,9 +11,8 @@ use crate::present::{Thresholds, ease, reconstruct};
 use bricks::BRICK_VOXELS;
 use layout::NodeRecord;
 use needs::tables::Tables;
-use rayon::prelude::*;
 use std::borrow::Cow;
-use twin::{Cast, Casting, FeedbackCell, Observer, Volume, cast_pixels};
+use twin::{Casting, FeedbackCell, Observer, Volume};
 
 /// The brick cache in main memory, and the pictures.
 #[derive(Debug)]
@@ -33,9 +32,6 @@ pub struct CpuDevice {
     /// The tables of earlier frames, which are there at once.
     tables_of_frames: UnderWay<TaggedFeedback>,
 }
-
-/// The rays of one tile.
-type TileCasts = Vec<((u32, u32), Cast<f32>)>;
 
 impl CpuDevice {
     /// A device with room for `slots` bricks, and for their standard deviations if they have any.
@@ -108,21 +104,20 @@ impl CpuDevice {
             return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
         }
         let mut outcome = CastOutcome::nothing(job);
-        for (index, mut view) in job.view_jobs() {
-            let cast = |&tile: &u32| (!(job.stop)()).then(|| cast_tile(&casting, &view, tile));
-            let casts: Vec<Option<TileCasts>> = view.tiles.par_iter().map(cast).collect();
-            let (left, cast) = part(&view.tiles, &casts);
-            outcome.left[index] = left;
-            view.tiles = cast.into();
-            let casts: Vec<TileCasts> = casts.into_iter().flatten().collect();
-            put_down(&casts, &view, &mut self.pictures[view.picture]);
-            outcome.rays += casts.iter().map(|casts| casts.len() as u64).sum::<u64>();
-            if job.counts {
-                let is_missing = |casts: &TileCasts| casts.iter().any(|(_, cast)| cast.is_missing);
-                let tiles = view.tiles.iter().zip(&casts).filter(|(_, casts)| is_missing(casts));
-                outcome.missing_tiles[index] = tiles.map(|(&tile, _)| tile).collect();
-                outcome.samples +=
-                    casts.iter().flatten().map(|(_, cast)| u64::from(cast.samples)).sum::<u64>();
+        for (index, view) in job.view_jobs() {
+            let found = cast_tiles(&casting, &view, job.stop, &mut self.pictures[view.picture]);
+            for (&tile, found) in view.tiles.iter().zip(found) {
+                let Some(TileFound { rays, samples, is_missing }) = found else {
+                    outcome.left[index].push(tile);
+                    continue;
+                };
+                outcome.rays += rays;
+                if job.counts {
+                    outcome.samples += samples;
+                    if is_missing {
+                        outcome.missing_tiles[index].push(tile);
+                    }
+                }
             }
         }
         outcome.feedback = own.iter().map(FeedbackCell::entry).collect();
@@ -184,30 +179,7 @@ impl CpuDevice {
     }
 }
 
-/// The tiles that were left, and those that were cast.
-fn part(tiles: &[u32], casts: &[Option<TileCasts>]) -> (Vec<u32>, Vec<u32>) {
-    let (cast, left): (Vec<_>, Vec<_>) = tiles.iter().zip(casts).partition(|(_, cast)| cast.is_some());
-    let tiles = |list: Vec<(&u32, _)>| list.into_iter().map(|(&tile, _)| tile).collect();
-    (tiles(left), tiles(cast))
-}
-
-/// Puts the colours of rays into their view's picture.
-fn put_down(casts: &[TileCasts], view: &ViewJob, picture: &mut Vec<f32>) {
-    let [width, height] = view.rays.raster.map(|n| n as usize);
-    picture.resize(4 * width * height, 0.0);
-    for &((x, y), cast) in casts.iter().flatten() {
-        let at = 4 * (y as usize * width + x as usize);
-        picture[at..at + 4].copy_from_slice(&cast.rgba);
-    }
-}
-
 /// An empty table for an index.
 fn no_feedback(nodes: &[NodeRecord]) -> Vec<FeedbackCell> {
     nodes.iter().map(|_| FeedbackCell::default()).collect()
-}
-
-fn cast_tile(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
-    let pixels: Vec<(u32, u32)> = view.pixels(tile).collect();
-    let casts = cast_pixels(casting, view.rays, &pixels);
-    pixels.into_iter().zip(casts).collect()
 }

@@ -13,6 +13,7 @@ mod mend;
 mod rows;
 mod show;
 mod tag;
+mod tiles;
 mod under_way;
 
 pub use choose::{CacheWish, ChosenDevice, open_device};

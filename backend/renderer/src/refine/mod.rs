@@ -3,6 +3,7 @@
 //! Rays go through centres of pixels from the first on, at full quality. So none is thrown away, and the last of them
 //! completes the picture that is cast without any order, to the bit.
 
+mod around;
 mod fill;
 mod order;
 mod temporal;

@@ -52,12 +52,15 @@ impl Engine {
         let cast: Result<Vec<Vec<f32>>, DeviceError> = (0..work.setting.rays.len())
             .map(|view| Ok(self.device.picture(DevicePicture::Cast(work.picture_of(view)))?.into_owned()))
             .collect();
+        let cast = cast?;
         let before = &self.refining.before;
-        let make = |(view, cast): (usize, Vec<f32>)| {
+        let mut last = std::mem::take(&mut self.refining.filled);
+        last.resize_with(cast.len(), Filled::default);
+        let make = |(view, (cast, last)): (usize, (Vec<f32>, Filled))| {
             let before = before.get(view).filter(|before| before.rgba.len() == cast.len());
-            fill(cast, before, &orders[view], to)
+            fill(cast, before, last, &orders[view], to)
         };
-        let filled: Vec<Filled> = cast?.into_par_iter().enumerate().map(make).collect();
+        let filled: Vec<Filled> = cast.into_par_iter().zip(last).enumerate().map(make).collect();
         let mut refined = Refined { done: to, ..Refined::default() };
         let mut few = Vec::new();
         for (one, order) in filled.iter().zip(&orders) {
