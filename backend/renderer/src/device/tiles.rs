@@ -25,24 +25,55 @@ pub(super) fn cast_tiles(
 ) -> Vec<Option<TileFound>> {
     let [width, height] = view.rays.raster.map(|n| n as usize);
     picture.resize(4 * width * height, 0.0);
-    // Tiles beside each other share rows of the picture: each row of tiles is put down by whoever has it.
-    let mut bands = vec![Vec::new(); view.grid.down as usize];
-    for (place, &tile) in view.tiles.iter().enumerate() {
-        bands[(tile / view.grid.across) as usize].push((place, tile));
-    }
     let rows = (TILE_EDGE * view.grid.lattice.step[1]) as usize;
-    let cast_band = |((at, tiles), rgba): ((usize, Vec<(usize, u32)>), &mut [f32])| {
-        let cast = |&(place, tile): &(usize, u32)| (place, (!stop()).then(|| cast_tile(casting, view, tile)));
-        let casts: Vec<(usize, Option<TileCasts>)> = tiles.par_iter().map(cast).collect();
-        let note = |(place, casts): (usize, Option<TileCasts>)| {
-            (place, casts.map(|casts| put_down(&casts, &mut *rgba, width, at * rows)))
-        };
-        casts.into_iter().map(note).collect::<Vec<_>>()
-    };
-    let bands = bands.into_par_iter().enumerate().zip(picture.par_chunks_mut(4 * width * rows));
+    let places = places_by_row(view);
+    let rgba = picture.par_chunks_mut(4 * width * rows);
+    let bands = places.into_par_iter().zip(rgba).enumerate();
+    let cast = |(at, (places, rgba))| Band { above: at * rows, places, rgba }.cast(casting, view, stop);
+    let all: Vec<Vec<(usize, TileFound)>> = bands.map(cast).collect();
     let mut found = vec![None; view.tiles.len()];
-    bands.flat_map_iter(cast_band).collect::<Vec<_>>().into_iter().for_each(|(place, of)| found[place] = of);
+    all.into_iter().flatten().for_each(|(place, of)| found[place] = Some(of));
     found
+}
+
+/// The places in a view's list of the tiles of each row of tiles.
+fn places_by_row(view: &ViewJob) -> Vec<Vec<usize>> {
+    let mut rows = vec![Vec::new(); view.grid.down as usize];
+    for (place, tile) in view.tiles.iter().enumerate() {
+        rows[(tile / view.grid.across) as usize].push(place);
+    }
+    rows
+}
+
+/// A row of tiles. They share rows of pixels, so that one thread puts down what all of them have cast.
+struct Band<'a> {
+    /// Rows of pixels above it.
+    above: usize,
+    places: Vec<usize>,
+    /// Its part of the picture.
+    rgba: &'a mut [f32],
+}
+
+impl Band<'_> {
+    /// What each tile that was cast found, by its place.
+    fn cast(mut self, casting: &Casting<f32>, view: &ViewJob, stop: StopAsked) -> Vec<(usize, TileFound)> {
+        let cast = |&place: &usize| (!stop()).then(|| (place, cast_tile(casting, view, view.tiles[place])));
+        let casts: Vec<(usize, TileCasts)> = self.places.par_iter().filter_map(cast).collect();
+        let width = view.rays.raster[0] as usize;
+        casts.into_iter().map(|(place, casts)| (place, self.put_down(&casts, width))).collect()
+    }
+
+    /// Puts down the colours of a tile's rays in a picture of so many pixels across.
+    fn put_down(&mut self, casts: &TileCasts, width: usize) -> TileFound {
+        let mut found = TileFound { rays: casts.len() as u64, samples: 0, is_missing: false };
+        for &((x, y), cast) in casts {
+            let at = 4 * ((y as usize - self.above) * width + x as usize);
+            self.rgba[at..at + 4].copy_from_slice(&cast.rgba);
+            found.samples += u64::from(cast.samples);
+            found.is_missing |= cast.is_missing;
+        }
+        found
+    }
 }
 
 /// The rays of one tile, by pixels (x, y).
@@ -52,16 +83,4 @@ fn cast_tile(casting: &Casting<f32>, view: &ViewJob, tile: u32) -> TileCasts {
     let pixels: Vec<(u32, u32)> = view.pixels(tile).collect();
     let casts = cast_pixels(casting, view.rays, &pixels);
     pixels.into_iter().zip(casts).collect()
-}
-
-/// Puts the colours of a tile's rays into the rows of a picture that begin `above` from its top.
-fn put_down(casts: &TileCasts, rgba: &mut [f32], width: usize, above: usize) -> TileFound {
-    let mut found = TileFound { rays: casts.len() as u64, samples: 0, is_missing: false };
-    for &((x, y), cast) in casts {
-        let at = 4 * ((y as usize - above) * width + x as usize);
-        rgba[at..at + 4].copy_from_slice(&cast.rgba);
-        found.samples += u64::from(cast.samples);
-        found.is_missing |= cast.is_missing;
-    }
-    found
 }
