@@ -1,0 +1,73 @@
+//! The tapes that come with the program: what visitors did, to three volumes, played to the same machines as the motions.
+
+use super::{RASTER, machines, sweeps};
+use control::Weights;
+use display_config::Display;
+use frontend::FrontendError;
+use frontend::adapter::{looks_of, meet_volume, open_scene_volume};
+use frontend::scene::Scene;
+use frontend::staging::Piece;
+use frontend::tune::{Footage, SHIPPED, Study, TuneReport, open_shipped, recorded};
+use lightloom_tests::data;
+use lightloom_tests::results::Results;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Plays them; the report of it.
+pub fn play(mut results: Results, display: &Display) -> Result<TuneReport, String> {
+    let started = Instant::now();
+    let mut names = vec!["procedural:shells@128".to_owned(), "procedural:sparse-vessels@256".to_owned()];
+    names.extend(data::cranium().map(|store| store.path().display().to_string()));
+    let mut all = Vec::new();
+    for name in &names {
+        all.extend(footage(name, display).map_err(|error| error.to_string())?);
+    }
+    let study = Study { footage: all, machines: machines() };
+    let played = study.run(Weights::default(), &AtomicBool::new(false), &|| {});
+    let (stages, best) = played.ok_or("nobody stops it")?;
+    let report = TuneReport::new(&study, &stages, best, started.elapsed().as_secs_f64())
+        .map_err(|error| error.to_string())?;
+    results.line(format!("{}: {}.", report.scenarios.len(), report.scenarios.join("; ")));
+    results.line("");
+    sweeps(&mut results, &report);
+    results.line("");
+    results.line(defaults(&report));
+    results.finish()?;
+    Ok(report)
+}
+
+fn footage(name: &str, display: &Display) -> Result<Vec<Footage>, FrontendError> {
+    let mut scene = Scene::load(name)?;
+    let (facts, look) = meet_volume(&mut scene)?;
+    let source = open_scene_volume(&scene)?;
+    let looks = looks_of(&scene, look.as_ref())?;
+    let piece = Piece::new(scene, facts, &looks);
+    let mut footage = Vec::new();
+    for (name, bytes) in SHIPPED {
+        let (scenario, _) = recorded(open_shipped(name, bytes)?, name, piece.clone(), display)?;
+        let drawn = Footage::draw(&scenario, display, RASTER, &source, &AtomicBool::new(false), &|_| {})?;
+        eprintln!("{} is drawn", scenario.name);
+        footage.extend(drawn);
+    }
+    Ok(footage)
+}
+
+/// How the default weights do beside the best.
+fn defaults(report: &TuneReport) -> String {
+    let own = Weights::default();
+    let mean = |stage: usize, value: f64| {
+        let settings = &report.stages[stage].settings;
+        let setting = settings.iter().find(|one| one.value == Some(value));
+        setting.map_or(f64::NAN, |one| {
+            255.0 * one.scores.iter().map(|score| score.rms).sum::<f64>() / one.scores.len().max(1) as f64
+        })
+    };
+    // ρ is varied around the default ϑ, and ϑ around the best ρ.
+    let (of_default, of_best) = (mean(0, own.rho), mean(1, report.best.theta));
+    format!(
+        "Mean RMS of the defaults, ρ = {} and ϑ = {}: {of_default:.3}; of the best: {of_best:.3}, {:+.2} %.",
+        own.rho,
+        own.theta,
+        100.0 * (of_best / of_default - 1.0)
+    )
+}
