@@ -21,7 +21,7 @@ pub struct TuneArgs {
     /// Also what visitors did when this tape was recorded, to each scene; repeatable. `shipped` are the tapes that come with
     /// the program: `handling`, a hand that turns and moves the volume and changes its look, and `cutting`, a knife, a light
     /// and a hand.
-    #[arg(long = "tape", value_name = "TAPE.mcap|shipped", value_parser = tape)]
+    #[arg(long = "tape", value_name = "TAPE.mcap", value_parser = tape)]
     pub tapes: Vec<TapeChoice>,
     /// The tapes alone.
     #[arg(long, requires = "tapes")]

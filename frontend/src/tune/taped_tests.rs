@@ -9,9 +9,9 @@ use glam::UVec3;
 use optics::Enhancer;
 
 /// Frames of each tape.
-const FRAMES: [usize; 2] = [600, 570];
-/// Of what they show, at least this much rests, and at least this much moves.
-const SHARES: (f64, f64) = (0.25, 0.2);
+const FRAMES: [usize; 2] = [600, 630];
+/// Of what they show, at least this much rests, and at least this much moves: a tool in a hand never rests quite.
+const SHARES: (f64, f64) = (0.2, 0.2);
 
 fn piece() -> Piece {
     let scene = Scene::load("procedural:shells@32").unwrap();
@@ -70,11 +70,13 @@ fn a_knife_cuts_what_another_hand_turns_and_becomes_a_light() {
             _ => None,
         })
     };
-    let (before, inside, aslant) = (plane(0.4).unwrap(), plane(2.2).unwrap(), plane(4.6).unwrap());
+    assert_eq!(plane(0.4), None);
+    let (before, inside, aslant) = (plane(0.8).unwrap(), plane(2.4).unwrap(), plane(4.6).unwrap());
     assert!(before.point_in_display.z > 0.3 && inside.point_in_display.z < 0.05, "{before:?}, {inside:?}");
     assert!(inside.normal_in_display.angle_between(aslant.normal_in_display).to_degrees() > 25.0);
     assert_eq!(plane(8.0), None);
     assert!(turn(&states, 4.6) < 0.1 && turn(&states, 6.3) > 40.0);
     let light = |at_s: f64| states[(at_s * RATE_HZ) as usize].light;
-    assert_ne!(light(7.6), light(9.0));
+    assert_ne!(light(7.6), light(8.6));
+    assert!(states[600].is_seen_as(&states[629]), "all is laid down");
 }

@@ -1,4 +1,4 @@
-//! The tapes that come with the program: what visitors did, to three volumes, played to the same machines as the motions.
+//! The tapes that come with the program: what visitors did, to two volumes, played to the same machines as the motions.
 
 use super::{RASTER, machines, sweeps};
 use control::Weights;
@@ -16,7 +16,7 @@ use std::time::Instant;
 /// Plays them; the report of it.
 pub fn play(mut results: Results, display: &Display) -> Result<TuneReport, String> {
     let started = Instant::now();
-    let mut names = vec!["procedural:shells@128".to_owned(), "procedural:sparse-vessels@256".to_owned()];
+    let mut names = vec!["procedural:shells@128".to_owned()];
     names.extend(data::cranium().map(|store| store.path().display().to_string()));
     let mut all = Vec::new();
     for name in &names {

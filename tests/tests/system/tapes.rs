@@ -8,7 +8,7 @@ use std::path::Path;
 const TAPES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/tapes/");
 /// Name, frames, and the sources whose events are on it.
 const SHIPPED: [(&str, u64, &[&str]); 2] =
-    [("handling", 600, &["hand"]), ("cutting", 570, &["hand", "knife"])];
+    [("handling", 600, &["hand"]), ("cutting", 630, &["hand", "knife"])];
 
 /// Copies of the exhibits on a small display, with a small volume.
 struct Copies(tempfile::TempDir);
@@ -64,7 +64,8 @@ fn tapes_of_the_first_version_play_to_their_ends() {
         assert_eq!(report["beat"]["frames"], frames, "{name}");
         let differ =
             (1..frames as u32).filter(|&at| of_frame(&shown, at - 1) != of_frame(&shown, at)).count();
-        assert!((100..500).contains(&differ), "{name}: {differ} frames differ from the ones before");
+        // Of tools that are drawn nearly all frames differ, but where none is held.
+        assert!((100..550).contains(&differ), "{name}: {differ} frames differ from the ones before");
         let (_, again) = copies.shown(name, "again", &["--frames", "120", "--backends", "2"]);
         (0..120).for_each(|frame| {
             let one = of_frame(&shown, frame);
