@@ -53,19 +53,21 @@ fn footage(name: &str, display: &Display) -> Result<Vec<Footage>, FrontendError>
 /// How the default weights do beside the best.
 fn defaults(report: &TuneReport) -> String {
     let own = Weights::default();
-    let mean = |stage: usize, value: f64| {
+    let told = |stage: usize, value: f64| {
         let settings = &report.stages[stage].settings;
         let setting = settings.iter().find(|one| one.value == Some(value));
-        setting.map_or(f64::NAN, |one| {
+        let rms = setting.map_or(f64::NAN, |one| {
             255.0 * one.scores.iter().map(|score| score.rms).sum::<f64>() / one.scores.len().max(1) as f64
-        })
+        });
+        format!("bad by {:.3}, mean RMS {rms:.2}", setting.map_or(f64::NAN, |one| one.badness))
     };
-    // ρ is varied around the default ϑ, and ϑ around the best ρ.
-    let (of_default, of_best) = (mean(0, own.rho), mean(1, report.best.theta));
+    // ρ is varied around the default ϑ.
+    let (best, theta) = (report.best, own.theta);
     format!(
-        "Mean RMS of the defaults, ρ = {} and ϑ = {}: {of_default:.3}; of the best: {of_best:.3}, {:+.2} %.",
+        "The defaults, ρ = {} and ϑ = {theta}: {}. With ρ = {}: {}.",
         own.rho,
-        own.theta,
-        100.0 * (of_best / of_default - 1.0)
+        told(0, own.rho),
+        best.rho,
+        told(0, best.rho)
     )
 }
