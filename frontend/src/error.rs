@@ -147,6 +147,13 @@ impl From<transport::SessionError> for FrontendError {
     }
 }
 
+impl From<Vec<exhibit::Fault>> for FrontendError {
+    fn from(faults: Vec<exhibit::Fault>) -> Self {
+        let lines: Vec<String> = faults.iter().map(ToString::to_string).collect();
+        Self::Exhibit(lines.join("\n"))
+    }
+}
+
 impl From<screens::ScreenError> for FrontendError {
     fn from(error: screens::ScreenError) -> Self {
         Self::Screen(error.to_string())

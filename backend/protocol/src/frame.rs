@@ -131,6 +131,21 @@ impl FrameState {
         }
     }
 
+    /// Whether rays see the same in another frame: numbers and times do not matter, nor which pixels are cast and by what, nor
+    /// what is drawn over them.
+    pub fn is_seen_as(&self, other: &Self) -> bool {
+        let seen = |frame: &Self| Self {
+            index: 0,
+            time_s: 0.0,
+            sub_frame: None,
+            refinement: None,
+            welcomes_planes: false,
+            marks: Vec::new(),
+            ..frame.clone()
+        };
+        seen(self) == seen(other)
+    }
+
     /// Edge of the finest voxel in the display frame: the cube root of its volume, metres.
     pub fn voxel_m(&self) -> f64 {
         self.display_from_volume.matrix3.determinant().abs().cbrt()

@@ -8,7 +8,7 @@ use crate::raw::{
 use crate::read::Reader;
 use display_config::text::{brief_text, did_you_mean};
 use glam::{DQuat, DVec3};
-use inputs::{Input, SourceId};
+use inputs::SourceId;
 use std::collections::BTreeMap;
 use std::time::Duration;
 use toml::{Spanned, Value};
@@ -88,7 +88,7 @@ impl Reader<'_> {
         &mut self,
         visitors: &[Spanned<Value>],
         tools: &[Spanned<Value>],
-        inputs: &[Input],
+        inputs: &[&str],
     ) -> Cast {
         let mut cast = Cast::default();
         for entry in self.limited("visitor", visitors) {
@@ -126,7 +126,7 @@ impl Reader<'_> {
         cast
     }
 
-    fn tool(&mut self, line: usize, raw: RawTool, cast: &Cast, inputs: &[Input]) -> Tool {
+    fn tool(&mut self, line: usize, raw: RawTool, cast: &Cast, inputs: &[&str]) -> Tool {
         let holder = cast.visitors.iter().position(|visitor| visitor.name == raw.visitor);
         if holder.is_none() {
             let names = cast.visitors.iter().map(|visitor| visitor.name.as_str());
@@ -160,7 +160,7 @@ impl Reader<'_> {
         }
     }
 
-    fn sensor(&mut self, line: usize, input: Option<&str>, sensor: Option<u8>, inputs: &[Input]) -> Sensor {
+    fn sensor(&mut self, line: usize, input: Option<&str>, sensor: Option<u8>, inputs: &[&str]) -> Sensor {
         let (input, sensor) = match (input, sensor) {
             (None, None) => return Sensor::First,
             (Some(input), sensor) => (input, sensor.unwrap_or(0)),
@@ -169,10 +169,9 @@ impl Reader<'_> {
                 return Sensor::First;
             }
         };
-        let Some(source) = inputs.iter().position(|known| known.name == input) else {
-            let (name, names) =
-                (brief_text(input).into_owned(), inputs.iter().map(|known| known.name.as_str()));
-            let suggestion = did_you_mean(input, names);
+        let Some(source) = inputs.iter().position(|&known| known == input) else {
+            let name = brief_text(input).into_owned();
+            let suggestion = did_you_mean(input, inputs.iter().copied());
             self.wrong(
                 line,
                 format!("no input is called {name}{suggestion}; name one of the file in `inputs`"),

@@ -7,6 +7,7 @@ use display_config::text::{brief_text, did_you_mean, read_text, with_suggestion}
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 use toml::{Spanned, Value};
+use world::{Cast, Rules};
 
 /// Frames per second that a display may have.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
@@ -88,39 +89,66 @@ impl Exhibit {
     /// # Errors
     /// See [`Exhibit::load`].
     pub fn from_toml(folder: &Path, text: &str, file: &str) -> Result<Self, Vec<Fault>> {
-        let mut reader = Reader { text, file, folder, faults: Vec::new() };
-        let table = match text.parse::<toml::Table>() {
+        let reader = Reader { text, file, folder, faults: Vec::new() };
+        reader.read(|reader, raw| reader.exhibit(raw))
+    }
+
+    /// Who takes part in the exhibit that a text describes, and what they may do. Its sources of inputs have these names, so
+    /// that the text is enough, as on a tape.
+    ///
+    /// # Errors
+    /// See [`Exhibit::load`].
+    pub fn cast_from_toml(text: &str, file: &str, inputs: &[&str]) -> Result<(Cast, Rules), Vec<Fault>> {
+        let reader = Reader { text, file, folder: Path::new(""), faults: Vec::new() };
+        reader.read(|reader, raw| {
+            let cast = reader.cast(&raw.visitor, &raw.tool, inputs);
+            (cast, reader.rules(raw.idle.as_ref(), raw.limits.as_ref()))
+        })
+    }
+
+    /// Whether a text is an exhibit's, and not a scene's: it has items.
+    pub fn is_one(text: &str) -> bool {
+        text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("item"))
+    }
+}
+
+impl Reader<'_> {
+    /// What is made of the text, if nothing is wrong with that.
+    fn read<T>(mut self, make: impl FnOnce(&mut Self, RawFile) -> T) -> Result<T, Vec<Fault>> {
+        let made = self.raw().map(|raw| make(&mut self, raw));
+        self.faults.sort();
+        made.filter(|_| self.faults.is_empty()).ok_or(self.faults)
+    }
+
+    /// The entries of the text; None, and a fault, where it is no TOML or no exhibit's.
+    fn raw(&mut self) -> Option<RawFile> {
+        let table = match self.text.parse::<toml::Table>() {
             Ok(table) => table,
             Err(error) => {
-                let line = reader.line(error.span().map_or(0, |span| span.start));
+                let line = self.line(error.span().map_or(0, |span| span.start));
                 let message = brief_text(&error.message().replace('\n', ", ")).into_owned();
-                reader.wrong(line, format!("this is not TOML ({message}); correct the line first"));
-                return Err(reader.faults);
+                self.wrong(line, format!("this is not TOML ({message}); correct the line first"));
+                return None;
             }
         };
         for key in table.keys().filter(|key| !KEYS.contains(&key.as_str())) {
             let (key, suggestion) = (brief_text(key).into_owned(), did_you_mean(key, KEYS));
             let known = KEYS.join(", ");
-            reader.wrong_file(format!(
+            self.wrong_file(format!(
                 "`{key}` is no key of an exhibit{suggestion}; remove it, or use one of {known}"
             ));
         }
-        let raw: RawFile = match toml::from_str(text) {
-            Ok(raw) => raw,
+        match toml::from_str(self.text) {
+            Ok(raw) => Some(raw),
             Err(error) => {
-                let line = reader.line(error.span().map_or(0, |span| span.start));
+                let line = self.line(error.span().map_or(0, |span| span.start));
                 let message = brief_text(&with_suggestion(error.message())).into_owned();
-                reader.wrong(line, format!("this cannot be read ({message}); correct it first"));
-                return Err(reader.faults);
+                self.wrong(line, format!("this cannot be read ({message}); correct it first"));
+                None
             }
-        };
-        let exhibit = reader.exhibit(raw);
-        reader.faults.sort();
-        if reader.faults.is_empty() { Ok(exhibit) } else { Err(reader.faults) }
+        }
     }
-}
 
-impl Reader<'_> {
     fn exhibit(&mut self, raw: RawFile) -> Exhibit {
         if raw.display.is_none() {
             self.wrong_file("it names no display; add `display = \"desk8\"`, or another preset or file");
@@ -131,7 +159,8 @@ impl Reader<'_> {
         }
         let (inputs, inputs_file) = self.inputs(raw.inputs.as_ref());
         let items = self.items(&raw.item);
-        let cast = self.cast(&raw.visitor, &raw.tool, &inputs);
+        let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+        let cast = self.cast(&raw.visitor, &raw.tool, &names);
         let rules = self.rules(raw.idle.as_ref(), raw.limits.as_ref());
         let tape = self.tape(raw.tape.as_ref());
         let marks = self.marks(raw.marks.as_ref());

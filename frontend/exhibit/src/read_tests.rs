@@ -34,6 +34,18 @@ fn the_examples_say_what_they_show() {
     assert!(tracked.items[0].scene.ends_with("shells.toml") && Path::new(&tracked.items[0].scene).exists());
 }
 
+#[test]
+fn the_text_and_the_names_of_inputs_tell_who_takes_part() {
+    let text = std::fs::read_to_string(example("tracked.toml")).unwrap();
+    let whole = Exhibit::load(&example("tracked.toml")).unwrap();
+    let names = ["wand of Ada", "wand of Ben", "wand of Cem"];
+    let (cast, rules) = Exhibit::cast_from_toml(&text, "tracked.toml", &names).unwrap();
+    assert_eq!((cast, rules), (whole.cast, whole.rules));
+    let faults = Exhibit::cast_from_toml(&text, "tracked.toml", &names[..2]).unwrap_err();
+    assert!(faults.len() == 1 && faults[0].what.contains("no input is called wand of Cem"), "{faults:?}");
+    assert!(Exhibit::is_one(&text) && !Exhibit::is_one("[volume]\n") && !Exhibit::is_one("[[item]"));
+}
+
 const GOOD: &str = "display = 'desk8'\ninputs = 'wands.toml'\n[[item]]\nscene = 'procedural:shells'\n\
     [[visitor]]\nname = 'Ada'\n[[tool]]\nname = 'wand'\nvisitor = 'Ada'\nkinds = ['probe']\ninput = 'wand of Ada'\n";
 

@@ -20,8 +20,7 @@ struct Opening<'a> {
 
 /// Whether a file is an exhibit's, and not a scene's: it has items.
 pub fn is_exhibit(path: &str) -> bool {
-    let text = std::fs::read_to_string(path).unwrap_or_default();
-    path.ends_with(".toml") && text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("item"))
+    path.ends_with(".toml") && std::fs::read_to_string(path).is_ok_and(|text| Exhibit::is_one(&text))
 }
 
 /// Opens all that an exhibit names.

@@ -40,7 +40,7 @@ pub use outputs::OutputsArgs;
 pub use replay::{DiskArg, FetchOrderArg, ReplayArgs};
 pub use simulate::SimulateArgs;
 pub use tape::{TableArg, TapeAction, TapeArgs};
-pub use tune::TuneArgs;
+pub use tune::{TapeChoice, TuneArgs};
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};

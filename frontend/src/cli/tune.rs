@@ -4,6 +4,7 @@ use super::parse::picture_size;
 use crate::scene::QualityPreset;
 use clap::Args;
 use glam::UVec2;
+use std::convert::Infallible;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -17,9 +18,14 @@ pub struct TuneArgs {
     /// Folder for tune.json, tune.html and the worst instants; created if missing.
     #[arg(short = 'o', long = "out", value_name = "DIR")]
     pub out: PathBuf,
-    /// Also what visitors made of the first scene when this tape was recorded; repeatable.
-    #[arg(long = "tape", value_name = "TAPE.mcap")]
-    pub tapes: Vec<PathBuf>,
+    /// Also what visitors did when this tape was recorded, to each scene; repeatable. `shipped` are the tapes that come with
+    /// the program: `handling`, a hand that turns and moves the volume and changes its look, and `cutting`, a knife, a light
+    /// and a hand.
+    #[arg(long = "tape", value_name = "TAPE.mcap", value_parser = tape)]
+    pub tapes: Vec<TapeChoice>,
+    /// The tapes alone.
+    #[arg(long, requires = "tapes")]
+    pub only_tapes: bool,
     /// A display: a preset's name (see `lightloom displays`) or a .toml file.
     #[arg(long, value_name = "DISPLAY", default_value = "desk8")]
     pub display: String,
@@ -40,6 +46,19 @@ pub struct TuneArgs {
     pub json: bool,
 }
 
+/// Which tape is played.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TapeChoice {
+    /// All that come with the program.
+    Shipped,
+    /// A file.
+    File(PathBuf),
+}
+
+fn tape(text: &str) -> Result<TapeChoice, Infallible> {
+    Ok(if text == "shipped" { TapeChoice::Shipped } else { TapeChoice::File(text.into()) })
+}
+
 /// A machine that is faster than this shows every instant complete; a slower one shows nothing worth judging.
 const FULL_S: std::ops::RangeInclusive<f64> = 1e-3..=100.0;
 
@@ -50,7 +69,7 @@ fn full(text: &str) -> Result<Duration, String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::cli::{Cli, Command};
+    use crate::cli::{Cli, Command, TapeChoice};
     use clap::Parser;
 
     #[test]
@@ -63,6 +82,14 @@ mod tests {
             panic!()
         };
         assert_eq!(args.machines.iter().map(|full| full.as_millis()).collect::<Vec<_>>(), [500, 2000]);
+        let Ok(Command::Tune(args)) =
+            parse(&["--tape", "shipped", "--tape", "a.mcap", "--only-tapes"]).map(|cli| cli.command)
+        else {
+            panic!()
+        };
+        assert!(args.only_tapes);
+        assert_eq!(args.tapes, [TapeChoice::Shipped, TapeChoice::File("a.mcap".into())]);
+        assert_eq!(parse(&["--only-tapes"]).map(|_| ()), Err(2));
         for wrong in [["--machines", "0"], ["--machines", "fast"], ["--size", "0x4"]] {
             assert_eq!(parse(&wrong).map(|_| ()), Err(2), "{wrong:?}");
         }

@@ -5,13 +5,12 @@ use super::show::{Show, check, show, taped};
 use crate::FrontendError;
 use crate::adapter;
 use crate::cli::{DriveArgs, ReconstructArg};
-use crate::drive::{Taped, one_hand};
+use crate::drive::{Taped, cast};
 use crate::scene::Scene;
 use crate::staging::{Piece, Theatre};
 use protocol::Pace;
 use std::path::{Path, PathBuf};
 use tape::Limits;
-use world::Cast;
 
 /// Drives a display. All that can be wrong with the arguments is found before any back-end starts.
 pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
@@ -39,11 +38,6 @@ pub(super) fn drive(args: &DriveArgs) -> Result<(), FrontendError> {
     let record = args.show.record.clone().map(|path| (path, Limits::default()));
     let made = Show { title, theatre, inputs, files, rate_hz: None, record, recorders: Vec::new() };
     show(&args.show, made, taped)
-}
-
-/// Who takes part in a show of one scene.
-pub(super) fn cast(is_tracked: bool) -> Cast {
-    if is_tracked { one_hand() } else { Cast::default() }
 }
 
 /// How frames get their detail: where nothing is late, nothing needs to be missing.

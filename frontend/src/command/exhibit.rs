@@ -20,7 +20,7 @@ pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
     if args.check {
         return tell_faults(opened.err().unwrap_or_default(), args.show.json);
     }
-    let (exhibit, ensemble, display) = opened.map_err(refused)?;
+    let (exhibit, ensemble, display) = opened?;
     check(&args.show)?;
     let theatre = Theatre::new(ensemble, display, pace(&args.show))
         .with_marks(exhibit.marks)
@@ -69,16 +69,6 @@ pub(super) fn load(file: &Path) -> Result<(Exhibit, Ensemble, Display), Vec<Faul
     Ok((exhibit, ensemble, display))
 }
 
-/// It cannot be shown.
-pub(super) fn refused(faults: Vec<Fault>) -> FrontendError {
-    FrontendError::Exhibit(lines(&faults))
-}
-
-/// All of them, a line each.
-fn lines(faults: &[Fault]) -> String {
-    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
-}
-
 /// Says all that is wrong; that something is, is the program's failure.
 fn tell_faults(faults: Vec<Fault>, as_json: bool) -> Result<(), FrontendError> {
     if as_json {
@@ -86,7 +76,7 @@ fn tell_faults(faults: Vec<Fault>, as_json: bool) -> Result<(), FrontendError> {
     } else if faults.is_empty() {
         say("nothing is wrong with it")?;
     } else {
-        say(&lines(&faults))?;
+        faults.iter().try_for_each(|fault| say(&fault.to_string()))?;
     }
     match faults.len() {
         0 => Ok(()),

@@ -1,13 +1,12 @@
 //! `lightloom simulate`.
 
-use super::drive::cast;
-use super::exhibit::{load, refused};
+use super::exhibit::load;
 use super::look::{ask_for_look, tell_look};
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter::{self, Backends, TraceFolder};
 use crate::cli::SimulateArgs;
-use crate::drive::{Remade, Taped};
+use crate::drive::{Remade, Taped, cast};
 use crate::progress::Progress;
 use crate::report::{self, BackendSummary, Report, units};
 use crate::scene::{LookChoice, Scene, VolumeFacts};
@@ -102,7 +101,7 @@ fn of_tape(args: &SimulateArgs, tape: &Path) -> Result<Subject, FrontendError> {
     let is_exhibit = adapter::is_exhibit(&args.scene);
     let (mut theatre, look) = if is_exhibit {
         refuse_what_is_for_scenes(args)?;
-        let (exhibit, ensemble, own) = load(Path::new(&args.scene)).map_err(refused)?;
+        let (exhibit, ensemble, own) = load(Path::new(&args.scene))?;
         let theatre = Theatre::new(ensemble, display.unwrap_or(own), Pace::Complete);
         (theatre.with_marks(exhibit.marks), None)
     } else {
@@ -153,6 +152,7 @@ fn tell(args: &SimulateArgs, report: &Report) -> Result<(), FrontendError> {
         let pictures: usize = report.frames.iter().map(|frame| frame.pictures.len()).sum();
         let rays = units::count(report.total.rays);
         let time = units::milliseconds(report.wall_ms);
+        report.live.iter().try_for_each(|live| say(&live.line()))?;
         say(&format!("{pictures} pictures, {rays} rays, {time}: {}", args.out.join(report::HTML).display()))?;
     }
     Ok(())

@@ -1,23 +1,22 @@
 //! `lightloom tune`.
 
-use super::drive::cast;
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter;
-use crate::cli::TuneArgs;
-use crate::drive::{Remade, Taped};
+use crate::cli::{TapeChoice, TuneArgs};
+use crate::drive::Taped;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::staging::{Piece, Theatre};
-use crate::tune::{Footage, Machine, Motion, Scenario, Study, TUNE_HTML, TuneReport, write};
+use crate::staging::Piece;
+use crate::tune::{
+    Footage, Machine, Motion, SHIPPED, Scenario, Study, TUNE_HTML, TuneReport, open_shipped, recorded, write,
+};
 use bricks::BrickSource;
 use control::Weights;
 use display_config::Display;
-use protocol::Pace;
 use renderer::output::can_write_into;
 use std::cell::RefCell;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -76,30 +75,46 @@ fn scenarios(args: &TuneArgs, display: &Display) -> Result<Vec<Shown>, FrontendE
         let source = adapter::open_scene_volume(&scene)?;
         let still = scene.frame(0, display, &facts)?;
         let own = [Motion::Turn, Motion::Look, Motion::Clip];
-        for motion in &own[..if number == 0 { 3 } else { 2 }] {
+        let count = match number {
+            _ if args.only_tapes => 0,
+            0 => 3,
+            _ => 2,
+        };
+        for motion in &own[..count] {
             all.push((motion.scenario(&scene.name, &still, display.height_m), Arc::clone(&source)));
         }
-        if number == 0 {
+        if !args.tapes.is_empty() {
             let looks = adapter::looks_of(&scene, look.as_ref())?;
-            for tape in &args.tapes {
-                let piece = Piece::new(scene.clone(), facts, &looks);
-                all.push((of_tape(tape, piece, display)?, Arc::clone(&source)));
-            }
+            let piece = Piece::new(scene, facts, &looks);
+            all.extend(of_tapes(args, &piece, display)?.into_iter().map(|one| (one, Arc::clone(&source))));
         }
     }
     Ok(all)
 }
 
-/// What a tape made of a piece, at each sixtieth of a second.
-fn of_tape(path: &Path, piece: Piece, display: &Display) -> Result<Scenario, FrontendError> {
-    let tape = Taped::open(path, true)?;
-    let mut theatre = Theatre::of_one(piece, cast(tape.has_inputs()), display.clone(), Pace::Complete)
-        .with_sub_frames(false);
-    let all = (0, tape.len());
-    let Remade { frames, news } = tape.remake(Some(all), &mut theatre)?;
-    news.iter().for_each(|news| warn(news));
-    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    Ok(Scenario::sampled(name, frames.into_values()))
+/// What those who are on the tapes make of a piece.
+fn of_tapes(args: &TuneArgs, piece: &Piece, display: &Display) -> Result<Vec<Scenario>, FrontendError> {
+    let mut tapes = Vec::new();
+    for choice in &args.tapes {
+        match choice {
+            TapeChoice::Shipped => {
+                for (name, bytes) in SHIPPED {
+                    tapes.push((name.to_owned(), open_shipped(name, bytes)?));
+                }
+            }
+            TapeChoice::File(path) => {
+                let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+                tapes.push((name, Taped::open(path, true)?));
+            }
+        }
+    }
+    let mut scenarios = Vec::new();
+    for (name, tape) in tapes {
+        let (scenario, news) = recorded(tape, &name, piece.clone(), display)?;
+        news.iter().for_each(|news| warn(news));
+        scenarios.push(scenario);
+    }
+    Ok(scenarios)
 }
 
 /// The footage of all scenarios; None where somebody asked to stop.

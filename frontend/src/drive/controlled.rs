@@ -114,7 +114,7 @@ impl Controlled {
     ) -> Option<Task> {
         let number = newest.index;
         let news = News {
-            has_changed: self.active.as_ref().is_none_or(|active| seen(&active.state) != seen(&newest)),
+            has_changed: self.active.as_ref().is_none_or(|active| !active.state.is_seen_as(&newest)),
             has_detail: self.active.as_ref().is_some_and(|active| active.has_detail),
         };
         let work = self.control.next(news, now);
@@ -261,19 +261,6 @@ impl Controlled {
 fn part(state: &FrameState, index: u32, configuration: u32, to: u32) -> FrameState {
     let refinement = Some(Refinement { configuration, to });
     FrameState { index, sub_frame: None, refinement, ..state.clone() }
-}
-
-/// A state as far as rays see it.
-fn seen(state: &FrameState) -> FrameState {
-    FrameState {
-        index: 0,
-        time_s: 0.0,
-        sub_frame: None,
-        refinement: None,
-        welcomes_planes: false,
-        marks: Vec::new(),
-        ..state.clone()
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! How well the beat is kept: intervals, skew, and the time from an input to the screens.
 
-use super::{Histogram, Quantiles};
+use crate::report::{Histogram, Quantiles};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Duration;

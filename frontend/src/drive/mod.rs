@@ -8,14 +8,13 @@
 //! | `trial` | which caster is faster |
 //! | `controlled` | what is cast next and what is shown, by frame control |
 //! | `screens`, `sheet`, `desktop`, `dump` | what the front-end does with the pictures |
-//! | `histogram`, `measures`, `energy`, `plot`, `status`, `report` | how well the beat is kept |
+//! | `measures`, `energy`, `plot`, `status`, `report` | how well the beat is kept |
 
 mod bulletin;
 mod controlled;
 mod desktop;
 mod dump;
 mod energy;
-mod histogram;
 mod input;
 mod measures;
 mod plot;
@@ -35,7 +34,6 @@ pub use controlled::{ControlSummary, Controlled};
 pub use desktop::{Desktop, Hands, KEYS};
 pub use dump::Dump;
 pub use energy::Energy;
-pub use histogram::{Histogram, Quantiles};
 pub use input::Input;
 pub use measures::{BackendBeat, BeatSummary};
 pub use recorder::Recorder;
@@ -46,5 +44,5 @@ pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
 pub use taped::{Remade, Taped};
-pub use tracked::{Tracked, one_hand};
+pub use tracked::{Tracked, cast, one_hand};
 pub use trial::Trial;

@@ -1,6 +1,6 @@
 //! The times of a show as a plot.
 
-use super::Histogram;
+use crate::report::Histogram;
 use crate::report::plot::{Chart, Point, Series, Stroke};
 
 /// What fraction of times is longer than each, as a plot.

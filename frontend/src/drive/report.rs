@@ -1,10 +1,10 @@
 //! What a show reports when it is over: JSON for programs, and a page for people.
 
-use super::{BeatSummary, ControlSummary, Played, Quantiles};
+use super::{BeatSummary, ControlSummary, Played};
 use crate::FrontendError;
 use crate::report::html::{escape, facts, table};
 use crate::report::page::STYLE;
-use crate::report::{BackendSummary, write_text};
+use crate::report::{BackendSummary, Quantiles, write_text};
 use control::Rule;
 use serde::Serialize;
 use std::path::Path;

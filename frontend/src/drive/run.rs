@@ -6,7 +6,7 @@ use super::{
     BeatSummary, ControlSummary, Controlled, Input, KEYS, Recorder, Request, Screens, Status, Trial,
 };
 use crate::FrontendError;
-use crate::report::plot::strip;
+use crate::report::plot::strip_of_control;
 use crate::staging::Theatre;
 use protocol::Refinement;
 use serde::Serialize;
@@ -165,7 +165,7 @@ pub fn run<'a, 'b>(
         strip: show
             .control
             .as_ref()
-            .map(|control| strip("Frame control", &control.ticks()))
+            .map(|control| strip_of_control("Frame control", &control.ticks()).svg())
             .unwrap_or_default(),
         cast_ms: show.cast_ms,
         troubles: show.troubles,

@@ -3,12 +3,13 @@
 use super::{Input, Request};
 use crate::FrontendError;
 use crate::staging::{Theatre, check_number};
+use exhibit::Exhibit;
 use protocol::FrameState;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 use std::time::Duration;
-use tape::{Frame, Head, Record, Tape};
-use world::{Deed, Moment};
+use tape::{AttachedFile, Frame, Head, Record, Tape};
+use world::{Cast, Deed, Moment, Rules};
 
 /// A tape.
 pub struct Taped {
@@ -19,6 +20,8 @@ pub struct Taped {
     by_frame: bool,
     /// When its first frame was made, and when that is played.
     began: Option<(Duration, Duration)>,
+    /// Whether what is made again is compared with what was.
+    compares: bool,
     /// The frame that is being made again.
     expected: Option<Frame>,
     /// Frames that are not what they were.
@@ -32,7 +35,11 @@ impl Taped {
     /// # Errors
     /// It is no tape.
     pub fn open(path: &Path, by_frame: bool) -> Result<Self, FrontendError> {
-        let tape = Tape::open(path)?;
+        Ok(Self::of(&Tape::open(path)?, by_frame))
+    }
+
+    /// The same of a tape that is open.
+    pub fn of(tape: &Tape, by_frame: bool) -> Self {
         let (mut frames, mut deeds, mut news) = (VecDeque::new(), Vec::new(), Vec::new());
         for record in tape.records() {
             match record {
@@ -43,7 +50,25 @@ impl Taped {
             }
         }
         let head = tape.head().clone();
-        Ok(Self { head, frames, by_frame, began: None, expected: None, different: 0, news })
+        Self { head, frames, by_frame, began: None, compares: true, expected: None, different: 0, news }
+    }
+
+    /// The same for another scene than its own: nothing is compared with what it was.
+    #[must_use]
+    pub fn for_any_scene(self) -> Self {
+        Self { compares: false, ..self }
+    }
+
+    /// Who took part, and what they may do, where it was recorded of an exhibit: that exhibit's file is on it.
+    ///
+    /// # Errors
+    /// The file is no good exhibit.
+    pub fn exhibit_cast(&self) -> Result<Option<(Cast, Rules)>, FrontendError> {
+        let text = |file: &AttachedFile| String::from_utf8(file.bytes.clone()).ok();
+        let mut texts = self.head.files.iter().filter_map(|file| Some((&file.name, text(file)?)));
+        let Some((name, text)) = texts.find(|(_, text)| Exhibit::is_one(text)) else { return Ok(None) };
+        let sources: Vec<&str> = self.head.sources.iter().map(String::as_str).collect();
+        Ok(Some(Exhibit::cast_from_toml(&text, name, &sources)?))
     }
 
     /// Frames on it.
@@ -97,7 +122,7 @@ impl Taped {
 
     /// Tells which files are not what they were when it was recorded.
     pub fn compare_files(&mut self) {
-        for file in &self.head.files {
+        for file in self.head.files.iter().filter(|_| self.compares) {
             if std::fs::read(&file.name).is_ok_and(|bytes| bytes != file.bytes) {
                 self.news.push(format!("{} is not what it was when the tape was recorded", file.name));
             }
@@ -141,7 +166,7 @@ impl Input for Taped {
     }
 
     fn made(&mut self, frame: &FrameState) {
-        let Some(expected) = self.expected.take() else { return };
+        let Some(expected) = self.expected.take().filter(|_| self.compares) else { return };
         if check_number(frame).is_ok_and(|check| check == expected.check) {
             return;
         }

@@ -53,6 +53,11 @@ impl Input for Tracked {
     }
 }
 
+/// Who takes part in a show of one scene: somebody with one tool, where anything is tracked.
+pub fn cast(is_tracked: bool) -> Cast {
+    if is_tracked { one_hand() } else { Cast::default() }
+}
+
 /// One visitor with one tool, at the first sensor that has a pose: its first button grabs the volume, the second goes on to
 /// the next look, the third resets all.
 pub fn one_hand() -> Cast {

@@ -1,6 +1,6 @@
 //! How well one sensor, button or axis arrives.
 
-use crate::drive::{Histogram, Quantiles};
+use crate::report::{Histogram, Quantiles};
 use inputs::{DeviceTime, Event, Pose, What};
 use serde::Serialize;
 use std::time::Duration;

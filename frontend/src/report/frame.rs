@@ -11,6 +11,8 @@ pub struct FrameSummary {
     pub index: u32,
     /// Time on the scene's clock, seconds.
     pub time_s: f64,
+    /// Whether rays see something else than in the frame before; in the first they do.
+    pub changes: bool,
     /// Wall-clock milliseconds from the start of the frame to the last of its files.
     pub wall_ms: f64,
     /// All back-ends together.
@@ -24,9 +26,10 @@ pub struct FrameSummary {
 }
 
 impl FrameSummary {
-    /// The account of a frame that is done.
+    /// The account of a frame that is done, after another one.
     pub fn new(
         frame: &FrameState,
+        before: Option<&FrameState>,
         backends: Vec<FrameReport>,
         wall: Duration,
         pictures: Vec<String>,
@@ -35,6 +38,7 @@ impl FrameSummary {
         Self {
             index: frame.index,
             time_s: frame.time_s,
+            changes: before.is_none_or(|before| !before.is_seen_as(frame)),
             wall_ms: 1e3 * wall.as_secs_f64(),
             total: Totals { upkeep: together(&backends), ..Totals::of(&backends) },
             backends,

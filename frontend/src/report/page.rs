@@ -3,7 +3,7 @@
 use super::html::{embedded_image, escape, facts, table};
 use super::legend::{marks, number};
 use super::stage_bar::stage_bar;
-use super::{CONTACT_SHEET, FrameSummary, Report, Totals, units, upkeep};
+use super::{CONTACT_SHEET, FrameSummary, LiveSummary, Report, Totals, units, upkeep};
 use crate::orientation::describe;
 use renderer::output::OutputError;
 use std::path::Path;
@@ -208,8 +208,9 @@ fn numbers(report: &Report) -> String {
         row(name, one.total_ms, &Totals::of([one]))
     });
     format!(
-        "<h2>Time per stage, summed over back-ends</h2>{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
+        "<h2>Time per stage, summed over back-ends</h2>{}{}<h2>Frames</h2>{}{}<h2>Back-ends</h2>{}",
         stage_bar(&report.total.stages),
+        report.live.as_ref().map(LiveSummary::section).unwrap_or_default(),
         table(&HEADS, &frames),
         upkeep::section(&report.frames),
         table(&HEADS, &each.collect::<Vec<_>>())

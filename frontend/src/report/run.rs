@@ -1,7 +1,7 @@
 //! The account of a whole run.
 
 use super::legend::{LEGEND, shows};
-use super::{BackendSummary, FrameSummary, Totals, peak_memory_bytes};
+use super::{BackendSummary, FrameSummary, LiveSummary, Totals, peak_memory_bytes};
 use crate::scene::{PROCEDURAL_PREFIX, Scene, VolumeFacts, VolumeSource};
 use display_config::Display;
 use optics::DebugView;
@@ -28,6 +28,8 @@ pub struct Report {
     pub eyes: Vec<EyeSummary>,
     /// The frames.
     pub frames: Vec<FrameSummary>,
+    /// How the live ones went, one after the other; None where none was live.
+    pub live: Option<LiveSummary>,
     /// All frames added up.
     pub total: Totals,
     /// Peak memory of this process, bytes; None where the system does not tell.
@@ -121,11 +123,13 @@ impl Report {
         wall: Duration,
     ) -> Self {
         let total = Totals::of(frames.iter().flat_map(|frame| &frame.backends));
+        let display = DisplaySummary::new(subject.display, subject.first_frame);
         Self {
             version: env!("CARGO_PKG_VERSION"),
             command_line: command_line(),
             scene: SceneSummary::new(subject.scene, subject.facts, subject.first_frame),
-            display: DisplaySummary::new(subject.display, subject.first_frame),
+            live: LiveSummary::of(&frames, display.pixels),
+            display,
             backends,
             debug_view: subject.first_frame.debug.map(DebugSummary::new),
             eyes,

@@ -18,12 +18,13 @@ const WAITING_PICTURES: usize = 2;
 const MOST_WRITERS: usize = 4;
 
 impl Job {
-    /// Draws a frame into its folder and returns its account. `show` gets the part that is done, 0 to 1.
+    /// Draws a frame into its folder and returns its account; None is before the first. `show` gets the part that is done, 0
+    /// to 1.
     pub(super) fn draw(
         &self,
         source: &mut dyn Draw,
         frame: &FrameState,
-        is_first: bool,
+        before: Option<&FrameState>,
         show: &mut dyn FnMut(f64),
     ) -> Result<FrameSummary, FrontendError> {
         let started = Instant::now();
@@ -33,10 +34,11 @@ impl Job {
         let pictures = FramePictures::new(self, &path);
         let reports = render_and_write(source, frame, &pictures, show)?;
         pictures.finish(frame.index)?;
-        self.write_sheets(&pictures, &path, is_first)?;
+        self.write_sheets(&pictures, &path, before.is_none())?;
         let name = |name: String| folder.join(name).to_string_lossy().into_owned();
         Ok(FrameSummary::new(
             frame,
+            before,
             reports,
             started.elapsed(),
             (0..self.display.projectors.len()).map(|p| name(pictures.projector_file(p, "png"))).collect(),

@@ -65,13 +65,15 @@ impl Job {
         if let Some(view) = self.debug {
             write_legend(view, &self.out)?;
         }
-        let mut summaries = Vec::new();
+        let (mut summaries, mut before) = (Vec::new(), None);
         for (place, index) in self.frames.clone().enumerate() {
             let mut show = |part: f64| {
                 let whole = (place as f64 + part) / self.frames.len() as f64;
                 progress.set(whole, &format!("frame {} of {}", place + 1, self.frames.len()));
             };
-            summaries.push(self.draw(source, &self.frame(index)?, place == 0, &mut show)?);
+            let frame = self.frame(index)?;
+            summaries.push(self.draw(source, &frame, before.as_ref(), &mut show)?);
+            before = Some(frame);
         }
         Ok(summaries)
     }

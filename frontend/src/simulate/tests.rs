@@ -227,6 +227,34 @@ fn the_report_tells_what_live_frames_did_to_the_working_set() {
 }
 
 #[test]
+fn the_report_tells_how_live_frames_went() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut job = job(folder.path(), 4, 3, |_| 0.25);
+    let (json, html) = reports(&job, folder.path());
+    assert!(json["live"].is_null() && !html.contains("Live frames"));
+    job.pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.4 };
+    let mut moved = job.scene.frame(1, &job.display, &job.facts).unwrap();
+    moved.display_from_volume.translation.x += 0.1;
+    job.remade = [(1, moved.clone()), (2, FrameState { index: 2, ..moved })].into();
+    let (json, html) = reports(&job, folder.path());
+    let changes: Vec<_> = (0..3).map(|frame| json["frames"][frame]["changes"].as_bool()).collect();
+    assert_eq!(changes, [Some(true), Some(true), Some(false)]);
+    let live = &json["live"];
+    for (key, expected) in
+        [("frames", 3.0), ("changed", 2.0), ("with_detail", 3.0), ("complete", 0.0), ("mean_share", 1.0)]
+    {
+        assert_eq!(live[key].as_f64(), Some(expected), "{key}: {live}");
+    }
+    assert_eq!((&live["mean_deficit"], &live["largest_deficit"]), (&1.0.into(), &2.5.into()));
+    assert_eq!((&live["drawing_ms"]["count"], &live["drawing_ms"]["max"]), (&3.into(), &110.5.into()));
+    let (_, strip) = html.split_once("<h2>Live frames</h2>").unwrap();
+    let strip = &strip[strip.find("<svg").unwrap()..strip.find("</svg>").unwrap() + 6];
+    assert!(roxmltree::Document::parse(strip).is_ok(), "{strip}");
+    let marks = |tone: u32| strip.matches(&format!("<line class=\"plot-line plot-t{tone}\"")).count();
+    assert_eq!((marks(6), marks(1), marks(4)), (2, 3, 0));
+}
+
+#[test]
 fn a_debug_view_comes_with_its_key() {
     let folder = tempfile::tempdir().unwrap();
     let mut job = job(folder.path(), 4, 1, |_| 0.25);

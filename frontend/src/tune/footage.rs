@@ -59,7 +59,7 @@ impl Footage {
             if stop.load(Ordering::SeqCst) {
                 return Ok(None);
             }
-            let before = instant.checked_sub(1).filter(|&before| is_same(&scenario.states[before], state));
+            let before = instant.checked_sub(1).filter(|&before| scenario.states[before].is_seen_as(state));
             let now = match before {
                 Some(before) => Arc::clone(&pictures[before]),
                 None => {
@@ -114,7 +114,7 @@ impl Footage {
 
     /// Whether rays see the same at two instants.
     pub fn is_same(&self, a: usize, b: usize) -> bool {
-        Arc::ptr_eq(&self.pictures[a], &self.pictures[b]) || is_same(&self.states[a], &self.states[b])
+        Arc::ptr_eq(&self.pictures[a], &self.pictures[b]) || self.states[a].is_seen_as(&self.states[b])
     }
 
     /// What the eye should see at an instant.
@@ -134,12 +134,6 @@ impl Footage {
         }
         Picture { width: raster.width, height: raster.height, rgba }
     }
-}
-
-/// Whether rays see the same.
-fn is_same(a: &FrameState, b: &FrameState) -> bool {
-    let seen = |frame: &FrameState| FrameState { index: 0, time_s: 0.0, ..frame.clone() };
-    seen(a) == seen(b)
 }
 
 /// The projectors that an eye sees at all, and how much of each of their pixels. They all cover the screen alike, so that a

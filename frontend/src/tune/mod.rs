@@ -4,6 +4,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `scenario` | an interaction: what rays see at each sixtieth of a second |
+//! | `taped` | one that was recorded, also those that come with the program |
 //! | `footage` | the complete pictures of one, of the projectors that an eye sees |
 //! | `machine` | a machine of some speed that plays it by a rule |
 //! | `score` | what the eye is shown against what it should see |
@@ -19,6 +20,7 @@ mod scenario;
 mod score;
 mod setting;
 mod study;
+mod taped;
 mod write;
 
 pub use footage::Footage;
@@ -28,4 +30,5 @@ pub use scenario::{Motion, RATE_HZ, Scenario};
 pub use score::{Score, Scorer};
 pub use setting::{Setting, Stage, badness, stage_of_chi, stage_of_rho, stage_of_theta};
 pub use study::{Run, Study};
+pub use taped::{SHIPPED, open_shipped, recorded};
 pub use write::{TUNE_HTML, write};

@@ -3,6 +3,7 @@
 use super::study::PlayedStage;
 use super::{Contender, Footage, Machine, RATE_HZ, Score, Stage, Study, play};
 use crate::FrontendError;
+use crate::report::plot::strip_of_control;
 use control::{Rule, Weights};
 use renderer::output::Picture;
 use serde::Serialize;
@@ -165,5 +166,5 @@ fn watched(
     let ticks: Vec<_> = played.ticks.iter().map(super::machine::strip_tick).collect();
     let title = format!("{}, complete pictures in {:.2} s", footage.name, machine.full.as_secs_f64());
     let nothing = || FrontendError::Volume(format!("{} has no instant", footage.name));
-    Ok((crate::report::plot::strip(&title, &ticks), worst.ok_or_else(nothing)?))
+    Ok((strip_of_control(&title, &ticks).svg(), worst.ok_or_else(nothing)?))
 }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// A tape.
 pub struct Tape {
     path: PathBuf,
-    bytes: Mmap,
+    bytes: Box<dyn AsRef<[u8]> + Send + Sync>,
     head: Head,
 }
 
@@ -32,6 +32,18 @@ impl Tape {
         // SAFETY: a tape only grows while it is written; one that somebody shortens under a reader ends the process with a
         // bus error, and nothing else.
         let bytes = unsafe { Mmap::map(&file) }.map_err(cannot_read)?;
+        Self::of(path, Box::new(bytes))
+    }
+
+    /// The same of a tape that is a part of the program, under a name for messages.
+    ///
+    /// # Errors
+    /// It is no tape, or one of a later version.
+    pub fn of_bytes(name: &Path, bytes: &'static [u8]) -> Result<Self, TapeError> {
+        Self::of(name, Box::new(bytes))
+    }
+
+    fn of(path: &Path, bytes: Box<dyn AsRef<[u8]> + Send + Sync>) -> Result<Self, TapeError> {
         let mut tape = Self { path: path.to_owned(), bytes, head: Head::default() };
         tape.head = tape.read_head()?;
         Ok(tape)
@@ -57,7 +69,7 @@ impl Tape {
     }
 
     fn flattened(&self) -> Result<Flattened<'_>, String> {
-        Flattened::new(&self.bytes)
+        Flattened::new((*self.bytes).as_ref())
     }
 
     fn read_head(&self) -> Result<Head, TapeError> {

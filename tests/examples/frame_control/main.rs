@@ -1,12 +1,15 @@
 //! How well frames are controlled by error, against fixed rules and against reconstruction in time: seven interactions on
 //! three simulated machines, as an eye before desk8 sees them; how far the estimates of error can be trusted; what they cost.
 //!
-//! `cargo run --release -p lightloom-tests --example frame_control -- [--pages DIR | --costs]`. The footage is drawn complete first; what a
-//! machine of some speed would have shown is then played from it, see `frontend::tune`.
+//! `cargo run --release -p lightloom-tests --example frame_control -- [[--tapes] [--pages DIR] | --costs | --rest]`. The footage is
+//! drawn complete first; what a machine of some speed would have shown is then played from it, see `frontend::tune`. With
+//! `--tapes` the interactions are those of the tapes that come with the program. `--rest` measures what a display at rest takes.
 
 mod costs;
 mod estimates;
 mod eyes;
+mod rest;
+mod tapes;
 
 use control::Weights;
 use display_config::Display;
@@ -26,29 +29,51 @@ const RASTER: [u32; 2] = [160, 120];
 const MACHINES_MS: [u64; 3] = [100, 400, 1600];
 
 fn main() -> Result<(), String> {
+    let (mut pages, mut plays_tapes): (Option<PathBuf>, bool) = (None, false);
     let mut arguments = std::env::args().skip(1);
-    let pages: Option<PathBuf> = match arguments.next().as_deref() {
-        None => None,
-        Some("--pages") => Some(arguments.next().ok_or("--pages needs a folder")?.into()),
-        Some("--costs") => return costs::measure(),
-        Some(other) => return Err(format!("{other} is unknown; give nothing, --pages DIR, or --costs")),
-    };
-    let started = Instant::now();
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--pages" => pages = Some(arguments.next().ok_or("--pages needs a folder")?.into()),
+            "--tapes" => plays_tapes = true,
+            "--costs" => return costs::measure(),
+            "--rest" => return rest::measure(),
+            other => {
+                let known = "--tapes, --pages DIR, --costs or --rest";
+                return Err(format!("{other} is unknown; give nothing, {known}"));
+            }
+        }
+    }
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
-    let machines = MACHINES_MS.map(|ms| Machine { full: Duration::from_millis(ms) }).to_vec();
-    let study = Study { footage: footage(&display)?, machines };
+    let report = if plays_tapes {
+        tapes::play(Results::new(PROGRAM, PAGE, "tapes"), &display)?
+    } else {
+        motions(&display)?
+    };
+    pages.map_or(Ok(()), |folder| {
+        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        write(&report, &folder).map_err(|error| error.to_string())
+    })
+}
+
+fn machines() -> Vec<Machine> {
+    MACHINES_MS.map(|ms| Machine { full: Duration::from_millis(ms) }).to_vec()
+}
+
+/// The study of the seven motions; its report.
+fn motions(display: &Display) -> Result<TuneReport, String> {
+    let started = Instant::now();
+    let study = Study { footage: footage(display)?, machines: machines() };
     estimates::compare(&study.footage)?;
     let played = study.run(Weights::default(), &AtomicBool::new(false), &|| {});
     let (stages, best) = played.ok_or("nobody stops it")?;
     let report = TuneReport::new(&study, &stages, best, started.elapsed().as_secs_f64())
         .map_err(|error| error.to_string())?;
-    sweeps(&report)?;
+    let mut results = Results::new(PROGRAM, PAGE, "sweeps");
+    sweeps(&mut results, &report);
+    results.finish()?;
     eyes::compare(&study, best)?;
     costs::measure()?;
-    pages.map_or(Ok(()), |folder| {
-        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        write(&report, &folder).map_err(|error| error.to_string())
-    })
+    Ok(report)
 }
 
 /// Three volumes, each turned and with its extinction changed; one cut by a plane.
@@ -71,8 +96,7 @@ fn footage(display: &Display) -> Result<Vec<Footage>, String> {
 }
 
 /// The tables of the stages.
-fn sweeps(report: &TuneReport) -> Result<(), String> {
-    let mut results = Results::new(PROGRAM, PAGE, "sweeps");
+fn sweeps(results: &mut Results, report: &TuneReport) {
     for stage in &report.stages {
         results.line("| setting | bad by RMS | bad by flicker | mean RMS | worst place among all | rays cast for, s | shown a second |");
         results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: |");
@@ -99,5 +123,4 @@ fn sweeps(report: &TuneReport) -> Result<(), String> {
         results.line("");
     }
     results.line(format!("Best: ρ = {}, ϑ = {}.", report.best.rho, report.best.theta));
-    results.finish()
 }

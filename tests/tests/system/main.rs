@@ -28,6 +28,7 @@ mod replay;
 mod same_bytes;
 mod stopped;
 mod store_commands;
+mod tapes;
 mod whole_store;
 mod window;
 mod wiring;

@@ -2,6 +2,7 @@
 
 mod axis;
 mod chart;
+mod control;
 mod legend;
 mod marks;
 mod series;
@@ -9,5 +10,6 @@ mod strip;
 
 pub use axis::{LogAxis, Tick};
 pub use chart::Chart;
+pub use control::{StripTick, strip_of_control};
 pub use series::{Mark, Point, Series, Stroke};
-pub use strip::{StripTick, strip};
+pub use strip::{Curve, Panel, Row, Strip};
