@@ -1,16 +1,19 @@
 //! How well frames are controlled by error, against fixed rules and against reconstruction in time: seven interactions on
 //! three simulated machines, as an eye before desk8 sees them; how far the estimates of error can be trusted; what they cost.
 //!
-//! `cargo run --release -p lightloom-tests --example frame_control -- [--pages DIR | --costs]`. The footage is drawn complete first; what a
+//! `cargo run --release -p lightloom-tests --example frame_control -- [--pages DIR | --costs | --points |
+//! --played-points]`. The footage is drawn complete first; what a
 //! machine of some speed would have shown is then played from it, see `frontend::tune`.
 
 mod costs;
 mod estimates;
 mod eyes;
+mod points;
 
+use bricks::BrickSource;
 use control::Weights;
 use display_config::Display;
-use frontend::tune::{Footage, Machine, Motion, Study, TuneReport, write};
+use frontend::tune::{Footage, Machine, Motion, Scenario, Study, TuneReport, write};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes;
 use std::path::PathBuf;
@@ -31,7 +34,13 @@ fn main() -> Result<(), String> {
         None => None,
         Some("--pages") => Some(arguments.next().ok_or("--pages needs a folder")?.into()),
         Some("--costs") => return costs::measure(),
-        Some(other) => return Err(format!("{other} is unknown; give nothing, --pages DIR, or --costs")),
+        Some("--points") => return points::stills(),
+        Some("--played-points") => return points::played(),
+        Some(other) => {
+            return Err(format!(
+                "{other} is unknown; give nothing, --pages DIR, --costs, --points, or --played-points"
+            ));
+        }
     };
     let started = Instant::now();
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
@@ -53,21 +62,29 @@ fn main() -> Result<(), String> {
 
 /// Three volumes, each turned and with its extinction changed; one cut by a plane.
 fn footage(display: &Display) -> Result<Vec<Footage>, String> {
+    let mut footage = Vec::new();
+    for (scenario, source) in scenarios(display) {
+        let drawn = Footage::draw(&scenario, display, RASTER, &source, &AtomicBool::new(false), &|_| {});
+        footage.push(drawn.map_err(|error| error.to_string())?.ok_or("nobody stops it")?);
+        eprintln!("{} is drawn", scenario.name);
+    }
+    Ok(footage)
+}
+
+/// The interactions of the footage, with their volumes.
+fn scenarios(display: &Display) -> Vec<(Scenario, Arc<dyn BrickSource>)> {
     let small = display.with_rasters(RASTER[0], RASTER[1]);
     let mut all = vec![scenes::shells(&small), scenes::stored_vessels(&small)];
     all.extend(scenes::cranium(&small));
-    let mut footage = Vec::new();
+    let mut scenarios = Vec::new();
     for (number, scene) in all.iter().enumerate() {
         let motions = [Motion::Turn, Motion::Look, Motion::Clip];
         for motion in &motions[..if number + 1 == all.len() { 3 } else { 2 }] {
             let scenario = motion.scenario(scene.name, &scene.frame, display.height_m);
-            let source = Arc::clone(&scene.source);
-            let drawn = Footage::draw(&scenario, display, RASTER, &source, &AtomicBool::new(false), &|_| {});
-            footage.push(drawn.map_err(|error| error.to_string())?.ok_or("nobody stops it")?);
-            eprintln!("{} is drawn", scenario.name);
+            scenarios.push((scenario, Arc::clone(&scene.source)));
         }
     }
-    Ok(footage)
+    scenarios
 }
 
 /// The tables of the stages.
