@@ -1,28 +1,34 @@
 //! Which Gaussian is best for which density of samples: the paper gives none.
 
-use super::PARTS;
 use super::shots::{Shots, Truth};
 use lightloom_tests::points::{Kernel, Level, Pattern, Samples};
 use lightloom_tests::results::Results;
 use rayon::prelude::*;
 
-const LEAST: [usize; 5] = [1, 2, 3, 4, 6];
-const FALLOFF: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
+/// All that are tried, and those that are where pictures are large.
+pub const ALL: (&[usize], &[f64]) = (&[1, 2, 3, 4, 6], &[0.5, 1.0, 2.0, 4.0, 8.0]);
+pub const FEW: (&[usize], &[f64]) = (&[2, 3, 4], &[2.0, 4.0]);
 
 /// The best kernels, by rays for each pixel.
 pub struct Kernels(Vec<(f64, Kernel)>);
 
 impl Kernels {
-    /// Tries all on levels, given by a pattern and a depth: by the mean RMS over all shots.
-    pub fn best(results: &mut Results, shots: &[Shots], size: [u32; 2], levels: &[(&Pattern, u32)]) -> Self {
+    /// Tries some on levels, given by a pattern and a depth: by the mean RMS over all shots.
+    pub fn best(
+        results: &mut Results,
+        shots: &[Shots],
+        size: [u32; 2],
+        (least, falloffs): (&[usize], &[f64]),
+        levels: &[(&Pattern, u32)],
+    ) -> Self {
         results.line("| rays a pixel | samples a pixel has at least | α r² | r, distances between samples | RMS | of the worst kernel |");
         results.line("| ---: | ---: | ---: | ---: | ---: | ---: |");
         let mut best = Vec::new();
         for &(pattern, depth) in levels {
-            let samples = Samples::new(pattern, size, PARTS, depth);
-            let kernels: Vec<Kernel> = LEAST
-                .into_iter()
-                .flat_map(|least| FALLOFF.map(|falloff| Kernel { least, falloff }))
+            let samples = Samples::new(pattern, size, shots[0].parts(), depth);
+            let kernels: Vec<Kernel> = least
+                .iter()
+                .flat_map(|&least| falloffs.iter().map(move |&falloff| Kernel { least, falloff }))
                 .collect();
             let tried = |&kernel: &Kernel| {
                 let level = Level::new(samples.clone(), kernel);

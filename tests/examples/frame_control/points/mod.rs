@@ -12,7 +12,3 @@ mod strip;
 
 pub use played::compare as played;
 pub use stills::compare as stills;
-
-/// Rays may go through the middles of so many times as fine a raster, along each axis. It is odd, so that the middles of
-/// pixels are among them.
-const PARTS: u32 = 5;

@@ -1,6 +1,5 @@
 //! Ways to a picture, with some rays for each pixel.
 
-use super::PARTS;
 use super::kernels::Kernels;
 use super::patterns::Patterns;
 use super::shots::{Shots, Truth};
@@ -40,18 +39,19 @@ impl Plan {
     /// The points' levels are those of a pattern, down to a depth. A picture of `size` has 4^`deeper` times the pixels that
     /// the even patterns are for.
     pub fn new(
-        size: [u32; 2],
+        (size, parts): ([u32; 2], u32),
         (pattern, depth): (&Pattern, u32),
         deeper: u32,
         patterns: &Patterns,
-        [kernels, jittered]: [&Kernels; 2],
+        (kernels, jittered): (&Kernels, Option<&Kernels>),
     ) -> Self {
-        let levels = (0..=depth).map(|depth| kernels.level(pattern, size, PARTS, depth)).collect();
+        let levels = (0..=depth).map(|depth| kernels.level(pattern, size, parts, depth)).collect();
         // 300 × 4^l rays, and 150 × 4^l.
         let exact = [(0, 0), (0, 1), (0, 2), (1, 3), (0, 3)].map(|(which, depth)| (which, depth + deeper));
-        let at_once = exact.map(|(which, depth)| kernels.level(&patterns.even[which], size, PARTS, depth));
+        let at_once = exact.map(|(which, depth)| kernels.level(&patterns.even[which], size, parts, depth));
         let jittered = exact.map(|(which, depth)| {
-            (which == 0).then(|| jittered.level(&patterns.jittered, size, PARTS, depth))
+            let kernels = jittered.filter(|_| which == 0)?;
+            Some(kernels.level(&patterns.jittered, size, parts, depth))
         });
         Self {
             order: Order::new(Grain::Pixels, size),

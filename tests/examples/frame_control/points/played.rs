@@ -1,6 +1,6 @@
 //! Interaction played to machines that cast points, against those that cast lattices.
 
-use super::kernels::Kernels;
+use super::kernels::{ALL, Kernels};
 use super::machine::play;
 use super::painter::{Lattices, Levels, Painter, Points};
 use super::patterns::Patterns;
@@ -77,9 +77,9 @@ impl Stage {
         // The kernels that are best for stills; the tables about them are that part's.
         let mut unsaid = Results::new(PROGRAM, PAGE, "points");
         let pattern = Patterns::new(&mut unsaid)?.small;
-        let shots = Shots::of_all(display, RASTER, 1)?;
+        let shots = Shots::of_all(display, RASTER, PARTS, 1)?;
         let depths: Vec<(&Pattern, u32)> = (0..=DEPTH).map(|depth| (&pattern, depth)).collect();
-        let kernels = Kernels::best(&mut unsaid, &shots, RASTER, &depths);
+        let kernels = Kernels::best(&mut unsaid, &shots, RASTER, ALL, &depths);
         let levels = (0..=DEPTH).map(|depth| kernels.level(&pattern, RASTER, PARTS, depth)).collect();
         let schedule = Schedule::new(levels, BORDER);
         let pixels = f64::from(RASTER[0] * RASTER[1]);

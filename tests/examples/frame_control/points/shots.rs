@@ -1,6 +1,5 @@
 //! Still pictures of a scene, on a raster and on a finer one, of the projectors that an eye sees.
 
-use super::PARTS;
 use crate::eyes::mean_flip;
 use bricks::BrickSource;
 use display_config::Display;
@@ -18,6 +17,9 @@ const CUT_AT: usize = 48;
 pub struct Shots {
     /// The volume.
     pub volume: &'static str,
+    /// Rays may go through the middles of so many times as fine a raster, along each axis. It is odd, so that the middles of
+    /// pixels are among them.
+    parts: u32,
     eye: Footage,
     fine: Footage,
 }
@@ -42,22 +44,23 @@ pub enum Truth {
 
 impl Shots {
     /// Of all volumes: turned, and the cranium also cut by a plane.
-    pub fn of_all(display: &Display, size: [u32; 2], each: usize) -> Result<Vec<Self>, String> {
+    pub fn of_all(display: &Display, size: [u32; 2], parts: u32, each: usize) -> Result<Vec<Self>, String> {
         let small = display.with_rasters(size[0], size[1]);
         let mut all = vec![scenes::shells(&small), scenes::stored_vessels(&small)];
         let cranium = scenes::cranium(&small);
         all.extend(cranium.clone());
-        let turned = |scene: &TestScene| Self::new(display, size, scene, Motion::Turn, &INSTANTS[..each]);
+        let turned =
+            |scene: &TestScene| Self::new(display, (size, parts), scene, Motion::Turn, &INSTANTS[..each]);
         let mut shots = all.iter().map(turned).collect::<Result<Vec<Self>, String>>()?;
         if let Some(cranium) = cranium {
-            shots.push(Self::new(display, size, &cranium, Motion::Clip, &[CUT_AT])?);
+            shots.push(Self::new(display, (size, parts), &cranium, Motion::Clip, &[CUT_AT])?);
         }
         Ok(shots)
     }
 
     fn new(
         display: &Display,
-        size: [u32; 2],
+        (size, parts): ([u32; 2], u32),
         scene: &TestScene,
         motion: Motion,
         instants: &[usize],
@@ -66,10 +69,15 @@ impl Shots {
         let states = instants.iter().map(|&instant| all.states[instant].clone()).collect();
         let scenario = Scenario { name: all.name, states };
         let draw = |size| drawn(&scenario, display, size, &scene.source);
-        let shots =
-            Self { volume: scene.name, eye: draw(size)?, fine: draw(size.map(|along| PARTS * along))? };
+        let (eye, fine) = (draw(size)?, draw(size.map(|along| parts * along))?);
+        let shots = Self { volume: scene.name, parts, eye, fine };
         eprintln!("{} is drawn at {size:?}: {} views", scenario.name, shots.fine.pictures(0).len());
         Ok(shots)
+    }
+
+    /// How many times as fine a raster rays go through.
+    pub fn parts(&self) -> u32 {
+        self.parts
     }
 
     /// Instants.
@@ -84,7 +92,7 @@ impl Shots {
 
     /// Complete pictures of an instant.
     pub fn complete(&self, instant: usize, truth: Truth) -> Vec<Vec<f32>> {
-        let of = |image: &protocol::ProjectorImage| coarse(&image.rgba, image.width, truth);
+        let of = |image: &protocol::ProjectorImage| coarse(&image.rgba, image.width, self.parts, truth);
         self.fine.pictures(instant).iter().map(of).collect()
     }
 
@@ -105,14 +113,14 @@ impl Shots {
         (squares / (0.75 * seen.rgba.len() as f64)).sqrt()
     }
 
-    /// The largest difference between what is drawn on the raster itself and the same rays of the finer one.
-    pub fn apart(&self) -> f32 {
-        let own = (0..self.count()).flat_map(|instant| self.eye.pictures(instant));
-        let fine = (0..self.count()).flat_map(|instant| self.complete(instant, Truth::Middles));
-        let apart = own.zip(fine).flat_map(|(own, fine)| {
-            own.rgba.iter().zip(fine).map(|(a, b)| (a - b).abs()).collect::<Vec<f32>>()
-        });
-        apart.fold(0.0, f32::max)
+    /// What an eye sees of the raster drawn by itself, against the same rays of the finer one.
+    pub fn apart(&self) -> f64 {
+        let seen = |instant: usize| {
+            let own: Vec<Vec<f32>> =
+                self.eye.pictures(instant).iter().map(|image| image.rgba.clone()).collect();
+            self.rms(&self.seen(&own), &self.seen(&self.complete(instant, Truth::Middles)))
+        };
+        (0..self.count()).map(seen).fold(0.0, f64::max)
     }
 }
 
@@ -128,8 +136,8 @@ pub fn drawn(
 }
 
 /// A picture of a finer one, as wide as given.
-fn coarse(fine: &[f32], fine_width: u32, truth: Truth) -> Vec<f32> {
-    let (parts, fine_width) = (PARTS as usize, fine_width as usize);
+fn coarse(fine: &[f32], fine_width: u32, parts: u32, truth: Truth) -> Vec<f32> {
+    let (parts, fine_width) = (parts as usize, fine_width as usize);
     let (width, height) = (fine_width / parts, fine.len() / 4 / fine_width / parts);
     let ray = |x: usize, y: usize, i: usize| fine[4 * (y * fine_width + x) + i];
     let pixel = |x: usize, y: usize, i: usize| match truth {

@@ -1,6 +1,6 @@
 //! Still pictures by each way, with few rays and with many.
 
-use super::kernels::Kernels;
+use super::kernels::{ALL, FEW, Kernels};
 use super::patterns::Patterns;
 use super::plan::{Plan, SHARES, Way};
 use super::shots::{Erred, Shots, Truth};
@@ -12,6 +12,9 @@ use lightloom_tests::results::Results;
 
 /// The larger raster: the paper's 16,384 sites are for about as many pixels.
 const LARGE: [u32; 2] = [640, 480];
+/// Rays of each raster may go through the middles of so many times as fine ones.
+const PARTS: u32 = 5;
+const PARTS_OF_LARGE: u32 = 3;
 const WAYS: [(&str, Way); 4] = [
     ("lattices, filled in space", Way::Filled),
     ("points, level after level", Way::Levels),
@@ -38,41 +41,54 @@ pub fn compare() -> Result<(), String> {
     let display = Display::load("desk8").map_err(|error| error.to_string())?;
     let mut results = Results::new(PROGRAM, PAGE, "points");
     let patterns = Patterns::new(&mut results)?;
-    raster(&mut results, &display, &patterns, RASTER, (&patterns.small, 4), 0)?;
-    raster(&mut results, &display, &patterns, LARGE, (&patterns.full, 3), 2)?;
+    let shots = Shots::of_all(&display, RASTER, PARTS, 3)?;
+    heading(&mut results, &shots, RASTER, &patterns.small);
+    let kernels =
+        Kernels::best(&mut results, &shots, RASTER, ALL, &levels(&patterns, (&patterns.small, 4), 0));
+    let grid = [0, 1, 2, 3].map(|depth| (&patterns.jittered, depth));
+    results.line("And for one ray in each cell of a grid:");
+    results.line("");
+    let jittered = Kernels::best(&mut results, &shots, RASTER, ALL, &grid);
+    let tuned = (&kernels, Some(&jittered));
+    let plan = Plan::new((RASTER, PARTS), (&patterns.small, 4), 0, &patterns, tuned);
+    tables(&mut results, &plan, &shots);
+    strip::write(&plan, &shots[shots.len() - 1])?;
+    drop(shots);
+    let shots = Shots::of_all(&display, LARGE, PARTS_OF_LARGE, 1)?;
+    heading(&mut results, &shots, LARGE, &patterns.full);
+    let kernels = Kernels::best(&mut results, &shots, LARGE, FEW, &levels(&patterns, (&patterns.full, 3), 2));
+    let plan = Plan::new((LARGE, PARTS_OF_LARGE), (&patterns.full, 3), 2, &patterns, (&kernels, None));
+    tables(&mut results, &plan, &shots);
     results.finish()
 }
 
-/// All of a raster, for which the even patterns have to be so much deeper.
-fn raster(
-    results: &mut Results,
-    display: &Display,
-    patterns: &Patterns,
-    size: [u32; 2],
-    (pattern, depth): (&Pattern, u32),
-    deeper: u32,
-) -> Result<(), String> {
-    let shots = Shots::of_all(display, size, if size == RASTER { 3 } else { 1 })?;
+fn heading(results: &mut Results, shots: &[Shots], size: [u32; 2], pattern: &Pattern) {
     let stills: usize = shots.iter().map(Shots::count).sum();
-    let apart = shots.iter().map(Shots::apart).fold(0.0, f32::max);
+    let apart = shots.iter().map(Shots::apart).fold(0.0, f64::max);
     results.line(format!(
-        "**{} × {} pixels**, {stills} stills; levels of {} sites. Drawn on the raster itself, no colour is farther than {:.3} / 255 from the same ray of the finer one. The best Gaussians:",
-        size[0], size[1], pattern.places().len(), 255.0 * apart,
+        "**{} × {} pixels**, {stills} stills; rays through a raster {} times as fine along each axis, levels of {} sites. \
+         Drawn on its own raster, no still differs from the same rays of the finer one by an RMS above {:.3}. The best \
+         Gaussians:",
+        size[0],
+        size[1],
+        shots[0].parts(),
+        pattern.places().len(),
+        255.0 * apart,
     ));
     results.line("");
+}
+
+/// Levels that Gaussians are sought for; the even patterns have to be so much deeper.
+fn levels<'a>(patterns: &'a Patterns, finest: (&'a Pattern, u32), deeper: u32) -> Vec<(&'a Pattern, u32)> {
     let even = EVEN_DEPTHS.map(|(which, depth)| (&patterns.even[which], depth + deeper));
-    let levels: Vec<(&Pattern, u32)> = even.into_iter().chain([(pattern, depth)]).collect();
-    let kernels = Kernels::best(results, &shots, size, &levels);
-    let grid = [0, 1, 2, 3].map(|depth| (&patterns.jittered, depth + deeper));
-    results.line("And of the grid's cells:");
-    results.line("");
-    let jittered = Kernels::best(results, &shots, size, &grid);
-    let plan = Plan::new(size, (pattern, depth), deeper, patterns, [&kernels, &jittered]);
+    even.into_iter().chain([finest]).collect()
+}
+
+fn tables(results: &mut Results, plan: &Plan, shots: &[Shots]) {
     let all = shots.iter().flat_map(|shots| (0..shots.count()).map(move |instant| (shots, instant)));
-    let judged: Vec<Judged> = all.map(|(shots, instant)| judge(&plan, shots, instant)).collect();
+    let judged: Vec<Judged> = all.map(|(shots, instant)| judge(plan, shots, instant)).collect();
     by_share(results, &judged);
-    finished(results, &plan, &judged);
-    if size == RASTER { strip::write(&plan, shots.last().ok_or("there are shots")?) } else { Ok(()) }
+    finished(results, plan, &judged, shots[0].parts());
 }
 
 fn judge(plan: &Plan, shots: &Shots, instant: usize) -> Judged {
@@ -138,15 +154,16 @@ fn fraction(share: f64) -> String {
 }
 
 /// What is shown in the end.
-fn finished(results: &mut Results, plan: &Plan, judged: &[Judged]) {
+fn finished(results: &mut Results, plan: &Plan, judged: &[Judged], parts: u32) {
     let schedule = plan.schedule();
     let finest = &schedule.levels()[schedule.levels().len() - 1];
     let pixels = f64::from(finest.samples().size()[0] * finest.samples().size()[1]);
     results.line("In the end:");
     results.line("");
-    results.line(
-        "| | rays a pixel, of the last level and in all | against one ray a pixel | against the mean of 25 |",
-    );
+    results.line(format!(
+        "| | rays a pixel, of the last level and in all | against one ray a pixel | against the mean of {} |",
+        parts * parts
+    ));
     results.line("| --- | ---: | ---: | ---: |");
     let complete = cell(mean(judged.iter().map(|one| one.complete)));
     results.line(format!("| lattices | 1, 1 | 0, to the bit | {complete} |"));
