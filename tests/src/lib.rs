@@ -22,6 +22,7 @@ pub mod motion;
 pub mod octaves;
 pub mod phantoms;
 pub mod picture_difference;
+pub mod points;
 pub mod presented;
 #[cfg(unix)]
 pub mod processes;

@@ -12,14 +12,14 @@ use renderer::present::Finisher;
 use std::time::Duration;
 
 /// FLIP is judged at every so many instants.
-const STRIDE: usize = 4;
+pub const STRIDE: usize = 4;
 
 /// What a contender errs in one scenario on one machine.
 #[derive(Clone, Copy, Debug, Default)]
-struct Judged {
-    rms: f64,
-    flip: f64,
-    flicker: f64,
+pub struct Judged {
+    pub rms: f64,
+    pub flip: f64,
+    pub flicker: f64,
 }
 
 pub fn compare(study: &Study, best: Weights) -> Result<(), String> {
@@ -113,7 +113,7 @@ fn judge(contender: Contender, footage: &Footage, machine: Machine) -> Judged {
 }
 
 /// The mean FLIP difference of two pictures.
-fn mean_flip(footage: &Footage, picture: &Picture, truth: &Picture) -> f32 {
+pub fn mean_flip(footage: &Footage, picture: &Picture, truth: &Picture) -> f32 {
     let display = footage.display();
     let plain = Finisher::new(&display.projectors[0]);
     let coded = |picture: &Picture| {

@@ -1,19 +1,22 @@
 //! How well frames are controlled by error, against fixed rules and against reconstruction in time: seven interactions on
 //! three simulated machines, as an eye before desk8 sees them; how far the estimates of error can be trusted; what they cost.
 //!
-//! `cargo run --release -p lightloom-tests --example frame_control -- [[--tapes] [--pages DIR] | --costs | --rest]`. The footage is
-//! drawn complete first; what a machine of some speed would have shown is then played from it, see `frontend::tune`. With
-//! `--tapes` the interactions are those of the tapes that come with the program. `--rest` measures what a display at rest takes.
+//! `cargo run --release -p lightloom-tests --example frame_control -- [[--tapes] [--pages DIR] | --costs | --rest | --points |
+//! --played-points]`. The footage is drawn complete first; what a machine of some speed would have shown is then played from it, see
+//! `frontend::tune`. With `--tapes` the interactions are those of the tapes that come with the program. `--rest` measures what a display
+//! at rest takes, `--points` and `--played-points` what capacity-constrained points show in place of lattices.
 
 mod costs;
 mod estimates;
 mod eyes;
+mod points;
 mod rest;
 mod tapes;
 
+use bricks::BrickSource;
 use control::Weights;
 use display_config::Display;
-use frontend::tune::{Footage, Machine, Motion, Study, TuneReport, write};
+use frontend::tune::{Footage, Machine, Motion, Scenario, Study, TuneReport, write};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes;
 use std::path::PathBuf;
@@ -37,8 +40,10 @@ fn main() -> Result<(), String> {
             "--tapes" => plays_tapes = true,
             "--costs" => return costs::measure(),
             "--rest" => return rest::measure(),
+            "--points" => return points::stills(),
+            "--played-points" => return points::played(),
             other => {
-                let known = "--tapes, --pages DIR, --costs or --rest";
+                let known = "--tapes, --pages DIR, --costs, --rest, --points or --played-points";
                 return Err(format!("{other} is unknown; give nothing, {known}"));
             }
         }
@@ -78,21 +83,29 @@ fn motions(display: &Display) -> Result<TuneReport, String> {
 
 /// Three volumes, each turned and with its extinction changed; one cut by a plane.
 fn footage(display: &Display) -> Result<Vec<Footage>, String> {
+    let mut footage = Vec::new();
+    for (scenario, source) in scenarios(display) {
+        let drawn = Footage::draw(&scenario, display, RASTER, &source, &AtomicBool::new(false), &|_| {});
+        footage.push(drawn.map_err(|error| error.to_string())?.ok_or("nobody stops it")?);
+        eprintln!("{} is drawn", scenario.name);
+    }
+    Ok(footage)
+}
+
+/// The interactions of the footage, with their volumes.
+fn scenarios(display: &Display) -> Vec<(Scenario, Arc<dyn BrickSource>)> {
     let small = display.with_rasters(RASTER[0], RASTER[1]);
     let mut all = vec![scenes::shells(&small), scenes::stored_vessels(&small)];
     all.extend(scenes::cranium(&small));
-    let mut footage = Vec::new();
+    let mut scenarios = Vec::new();
     for (number, scene) in all.iter().enumerate() {
         let motions = [Motion::Turn, Motion::Look, Motion::Clip];
         for motion in &motions[..if number + 1 == all.len() { 3 } else { 2 }] {
             let scenario = motion.scenario(scene.name, &scene.frame, display.height_m);
-            let source = Arc::clone(&scene.source);
-            let drawn = Footage::draw(&scenario, display, RASTER, &source, &AtomicBool::new(false), &|_| {});
-            footage.push(drawn.map_err(|error| error.to_string())?.ok_or("nobody stops it")?);
-            eprintln!("{} is drawn", scenario.name);
+            scenarios.push((scenario, Arc::clone(&scene.source)));
         }
     }
-    Ok(footage)
+    scenarios
 }
 
 /// The tables of the stages.
