@@ -62,10 +62,12 @@ impl Painter for Lattices<'_> {
     }
 
     fn paint(&mut self, instant: usize, done: u32) -> f64 {
-        let images = self.footage.pictures(instant).iter().enumerate();
-        let filled =
-            images.map(|(view, image)| fill(image.rgba.clone(), self.before.get(view), self.order, done));
-        self.filled = filled.collect();
+        let images = self.footage.pictures(instant);
+        self.filled.resize_with(images.len(), Filled::default);
+        for (view, (image, filled)) in images.iter().zip(&mut self.filled).enumerate() {
+            let last = std::mem::take(filled);
+            *filled = fill(image.rgba.clone(), self.before.get(view), last, self.order, done);
+        }
         let pixels: usize = self.filled.iter().map(|one| one.rgba.len() / 4).sum();
         self.filled.iter().map(|one| one.spatial).sum::<u64>() as f64 * ERROR_UNIT / pixels.max(1) as f64
     }

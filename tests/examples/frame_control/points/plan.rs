@@ -4,7 +4,7 @@ use super::kernels::Kernels;
 use super::patterns::Patterns;
 use super::shots::{Shots, Truth};
 use lightloom_tests::points::{Level, Pattern, Reconstructed, Schedule};
-use renderer::refine::{Grain, Order, UNITS, fill};
+use renderer::refine::{self, Grain, Order, UNITS, fill};
 
 /// Rays for each pixel, of those that a complete picture of ours has.
 pub const SHARES: [f64; 5] = [1.0 / 64.0, 1.0 / 16.0, 0.25, 0.5, 1.0];
@@ -93,7 +93,8 @@ impl Plan {
                 let cast =
                     (0..self.pixels() as usize).filter(|&pixel| self.order.is_cast(pixel, done)).count();
                 let complete = shots.complete(instant, Truth::Middles).into_iter();
-                let filled = complete.map(|picture| fill(picture, None, &self.order, done).rgba);
+                let filled = complete
+                    .map(|picture| fill(picture, None, refine::Filled::default(), &self.order, done).rgba);
                 Some((filled.collect(), cast as f64 / self.pixels()))
             }
             Way::Levels => {
