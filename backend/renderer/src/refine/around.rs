@@ -1,6 +1,14 @@
 //! The neighbours that a pixel is made from.
 
-use super::fill::{CHANNELS, Pixel, pixel_at};
+/// Channels of a pixel: red, green, blue, opacity.
+pub(super) const CHANNELS: usize = 4;
+
+pub(super) type Pixel = [f32; CHANNELS];
+
+#[inline(always)]
+pub(super) fn pixel_at(picture: &[f32], at: usize) -> Pixel {
+    *picture[CHANNELS * at..].first_chunk().expect("a pixel of the picture")
+}
 
 /// At most four, in opposite pairs where both are inside the raster.
 #[derive(Clone, Copy)]

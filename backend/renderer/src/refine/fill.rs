@@ -25,15 +25,12 @@
 //! A pixel is made anew only where something that it is made from has changed since the picture was last filled, with fewer
 //! units: the same to the bit as if all of it were made anew.
 
-use super::around::{Around, Rim};
+use super::around::{Around, CHANNELS, Pixel, Rim, pixel_at};
 use super::{Grain, Order, UNITS, whole};
 
-/// Channels of a pixel: red, green, blue, opacity.
-pub(super) const CHANNELS: usize = 4;
 /// The largest distance between pixels that others are made from.
 const COARSEST: i64 = 4;
 
-pub(super) type Pixel = [f32; CHANNELS];
 type Way = [i64; 2];
 
 // Of each pair of neighbours the one, in units of their distance; the other lies opposite.
@@ -243,11 +240,6 @@ impl Filling<'_> {
         let is_inside = (0..self.width).contains(&x) && (0..self.height).contains(&y);
         is_inside.then(|| (y * self.width + x) as usize)
     }
-}
-
-#[inline(always)]
-pub(super) fn pixel_at(picture: &[f32], at: usize) -> Pixel {
-    *picture[CHANNELS * at..].first_chunk().expect("a pixel of the picture")
 }
 
 #[cfg(test)]
