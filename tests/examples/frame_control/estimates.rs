@@ -1,15 +1,19 @@
 //! Whether the estimates of error can be trusted: ζ against what is truly wrong, τ against what has truly changed.
 
 use super::{PAGE, PROGRAM};
+use frontend::report::plot::{Chart, Mark, Point, Series, Stroke};
 use frontend::tune::Footage;
 use lightloom_tests::random::Random;
-use lightloom_tests::results::Results;
+use lightloom_tests::results::{Results, folder};
 use protocol::ProjectorImage;
 use renderer::refine::{ERROR_UNIT, Filled, Grain, Order, UNITS, change_at, fill, sparse};
 
 /// Pictures of each scenario that are looked at.
 const PICTURES: usize = 150;
 const SEED: u64 = 17;
+
+/// Less than this counts as nothing: a thousandth of the least code.
+const LEAST_PLOTTED: f64 = 1e-3 / 255.0;
 
 /// An estimate, and what it stands for.
 type Pair = (f64, f64);
@@ -20,17 +24,51 @@ pub fn compare(footage: &[Footage]) -> Result<(), String> {
     results.line("| --- | ---: | ---: | ---: | ---: |");
     let mut random = Random(SEED);
     let (mut all_spatial, mut all_temporal) = (Vec::new(), Vec::new());
-    for one in footage {
+    let (mut space, mut time) = (Vec::new(), Vec::new());
+    for (place, one) in footage.iter().enumerate() {
         let picture = &one.pictures(0)[0];
         let order = Order::new(Grain::Pixels, [picture.width, picture.height]);
         let spatial: Vec<Pair> = (0..PICTURES).map(|_| spatial(one, &order, &mut random)).collect();
         let temporal: Vec<Pair> = (0..PICTURES).map(|_| temporal(one, &order, &mut random)).collect();
         results.line(row(&one.name, &spatial, &temporal));
+        space.push(dots(&one.name, place, footage.len(), &spatial));
+        time.push(dots(&one.name, place, footage.len(), &temporal));
         all_spatial.extend(spatial);
         all_temporal.extend(temporal);
     }
     results.line(row("*all together*", &all_spatial, &all_temporal));
+    if let Some(folder) = folder() {
+        for (file, what, series) in [("zeta", "ζ", space), ("tau", "τ", time)] {
+            let path = folder.join(format!("{PAGE}-{file}.svg"));
+            let svg = chart(what, series).svg();
+            std::fs::write(&path, svg).map_err(|error| format!("{}: {error}", path.display()))?;
+        }
+    }
     results.finish()
+}
+
+/// One scenario's pairs; those of nothing have no place on axes of magnitudes.
+fn dots(name: &str, place: usize, count: usize, pairs: &[Pair]) -> Series {
+    let is_seen = |pair: &&Pair| pair.0 > LEAST_PLOTTED && pair.1 > LEAST_PLOTTED;
+    let point = |&(estimate, truth): &Pair| {
+        let [x, y] = [truth, estimate].map(|of| 255.0 * of);
+        Point { x, y, title: format!("{name}: {y:.3} said, {x:.3} true") }
+    };
+    Series::new(name, pairs.iter().filter(is_seen).map(point).collect()).ramp(place, count).mark(Mark::Dot)
+}
+
+/// What an estimate says against what is true.
+fn chart(what: &str, mut series: Vec<Series>) -> Chart {
+    let xs = series.iter().flat_map(|one| one.points.iter().map(|point| point.x));
+    let [low, high] = xs.fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
+    let equal = [low, high].map(|x| Point { x, y: x, title: "as it is".to_owned() });
+    series.push(Series::new("as it is", equal.to_vec()).stroke(Stroke::Dashed));
+    Chart {
+        title: format!("{what} against what is true"),
+        x_label: "true mean distance of pixels, units of 1/255".to_owned(),
+        y_label: format!("{what}, units of 1/255"),
+        series,
+    }
 }
 
 fn row(name: &str, spatial: &[Pair], temporal: &[Pair]) -> String {

@@ -1,10 +1,10 @@
 //! How well frames are controlled by error, against fixed rules and against reconstruction in time: seven interactions on
 //! three simulated machines, as an eye before desk8 sees them; how far the estimates of error can be trusted; what they cost.
 //!
-//! `cargo run --release -p lightloom-tests --example frame_control -- [[--tapes] [--pages DIR] | --costs | --rest | --points |
-//! --played-points]`. The footage is drawn complete first; what a machine of some speed would have shown is then played from it, see
+//! `cargo run --release -p lightloom-tests --example frame_control -- [[--tapes] [--pages DIR] | --costs | --rest |
+//! --estimates | --points | --played-points]`. The footage is drawn complete first; what a machine of some speed would have shown is then played from it, see
 //! `frontend::tune`. With `--tapes` the interactions are those of the tapes that come with the program. `--rest` measures what a display
-//! at rest takes, `--points` and `--played-points` what capacity-constrained points show in place of lattices.
+//! at rest takes, `--estimates` whether errors are told rightly, `--points` and `--played-points` what capacity-constrained points show in place of lattices.
 
 mod costs;
 mod estimates;
@@ -40,10 +40,14 @@ fn main() -> Result<(), String> {
             "--tapes" => plays_tapes = true,
             "--costs" => return costs::measure(),
             "--rest" => return rest::measure(),
+            "--estimates" => {
+                let display = Display::load("desk8").map_err(|error| error.to_string())?;
+                return estimates::compare(&footage(&display)?);
+            }
             "--points" => return points::stills(),
             "--played-points" => return points::played(),
             other => {
-                let known = "--tapes, --pages DIR, --costs, --rest, --points or --played-points";
+                let known = "--tapes, --pages DIR, --costs, --rest, --estimates, --points or --played-points";
                 return Err(format!("{other} is unknown; give nothing, {known}"));
             }
         }
