@@ -5,6 +5,7 @@ use super::launch::HOW_TO_LAUNCH;
 use super::link::{Link, LinkError};
 use super::mpi::Messenger;
 use super::pause::Pause;
+use super::rest::{DOZE, Matter, Rest};
 use super::roster::{Roster, WHAT_TO_DO};
 use super::watchdog;
 use protocol::wire::{decode, encode};
@@ -26,6 +27,7 @@ pub struct ClusterLink {
     gone_since: Vec<Option<Instant>>,
     last_look: Instant,
     first_to_poll: usize,
+    rest: Rest,
 }
 
 /// Joins the job as its front-end. An error is a sentence to end with, by [`crate::fail`]. From here on, the launcher's signal to
@@ -54,7 +56,21 @@ pub fn connect() -> Result<ClusterLink, LinkError> {
     }
     let gone_since = vec![None; peers.len()];
     roster.lock().unwrap_or_else(PoisonError::into_inner).backends = peers;
-    Ok(ClusterLink { messenger, roster, gone_since, last_look: Instant::now(), first_to_poll: 0 })
+    Ok(ClusterLink {
+        messenger,
+        roster,
+        gone_since,
+        last_look: Instant::now(),
+        first_to_poll: 0,
+        rest: Rest::new(Instant::now()),
+    })
+}
+
+fn matter_of(message: &FromFrontend) -> Matter {
+    match message {
+        FromFrontend::Alive | FromFrontend::Clock { .. } => Matter::Upkeep,
+        _ => Matter::Work,
+    }
 }
 
 fn two_frontends(rank: usize) -> String {
@@ -121,10 +137,12 @@ impl Link for ClusterLink {
     }
 
     fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
+        self.rest.note(matter_of(message), Instant::now());
         self.post(backend, encode(message)?.into())
     }
 
     fn broadcast(&mut self, message: &FromFrontend) -> Result<(), LinkError> {
+        self.rest.note(matter_of(message), Instant::now());
         let bytes: Arc<[u8]> = encode(message)?.into();
         (0..self.backends()).try_for_each(|backend| self.post(backend, Arc::clone(&bytes)))
     }
@@ -137,14 +155,23 @@ impl Link for ClusterLink {
             let is_moving = self.messenger.is_sending().unwrap_or(false) || self.messenger.is_moving();
             if let Some((backend, bytes)) = self.poll()? {
                 let decoded = decode(&bytes).map_err(|error| LinkError::Garbled { backend, error })?;
+                let is_upkeep = matches!(decoded, FromBackend::Alive | FromBackend::Clock { .. });
+                self.rest.note(if is_upkeep { Matter::Upkeep } else { Matter::Work }, Instant::now());
                 return Ok((backend, decoded));
             }
             self.look_for_gone()?;
             if since.elapsed() >= timeout {
                 return Err(LinkError::Silent);
             }
-            pause.wait(is_moving);
+            match self.rest.is_dozing(Instant::now()) && !is_moving {
+                true => std::thread::sleep(DOZE.min(timeout.saturating_sub(since.elapsed()))),
+                false => pause.wait(is_moving),
+            }
         }
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.rest.is_at_rest(Instant::now())
     }
 
     fn set_activity(&mut self, activity: &str) {

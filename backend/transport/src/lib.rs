@@ -10,6 +10,7 @@
 //! | `cluster` | back-ends as ranks of an MPI job: the front-end's end |
 //! | `rank` | a back-end's end, in its rank |
 //! | `introduction` | the first message between two ranks |
+//! | `rest` | when ranks may look for messages now and then only |
 //! | `restarts` | how long to wait before a renderer is started again |
 //! | `keeping` | a rank that keeps a renderer as its child, and starts it again |
 //! | `mpi` | bytes between ranks, the only file that calls MPI |
@@ -35,6 +36,8 @@ mod process;
 #[cfg(feature = "mpi")]
 pub mod rank;
 mod render_loop;
+#[cfg(feature = "mpi")]
+mod rest;
 #[cfg(test)]
 mod restart_tests;
 mod restarts;

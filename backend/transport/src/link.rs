@@ -57,6 +57,12 @@ pub trait Link {
     /// The next message of any back-end. [`LinkError::Silent`] when none comes within `timeout`.
     fn receive(&mut self, timeout: Duration) -> Result<(usize, FromBackend), LinkError>;
 
+    /// Whether all ends have had no work for long, so that the next message may be heard some milliseconds late: who wants
+    /// to know when it was heard sends another before it.
+    fn is_at_rest(&self) -> bool {
+        false
+    }
+
     /// Notes what the run is doing ("drawing frame 3"), for the sentence said when the launcher ends it.
     fn set_activity(&mut self, activity: &str);
 

@@ -7,6 +7,7 @@ use super::link::{LinkError, WorkerLink};
 use super::mpi::Messenger;
 use super::opened::Opened;
 use super::pause::Pause;
+use super::rest::DOZE;
 use super::watchdog;
 use super::worker::{WorkerError, attend, greet};
 use protocol::wire::{decode, encode};
@@ -84,7 +85,11 @@ impl RankLink {
             // One picture after another: a renderer that is ahead of the front-end waits.
             if self.messenger.is_sending().map_err(LinkError::FrontendEnded)? {
                 pause.wait(true);
-            } else if let Some(bytes) = keeper.next(pause.length(self.messenger.is_moving())) {
+                continue;
+            }
+            let is_moving = self.messenger.is_moving();
+            let wait = if keeper.is_dozing() && !is_moving { DOZE } else { pause.length(is_moving) };
+            if let Some(bytes) = keeper.next(wait) {
                 pause = Pause::default();
                 self.messenger.post(FRONTEND_RANK, bytes.into()).map_err(LinkError::FrontendEnded)?;
             }

@@ -22,6 +22,12 @@ const ACTIVITY: &str = "driving the display";
 /// How often back-ends are asked for their clocks.
 const ASK_INTERVAL: Duration = Duration::from_millis(200);
 
+/// The same while nothing happens: two clocks drift apart by some tens of microseconds in that time.
+const ASK_INTERVAL_AT_REST: Duration = Duration::from_secs(5);
+
+/// How long back-ends at rest are given to hear that a question follows.
+const ROUSING: Duration = Duration::from_millis(15);
+
 /// How often back-ends hear that the front-end is alive, where it has no questions.
 const ALIVE_INTERVAL: Duration = Duration::from_secs(1);
 
@@ -47,6 +53,8 @@ pub struct Drive {
     /// The latest frame that each was told to show and has drawn, until it says that it shows it.
     owes_show: Vec<Option<u32>>,
     asked_clocks_at: Option<Duration>,
+    /// When back-ends at rest were told that a question follows.
+    roused_at: Option<Duration>,
     /// The latest frame that was asked for.
     latest: Option<FrameState>,
     /// The latest frame that all were told to show.
@@ -76,6 +84,7 @@ impl Drive {
             attendance: vec![Attendance::default(); backends],
             owes_show: vec![None; backends],
             asked_clocks_at: None,
+            roused_at: None,
             latest: None,
             ordered: None,
             said_alive_at: Instant::now(),
@@ -252,10 +261,21 @@ impl Drive {
             return self.tell_all(&FromFrontend::Alive);
         }
         let now = self.time.now();
-        if self.asked_clocks_at.is_some_and(|before| now < before + ASK_INTERVAL) {
+        let is_at_rest = self.link.is_at_rest();
+        let interval = if is_at_rest { ASK_INTERVAL_AT_REST } else { ASK_INTERVAL };
+        if self.asked_clocks_at.is_some_and(|before| now < before + interval) {
             return Ok(());
         }
-        self.asked_clocks_at = Some(now);
+        if is_at_rest {
+            let roused_at = *self.roused_at.get_or_insert(now);
+            if roused_at == now {
+                return self.tell_all(&FromFrontend::Alive);
+            }
+            if now < roused_at + ROUSING {
+                return Ok(());
+            }
+        }
+        (self.asked_clocks_at, self.roused_at) = (Some(now), None);
         let slowest = self.clocks.iter().filter_map(OtherClock::usual_trip_us).max().unwrap_or(0);
         self.beat.set_lead(LEAD + Duration::from_micros(slowest));
         self.tell_all(&FromFrontend::Clock { asked_us: now.as_micros() as u64 })

@@ -5,6 +5,7 @@
 
 use super::kept::KEPT_BY;
 use super::renderer::{Heard, Renderer};
+use crate::rest::{Matter, Rest};
 use crate::restarts::Restarts;
 use protocol::wire::{WireError, decode, encode, has_picture};
 use protocol::{FromBackend, FromFrontend, Setup};
@@ -72,6 +73,7 @@ pub struct Keeper {
     /// Whether any ever drew a frame: what ends the first one before is no accident, and would end all.
     has_drawn: bool,
     restarts: Restarts,
+    rest: Rest,
 }
 
 /// This program, as a kept renderer: also where another has taken its place on the disk, which may speak another protocol.
@@ -95,7 +97,14 @@ impl Keeper {
     fn with(command: Box<dyn Fn() -> io::Result<Command>>, setup: Box<Setup>) -> Result<Self, WireError> {
         let setup = Some(encode(&FromFrontend::Setup(setup))?);
         let state = State::Waiting(Instant::now());
-        Ok(Self { command, state, setup, has_drawn: false, restarts: Restarts::default() })
+        Ok(Self {
+            command,
+            state,
+            setup,
+            has_drawn: false,
+            restarts: Restarts::default(),
+            rest: Rest::new(Instant::now()),
+        })
     }
 
     /// Takes a message of the front-end.
@@ -107,6 +116,8 @@ impl Keeper {
         if message == FromFrontend::Quit {
             return Ok(Taken::Quit);
         }
+        let is_upkeep = matches!(message, FromFrontend::Alive | FromFrontend::Clock { .. });
+        self.rest.note(if is_upkeep { Matter::Upkeep } else { Matter::Work }, Instant::now());
         if let State::Running(child) = &mut self.state {
             child.is_set_up |= child.has_greeted && matches!(message, FromFrontend::Setup(_));
             if child.is_set_up {
@@ -145,14 +156,24 @@ impl Keeper {
         }
     }
 
+    /// Whether the front-end has had nothing to say for long: its messages may be looked for now and then only.
+    pub fn is_dozing(&self) -> bool {
+        self.rest.is_dozing(Instant::now())
+    }
+
     /// What comes from the renderer: bytes for the front-end, unless it is for the keeper.
     fn heed(&mut self, bytes: Vec<u8>) -> Option<Vec<u8>> {
         let State::Running(child) = &mut self.state else { return None };
         child.is_asked = false;
         if has_picture(&bytes) {
+            self.rest.note(Matter::Work, Instant::now());
             return Some(bytes);
         }
-        match decode::<FromBackend>(&bytes) {
+        let decoded = decode::<FromBackend>(&bytes);
+        if !matches!(decoded, Ok(FromBackend::Clock { .. } | FromBackend::Alive)) {
+            self.rest.note(Matter::Work, Instant::now());
+        }
+        match decoded {
             Err(error) => self.end(Some(format!("cannot be understood: {error}"))),
             Ok(FromBackend::Clock { asked_us: u64::MAX, .. }) => {}
             Ok(FromBackend::Hello(_)) => {
