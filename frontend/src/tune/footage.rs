@@ -1,6 +1,6 @@
 //! The complete pictures of a scenario, of the projectors that an eye sees.
 
-use super::Scenario;
+use super::{RATE_HZ, Scenario};
 use crate::FrontendError;
 use bricks::BrickSource;
 use display_config::{Display, EyeModel};
@@ -11,6 +11,7 @@ use renderer::output::Picture;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// The pictures of one instant.
 pub type Pictures = Arc<Vec<ProjectorImage>>;
@@ -100,6 +101,12 @@ impl Footage {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
+    }
+
+    /// The latest instant at a time; None after the last.
+    pub fn instant_at(&self, now: Duration) -> Option<usize> {
+        let instant = (now.as_secs_f64() * RATE_HZ + 1e-6) as usize;
+        (instant < self.len()).then_some(instant)
     }
 
     /// The display that it was drawn for.

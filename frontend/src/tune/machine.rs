@@ -3,13 +3,13 @@
 //! It is simulated: a ray takes always the same time, whatever it meets, and what rays of a state find is taken from that
 //! state's complete pictures. So a rule meets the same machine in every scenario and on every host.
 
+use super::painter::{Lattices, Painter};
 use super::{Footage, RATE_HZ};
 use crate::report::plot::StripTick;
 use control::{Budget, Control, Found, News, Rule, Work};
 use protocol::{ProjectorImage, SubFrame};
 use renderer::output::Picture;
 use renderer::present::{Classes, Raster, Thresholds, lattice_of, reconstruct};
-use renderer::refine::{ERROR_UNIT, Filled, Grain, Order, UNITS, change_at, fill, sparse};
 use std::time::Duration;
 
 /// What a tick takes besides its rays: messages, reconstruction, and handing pictures to screens.
@@ -72,14 +72,30 @@ pub fn play(
     machine: Machine,
     see: &mut dyn FnMut(usize, &Picture),
 ) -> Played {
-    let mut screen = Screen { footage, see, next: 0, picture: footage.truth(0).clone() };
-    let played = match contender {
-        Contender::Control(rule) => Controlled::new(footage, rule, machine, false).play(&mut screen),
-        Contender::ControlByPath(rule) => Controlled::new(footage, rule, machine, true).play(&mut screen),
-        Contender::Quincunx => play_quincunx(footage, machine, &mut screen),
+    let (rule, by_path) = match contender {
+        Contender::Control(rule) => (rule, false),
+        Contender::ControlByPath(rule) => (rule, true),
+        Contender::Quincunx => {
+            let mut screen = Screen::new(footage, see);
+            let played = play_quincunx(footage, machine, &mut screen);
+            screen.until(footage.len());
+            return played;
+        }
     };
-    screen.until(footage.len());
-    played
+    let mut lattices = Lattices::new(footage);
+    let controlled = Controlled { by_path, ..Controlled::new(footage, &mut lattices, rule, machine) };
+    controlled.play(see)
+}
+
+/// The same by frame control, of what a painter makes of it.
+pub fn play_painted(
+    footage: &Footage,
+    painter: &mut dyn Painter,
+    rule: Rule,
+    machine: Machine,
+    see: &mut dyn FnMut(usize, &Picture),
+) -> Played {
+    Controlled::new(footage, painter, rule, machine).play(see)
 }
 
 /// What the eye is shown.
@@ -91,7 +107,11 @@ struct Screen<'a, 'b> {
     picture: Picture,
 }
 
-impl Screen<'_, '_> {
+impl<'a, 'b> Screen<'a, 'b> {
+    fn new(footage: &'a Footage, see: &'b mut dyn FnMut(usize, &Picture)) -> Self {
+        Self { footage, see, next: 0, picture: footage.truth(0).clone() }
+    }
+
     /// These pictures are ready at a time, and shown at the next instant that leaves time for the order.
     fn show<'p>(&mut self, at: Duration, pictures: impl Iterator<Item = &'p [f32]>) {
         self.until(((at + LEAD).as_secs_f64() * RATE_HZ).ceil() as usize);
@@ -107,52 +127,42 @@ impl Screen<'_, '_> {
     }
 }
 
-/// The latest instant at a time; None after the last.
-fn instant_at(footage: &Footage, now: Duration) -> Option<usize> {
-    let instant = (now.as_secs_f64() * RATE_HZ + 1e-6) as usize;
-    (instant < footage.len()).then_some(instant)
-}
-
 struct Controlled<'a> {
     footage: &'a Footage,
+    painter: &'a mut dyn Painter,
     machine: Machine,
     control: Control,
     budget: Budget,
     by_path: bool,
-    order: Order,
     /// The instant that is cast, and how many units of it are.
     active: Option<(usize, u32)>,
     /// The instant that was looked at last, and how far the way to it is.
     path: (usize, f64),
-    /// What was made of each picture last, and what of those of the configuration before.
-    filled: Vec<Filled>,
-    before: Vec<Filled>,
     played: Played,
 }
 
 impl<'a> Controlled<'a> {
-    fn new(footage: &'a Footage, rule: Rule, machine: Machine, by_path: bool) -> Self {
-        let picture = &footage.pictures(0)[0];
+    fn new(footage: &'a Footage, painter: &'a mut dyn Painter, rule: Rule, machine: Machine) -> Self {
         Self {
             footage,
             machine,
-            control: Control::new(rule, UNITS),
+            control: Control::new(rule, painter.units()),
+            painter,
             budget: Budget::of_time(Duration::from_secs_f64(1.0 / RATE_HZ)),
-            by_path,
-            order: Order::new(Grain::Pixels, [picture.width, picture.height]),
+            by_path: false,
             active: None,
             path: (0, 0.0),
-            filled: Vec::new(),
-            before: Vec::new(),
             played: Played::default(),
         }
     }
 
-    fn play(mut self, screen: &mut Screen) -> Played {
+    fn play(mut self, see: &mut dyn FnMut(usize, &Picture)) -> Played {
+        let mut screen = Screen::new(self.footage, see);
         let mut now = Duration::ZERO;
-        while let Some(newest) = instant_at(self.footage, now) {
-            now = self.tick(now, newest, screen);
+        while let Some(newest) = self.footage.instant_at(now) {
+            now = self.tick(now, newest, &mut screen);
         }
+        screen.until(self.footage.len());
         self.played
     }
 
@@ -166,34 +176,34 @@ impl<'a> Controlled<'a> {
             Work::Refine { from } => (self.active, false, from),
         };
         let active = if begins { newest } else { before.map_or(newest, |active| active.0) };
-        let done = (from + self.budget.units()).min(UNITS);
+        let done = (from + self.budget.units()).min(self.painter.units());
         self.active = Some((active, done));
         // A look at the newest state costs as many rays as the first unit.
         let looks = !begins && has_changed;
-        let units = done - from + u32::from(looks);
-        let rays = self.machine.full * units / UNITS;
-        self.budget.took(units, OVERHEAD + rays, rays);
+        let look = if looks { self.painter.cost(0, 1) } else { 0.0 };
+        let rays = self.machine.full.mul_f64(self.painter.cost(from, done) + look);
+        self.budget.took(done - from + u32::from(looks), OVERHEAD + rays, rays);
         self.played.busy += rays;
         let now = began + OVERHEAD + rays;
         let change = match (begins, before) {
-            (true, Some((before, _))) => Some(self.change(active, before)),
+            (true, Some((before, _))) => Some(self.painter.change(active, before)),
             (false, _) if looks => Some(self.change_on_the_way(newest, active)),
             _ => None,
         };
         if begins {
-            self.before = std::mem::take(&mut self.filled);
+            self.painter.begin();
             self.path = (active, 0.0);
             self.played.begun += 1;
         }
-        let spatial = self.filled(active, done);
+        let spatial = self.painter.paint(active, done);
         let news = News { has_changed: looks, has_detail: false };
         let shows = self.control.found(Found { done, spatial, change, news }, now);
         if shows {
-            screen.show(now, self.filled.iter().map(|one| &one.rgba[..]));
+            screen.show(now, self.painter.pictures().into_iter());
             self.played.shown += 1;
         }
         let errors = self.control.errors().unwrap_or_default();
-        let share = f64::from(done) / f64::from(UNITS);
+        let share = f64::from(done) / f64::from(self.painter.units());
         self.played.ticks.push(Tick { at: now, instant: active, share, errors, begins, shows });
         now
     }
@@ -201,35 +211,11 @@ impl<'a> Controlled<'a> {
     /// How far the newest state is from the active one, directly or by way of those between.
     fn change_on_the_way(&mut self, newest: usize, active: usize) -> f64 {
         if !self.by_path {
-            return self.change(newest, active);
+            return self.painter.change(newest, active);
         }
         let (last, length) = self.path;
-        self.path = (newest, length + self.change(newest, last));
+        self.path = (newest, length + self.painter.change(newest, last));
         self.path.1
-    }
-
-    /// The mean distance between two instants, at the pixels of the first unit.
-    fn change(&self, now: usize, before: usize) -> f64 {
-        let lattice = self.order.first();
-        let seen = |image: &ProjectorImage| sparse(&image.rgba, [image.width, image.height], lattice);
-        let pairs = self.footage.pictures(now).iter().zip(self.footage.pictures(before));
-        let (sum, count) = pairs.fold((0, 0), |(sum, count), (now, before)| {
-            let (now, before) = (seen(now), seen(before));
-            (sum + change_at(&now, &before), count + now.len())
-        });
-        sum as f64 * ERROR_UNIT / count.max(1) as f64
-    }
-
-    /// What is shown of an instant once so many units are cast, and its ζ.
-    fn filled(&mut self, instant: usize, done: u32) -> f64 {
-        let pictures = self.footage.pictures(instant);
-        self.filled.resize_with(pictures.len(), Filled::default);
-        for (view, (image, filled)) in pictures.iter().zip(&mut self.filled).enumerate() {
-            let last = std::mem::take(filled);
-            *filled = fill(image.rgba.clone(), self.before.get(view), last, &self.order, done);
-        }
-        let pixels: usize = self.filled.iter().map(|one| one.rgba.len() / 4).sum();
-        self.filled.iter().map(|one| one.spatial).sum::<u64>() as f64 * ERROR_UNIT / pixels.max(1) as f64
     }
 }
 
@@ -237,7 +223,7 @@ fn play_quincunx(footage: &Footage, machine: Machine, screen: &mut Screen) -> Pl
     let (mut played, mut now, mut number) = (Played::default(), Duration::ZERO, 0);
     let mut shown: Vec<ProjectorImage> = footage.pictures(0).to_vec();
     let (mut known, mut active) = (Classes::default(), None);
-    while let Some(newest) = instant_at(footage, now) {
+    while let Some(newest) = footage.instant_at(now) {
         let is_same = active.is_some_and(|active| footage.is_same(active, newest));
         if is_same && known == Classes::ALL {
             now += Duration::from_secs_f64(1.0 / RATE_HZ);

@@ -6,6 +6,7 @@
 //! | `scenario` | an interaction: what rays see at each sixtieth of a second |
 //! | `taped` | one that was recorded, also those that come with the program |
 //! | `footage` | the complete pictures of one, of the projectors that an eye sees |
+//! | `painter` | what a machine casts and shows of an instant |
 //! | `machine` | a machine of some speed that plays it by a rule |
 //! | `score` | what the eye is shown against what it should see |
 //! | `setting`, `study` | what is tried, and which is best over all scenarios |
@@ -15,6 +16,7 @@ mod charts;
 mod footage;
 mod machine;
 mod page;
+mod painter;
 mod report;
 mod scenario;
 mod score;
@@ -24,7 +26,8 @@ mod taped;
 mod write;
 
 pub use footage::Footage;
-pub use machine::{Contender, Machine, Played, Tick, play};
+pub use machine::{Contender, Machine, Played, Tick, play, play_painted};
+pub use painter::{Lattices, Painter};
 pub use report::TuneReport;
 pub use scenario::{Motion, RATE_HZ, Scenario};
 pub use score::{Score, Scorer};

@@ -1,7 +1,6 @@
 //! Capacity-constrained points with a Gaussian, as STE casts and reconstructs, against lattices of pixels that are filled.
 
 mod kernels;
-mod machine;
 mod painter;
 mod patterns;
 mod plan;

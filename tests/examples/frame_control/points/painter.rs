@@ -1,90 +1,45 @@
-//! What a machine casts and shows of an instant: lattices of pixels, or points.
+//! What a machine casts and shows of an instant: lattices of pixels in space alone, or points.
 
-use frontend::tune::Footage;
+use frontend::tune::{Footage, Lattices, Painter};
 use lightloom_tests::points::{Reconstructed, Schedule};
-use protocol::ProjectorImage;
-use renderer::refine::{ERROR_UNIT, Filled, Order, UNITS, change_at, fill, sparse};
 use std::sync::Arc;
 
-/// Casts units of an instant, one after the other, and shows what it has.
-pub trait Painter {
-    /// Units of a complete picture.
-    fn units(&self) -> u32;
-    /// What some units cost, of what one ray a pixel does: those up to `to`, of which `from` are cast.
-    fn cost(&self, from: u32, to: u32) -> f64;
-    /// The same of a look at another state.
-    fn look(&self) -> f64;
-    /// Begins anew.
-    fn begin(&mut self);
-    /// Makes the pictures of an instant of which so many units are cast; their ζ.
-    fn paint(&mut self, instant: usize, done: u32) -> f64;
-    /// The pictures.
-    fn pictures(&self) -> Vec<&[f32]>;
-    /// τ between two instants.
-    fn change(&self, now: usize, before: usize) -> f64;
-}
-
-/// Lattices of pixels that are filled.
-pub struct Lattices<'a> {
+/// Lattices of pixels that are filled in space alone: nothing is made from the picture before.
+pub struct InSpaceAlone<'a> {
     footage: &'a Footage,
-    order: &'a Order,
-    /// Whether pixels are also made from the picture before.
-    has_past: bool,
-    filled: Vec<Filled>,
-    before: Vec<Filled>,
+    lattices: Lattices<'a>,
 }
 
-impl<'a> Lattices<'a> {
+impl<'a> InSpaceAlone<'a> {
     /// Nothing is cast yet.
-    pub fn new(footage: &'a Footage, order: &'a Order, has_past: bool) -> Self {
-        Self { footage, order, has_past, filled: Vec::new(), before: Vec::new() }
+    pub fn new(footage: &'a Footage) -> Self {
+        Self { footage, lattices: Lattices::new(footage) }
     }
 }
 
-impl Painter for Lattices<'_> {
+impl Painter for InSpaceAlone<'_> {
     fn units(&self) -> u32 {
-        UNITS
+        self.lattices.units()
     }
 
     fn cost(&self, from: u32, to: u32) -> f64 {
-        f64::from(to - from) / f64::from(UNITS)
-    }
-
-    fn look(&self) -> f64 {
-        self.cost(0, 1)
+        self.lattices.cost(from, to)
     }
 
     fn begin(&mut self) {
-        self.before = std::mem::take(&mut self.filled);
-        if !self.has_past {
-            self.before.clear();
-        }
+        self.lattices = Lattices::new(self.footage);
     }
 
     fn paint(&mut self, instant: usize, done: u32) -> f64 {
-        let images = self.footage.pictures(instant);
-        self.filled.resize_with(images.len(), Filled::default);
-        for (view, (image, filled)) in images.iter().zip(&mut self.filled).enumerate() {
-            let last = std::mem::take(filled);
-            *filled = fill(image.rgba.clone(), self.before.get(view), last, self.order, done);
-        }
-        let pixels: usize = self.filled.iter().map(|one| one.rgba.len() / 4).sum();
-        self.filled.iter().map(|one| one.spatial).sum::<u64>() as f64 * ERROR_UNIT / pixels.max(1) as f64
+        self.lattices.paint(instant, done)
     }
 
     fn pictures(&self) -> Vec<&[f32]> {
-        self.filled.iter().map(|one| &one.rgba[..]).collect()
+        self.lattices.pictures()
     }
 
     fn change(&self, now: usize, before: usize) -> f64 {
-        let seen =
-            |image: &ProjectorImage| sparse(&image.rgba, [image.width, image.height], self.order.first());
-        let pairs = self.footage.pictures(now).iter().zip(self.footage.pictures(before));
-        let (sum, count) = pairs.fold((0, 0), |(sum, count), (now, before)| {
-            let (now, before) = (seen(now), seen(before));
-            (sum + change_at(&now, &before), count + now.len())
-        });
-        sum as f64 * ERROR_UNIT / count.max(1) as f64
+        self.lattices.change(now, before)
     }
 }
 
@@ -108,10 +63,6 @@ impl Painter for Points<'_> {
         let [columns, rows] = self.schedule.levels()[0].samples().size();
         let rays = self.schedule.rays(to as usize) - self.schedule.rays(from as usize);
         rays as f64 / f64::from(columns * rows)
-    }
-
-    fn look(&self) -> f64 {
-        self.cost(0, 1)
     }
 
     fn begin(&mut self) {}

@@ -1,8 +1,7 @@
 //! Interaction played to machines that cast points, against those that cast lattices.
 
 use super::kernels::{ALL, Kernels};
-use super::machine::play;
-use super::painter::{Lattices, Levels, Painter, Points};
+use super::painter::{InSpaceAlone, Levels, Points};
 use super::patterns::Patterns;
 use super::plan::BORDER;
 use super::shots::{Shots, drawn};
@@ -11,12 +10,11 @@ use crate::{MACHINES_MS, PAGE, PROGRAM, RASTER, scenarios};
 use bricks::BrickSource;
 use control::{Rule, Weights};
 use display_config::Display;
-use frontend::tune::{Contender, Footage, Machine, Scenario, Score, Scorer, badness};
+use frontend::tune::{Footage, Lattices, Machine, Painter, Scenario, Score, Scorer, badness, play_painted};
 use lightloom_tests::points::{Pattern, Reconstructed, Schedule};
 use lightloom_tests::results::Results;
 use protocol::ProjectorImage;
 use rayon::prelude::*;
-use renderer::refine::{Grain, Order};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -46,7 +44,6 @@ enum Casts {
 
 /// What all play with.
 struct Stage {
-    order: Order,
     schedule: Schedule,
     machines: Vec<Machine>,
     players: Vec<(String, Player)>,
@@ -87,7 +84,7 @@ impl Stage {
         let pixels = f64::from(RASTER[0] * RASTER[1]);
         let few = schedule.affordable((SHARE * pixels) as u64) as f64 / schedule.tiles() as f64;
         let machines = MACHINES_MS.map(|ms| Machine { full: Duration::from_millis(ms) }).to_vec();
-        Ok(Self { order: Order::new(Grain::Pixels, RASTER), players: players(few), schedule, machines })
+        Ok(Self { players: players(few), schedule, machines })
     }
 
     /// All players on all machines, in one scenario.
@@ -99,7 +96,6 @@ impl Stage {
     ) -> Result<Vec<Vec<Judged>>, String> {
         let footage = drawn(scenario, display, RASTER, source)?;
         let levels = self.levels(&footage);
-        self.check_machine(&footage)?;
         let cases: Vec<(Player, Machine)> = self
             .players
             .iter()
@@ -134,10 +130,11 @@ impl Stage {
     fn judge(&self, footage: &Footage, levels: &[Levels], player: Player, machine: Machine) -> Judged {
         let (mut scorer, mut flips, mut count) = (Scorer::new(footage), 0.0, 0);
         let mut painter: Box<dyn Painter> = match player.casts {
-            Casts::Lattices { has_past } => Box::new(Lattices::new(footage, &self.order, has_past)),
+            Casts::Lattices { has_past: true } => Box::new(Lattices::new(footage)),
+            Casts::Lattices { has_past: false } => Box::new(InSpaceAlone::new(footage)),
             Casts::Points => Box::new(Points { schedule: &self.schedule, levels, shown: Vec::new() }),
         };
-        play(footage, &mut *painter, player.rule, machine, &mut |instant, shown| {
+        play_painted(footage, &mut *painter, player.rule, machine, &mut |instant, shown| {
             if instant % STRIDE == 0 {
                 flips += f64::from(mean_flip(footage, shown, footage.truth(instant)));
                 count += 1;
@@ -146,19 +143,6 @@ impl Stage {
         });
         let Score { rms, flicker, .. } = scorer.score();
         Judged { rms, flicker, flip: flips / f64::from(count.max(1)) }
-    }
-
-    /// Whether lattices are played as `frontend::tune` plays them.
-    fn check_machine(&self, footage: &Footage) -> Result<(), String> {
-        let (rule, machine) = (Rule::default(), self.machines[1]);
-        let (mut own, mut theirs) = (Scorer::new(footage), Scorer::new(footage));
-        let mut lattices = Lattices::new(footage, &self.order, true);
-        play(footage, &mut lattices, rule, machine, &mut |instant, shown| own.see(instant, shown));
-        frontend::tune::play(footage, Contender::Control(rule), machine, &mut |instant, shown| {
-            theirs.see(instant, shown);
-        });
-        let (own, theirs) = (own.score(), theirs.score());
-        if own == theirs { Ok(()) } else { Err(format!("two machines play one rule: {own:?}, {theirs:?}")) }
     }
 
     /// The tables: the points' weights with the least badness, beside all others.
