@@ -23,6 +23,8 @@ pub struct Bulletin {
     disk: Option<PathBuf>,
     troubles: VecDeque<String>,
     item: Option<usize>,
+    /// The laws that the world was against in the frame before.
+    faults: Vec<&'static str>,
     /// Whether the state could not be written last time.
     is_stuck: bool,
     news: Vec<String>,
@@ -50,6 +52,7 @@ impl Bulletin {
             disk,
             troubles: VecDeque::new(),
             item: None,
+            faults: Vec::new(),
             is_stuck: false,
             news: Vec::new(),
         })
@@ -113,6 +116,14 @@ impl Recorder for Bulletin {
         if self.status.state != state {
             self.state(state);
         }
+        let faults = theatre.faults();
+        if !faults.is_empty() && self.faults != faults {
+            let laws = faults.join(", ");
+            self.news.push(format!(
+                "the world is against its laws ({laws}); please report this line with the tape"
+            ));
+        }
+        self.faults = faults;
         let now = SystemTime::now();
         if self.file.as_ref().is_some_and(|file| file.is_due(now)) {
             let beat = beat();

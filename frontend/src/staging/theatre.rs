@@ -95,6 +95,11 @@ impl Theatre {
         self.world.stage()
     }
 
+    /// The laws that the world is against: none, unless this program has an error.
+    pub fn faults(&self) -> Vec<&'static str> {
+        self.world.faults()
+    }
+
     fn piece(&self) -> &Piece {
         &self.pieces[self.world.stage().item]
     }

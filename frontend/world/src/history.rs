@@ -81,7 +81,6 @@ impl History {
     }
 
     /// How many deeds are remembered.
-    #[cfg(test)]
     pub fn len(&self) -> usize {
         self.0.len()
     }

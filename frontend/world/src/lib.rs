@@ -15,6 +15,7 @@
 //! | `happen` | what an input reports, done to it |
 //! | `holding`, `hold` | who holds what, and how that comes and goes |
 //! | `step` | how time passes |
+//! | `laws` | what it is, whatever they do |
 
 mod cast;
 mod deed;
@@ -24,6 +25,7 @@ mod happen;
 mod history;
 mod hold;
 mod holding;
+mod laws;
 mod programme;
 mod rules;
 mod stage;

@@ -2,34 +2,6 @@
 
 use super::*;
 
-/// What must not be, whatever anybody does.
-pub(super) fn faults(world: &World) -> Vec<String> {
-    let (stage, item) = (world.stage(), world.item());
-    let Handling { turn, shift_m, scale } = stage.handling;
-    let (least, most) = world.rules.scales;
-    let holders: Vec<VisitorId> =
-        stage.tools.iter().filter(|tool| tool.grabs).map(|tool| world.cast.holder(tool.tool)).collect();
-    let is_sorted = stage.tools.windows(2).all(|pair| pair[0].tool < pair[1].tool);
-    let laws = [
-        ("all is finite", turn.is_finite() && shift_m.is_finite() && scale.is_finite()),
-        ("a turn has length 1", (turn.length() - 1.0).abs() < 1e-12),
-        ("sizes keep their limits", (least..=most).contains(&scale)),
-        ("places keep their limit", shift_m.length() <= world.rules.farthest_m * (1.0 + 1e-12)),
-        ("the item is there", stage.item < world.programme.0.len()),
-        ("the look is there", stage.look.is_none_or(|look| look < item.looks.max(2))),
-        ("the band is there", stage.band.is_none_or(|band| band < item.bands)),
-        ("a window shows something", stage.window.stretch > 0.01 && stage.window.shift.abs() < 3.0),
-        ("who holds it has a tool that does", stage.held_by.is_none() == holders.is_empty()),
-        ("one visitor holds it", holders.iter().all(|&holder| Some(holder) == stage.held_by)),
-        ("with two hands at most", holders.len() <= 2),
-        ("tools are in order", is_sorted),
-        ("tools that are shown are there", stage.tools.iter().all(|tool| tool.presence > 0.0)),
-        ("nothing grows", world.history.len() <= MOST_DEEDS && world.waiting.len() <= 6),
-        ("time goes on", stage.script_s >= 0.0 && stage.script_s.is_finite()),
-    ];
-    laws.into_iter().filter(|law| !law.1).map(|law| law.0.to_owned()).collect()
-}
-
 #[test]
 fn the_laws_find_what_is_against_them() {
     let spoiled = |spoil: fn(&mut World)| {
@@ -37,7 +9,7 @@ fn the_laws_find_what_is_against_them() {
         play.button(0, GRAB, true);
         play.go_on(2);
         spoil(&mut play.world);
-        faults(&play.world)
+        play.world.faults()
     };
     assert!(spoiled(|_| {}).is_empty());
     assert!(!spoiled(|world| world.stage.handling.scale = f64::NAN).is_empty());
@@ -94,7 +66,7 @@ fn run(doings: &[(usize, u8, [f64; 4])]) -> Vec<Stage> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
 
-    /// Each step is looked at by [`faults`]; and the same deeds give the same stages.
+    /// Each step is looked at by [`World::faults`]; and the same deeds give the same stages.
     #[test]
     fn nothing_that_random_visitors_do_is_against_the_laws(doings in prop::collection::vec(doing(), 0..300)) {
         prop_assert_eq!(run(&doings), run(&doings));

@@ -3,7 +3,6 @@
 use super::*;
 use crate::cast::{Action, Button, Dial, DialKind, Sensor, Tool, ToolKind, Visitor};
 use crate::grip::Hand;
-use crate::history::MOST_DEEDS;
 use crate::programme::Preset;
 use crate::rules::Attract;
 use glam::DQuat;
@@ -127,7 +126,7 @@ impl Play {
             }
             let moment = Moment { now: self.now, seen_at: self.now + 2 * FRAME };
             self.world.step(moment, |_, script_s| DVec3::new(0.01 * script_s.sin(), 0.0, 0.0));
-            assert_eq!(random::faults(&self.world), Vec::<String>::new());
+            assert_eq!(self.world.faults(), Vec::<&str>::new());
         }
         self.world.stage()
     }
