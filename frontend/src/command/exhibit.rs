@@ -6,7 +6,7 @@ use super::show::{Show, check, show, taped};
 use crate::FrontendError;
 use crate::adapter;
 use crate::cli::{ExhibitArgs, ReconstructArg};
-use crate::drive::{Bulletin, Recorder};
+use crate::drive::{Bulletin, Recorder, Supervisor};
 use crate::staging::{Ensemble, Theatre};
 use ::exhibit::{Exhibit, Fault, State, TapeWish};
 use display_config::Display;
@@ -36,7 +36,8 @@ pub(super) fn exhibit(args: &ExhibitArgs) -> Result<(), FrontendError> {
     let disk = record.as_ref().map(|(path, _)| path.clone());
     let mut bulletin = Bulletin::open(&exhibit.title, args.status.as_deref(), args.log.as_deref(), disk)?;
     bulletin.state(State::Starting);
-    let recorders: Vec<&mut (dyn Recorder + Send)> = vec![&mut bulletin];
+    let mut supervisor = Supervisor::default();
+    let recorders: Vec<&mut (dyn Recorder + Send)> = vec![&mut bulletin, &mut supervisor];
     let made = Show {
         title: exhibit.title.clone(),
         theatre,

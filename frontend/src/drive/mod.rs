@@ -3,7 +3,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `request`, `input`, `tracked`, `taped` | what is asked for, and where that comes from |
-//! | `recorder`, `bulletin` | what keeps a record, and the state of things |
+//! | `recorder`, `bulletin`, `supervisor` | what keeps a record, and the state of things |
 //! | `run` | the loop: inputs, world, frames, screens |
 //! | `trial` | which caster is faster |
 //! | `controlled` | what is cast next and what is shown, by frame control |
@@ -25,6 +25,7 @@ mod run;
 mod screens;
 mod sheet;
 mod status;
+mod supervisor;
 mod taped;
 mod tracked;
 mod trial;
@@ -43,6 +44,7 @@ pub use run::{Desk, End, Plan, Played, run};
 pub use screens::{Screens, Sink};
 pub use sheet::Sheet;
 pub use status::Status;
+pub use supervisor::Supervisor;
 pub use taped::{Remade, Taped};
 pub use tracked::{Tracked, cast, one_hand};
 pub use trial::Trial;

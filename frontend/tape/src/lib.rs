@@ -7,7 +7,7 @@
 //! | `head` | what a tape says of itself, and the files that go with it |
 //! | `record` | what a tape holds, one after the other |
 //! | `channels` | where each record stands in the file, and how it is written |
-//! | `writer`, `part` | tapes that are written while a show goes on |
+//! | `writer`, `part`, `names` | tapes that are written while a show goes on |
 //! | `reader`, `flattened`, `records`, `fields` | tapes that are read, down to the lengths that they claim |
 //! | `cut`, `export`, `info` | parts of tapes, tables of them, and what is on them |
 
@@ -19,6 +19,7 @@ mod fields;
 mod flattened;
 mod head;
 mod info;
+mod names;
 mod part;
 mod reader;
 mod record;

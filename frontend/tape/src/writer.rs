@@ -2,6 +2,7 @@
 
 use crate::error::TapeError;
 use crate::head::Head;
+use crate::names::{keep_latest, path_of};
 use crate::part::Part;
 use crate::record::{Record, Said, nanoseconds};
 use crossbeam_channel::{Receiver, Sender, TrySendError, bounded, unbounded};
@@ -19,7 +20,8 @@ const TRY_AGAIN: Duration = Duration::from_secs(10);
 pub struct Limits {
     /// A file that is larger gives way to the next part; None for one file.
     pub part_bytes: Option<u64>,
-    /// Parts that are kept; the oldest go. None keeps all.
+    /// Tapes that are kept, of parts and of earlier shows in the same folder whose names are the time; the oldest go. None keeps
+    /// all.
     pub keep_parts: Option<usize>,
 }
 
@@ -40,6 +42,7 @@ impl Writer {
     pub fn create(path: &Path, head: Head, limits: Limits) -> Result<Self, TapeError> {
         let head = Head { part: 1, ..head };
         let part = Part::create(path, &head).map_err(|cause| cannot_write(path, &cause))?;
+        limits.keep_parts.iter().for_each(|&keep| keep_latest(path, keep));
         let (records, inbox) = bounded(MOST_WAITING);
         let (tell, news) = unbounded();
         let tape =
@@ -111,18 +114,8 @@ impl Tape {
         for (now, record) in inbox {
             self.take(now, &record);
         }
-        let path = self.path_of(self.head.part);
+        let path = path_of(&self.base, self.head.part);
         self.part.take().map_or(Ok(()), Part::finish).map_err(|cause| cannot_write(&path, &cause))
-    }
-
-    /// The name of a part.
-    fn path_of(&self, part: u32) -> PathBuf {
-        if part == 1 {
-            return self.base.clone();
-        }
-        let stem = self.base.file_stem().unwrap_or_default().to_string_lossy();
-        let extension = self.base.extension().unwrap_or_default().to_string_lossy();
-        self.base.with_file_name(format!("{stem}-{part:04}.{extension}"))
     }
 
     fn take(&mut self, now: Duration, record: &Record) {
@@ -137,7 +130,7 @@ impl Tape {
             self.fail(now, &cause.to_string());
             return;
         }
-        let path = self.path_of(self.head.part);
+        let path = path_of(&self.base, self.head.part);
         let is_full = |most| std::fs::metadata(&path).is_ok_and(|found| found.len() > most);
         // A part ends at a frame, so that each begins with what leads to the next one.
         if matches!(record, Record::Frame(_)) && self.limits.part_bytes.is_some_and(is_full) {
@@ -151,11 +144,9 @@ impl Tape {
 
     fn begin_part(&mut self, now: Duration) {
         self.head.part += 1;
-        let gone = self.limits.keep_parts.and_then(|keep| self.head.part.checked_sub(keep as u32));
-        if let Some(gone) = gone.filter(|&gone| gone > 0) {
-            let _ = std::fs::remove_file(self.path_of(gone));
-        }
-        match Part::create(&self.path_of(self.head.part), &self.head) {
+        // One fewer, for the part that begins: it may be the disk that is full.
+        self.limits.keep_parts.iter().for_each(|keep| keep_latest(&self.base, keep.saturating_sub(1)));
+        match Part::create(&path_of(&self.base, self.head.part), &self.head) {
             Ok(mut part) => {
                 if self.failed_at.take().is_some() {
                     let text =
@@ -171,7 +162,7 @@ impl Tape {
 
     fn fail(&mut self, now: Duration, cause: &str) {
         if self.failed_at.replace(now).is_none() {
-            let path = self.path_of(self.head.part);
+            let path = path_of(&self.base, self.head.part);
             let error = TapeError::Write { path, cause: cause.to_owned() };
             let _ = self.tell.send(format!("{error}; the show goes on without it"));
         }

@@ -8,7 +8,7 @@
 mod packets;
 mod senders;
 
-use lightloom_tests::processes::{open_files, resident_mib};
+use lightloom_tests::processes::{open_files, resident_mib, signal};
 use lightloom_tests::program::{lightloom, run, small_display, start};
 use lightloom_tests::random::Random;
 use lightloom_tests::results::{Program, Results};
@@ -27,6 +27,8 @@ const SCHEDULES: u32 = 100;
 const SEED: u64 = 16;
 /// A time of health: longer than a source takes to be connected to again.
 const HEALTHY: Duration = Duration::from_millis(2500);
+/// How long it may take to end.
+const PARTING: Duration = Duration::from_secs(60);
 /// Until the volume is there.
 const OPENING: Duration = Duration::from_secs(5);
 
@@ -58,8 +60,9 @@ fn main() -> Result<(), String> {
     let tried = torment(&senders, schedules, &mut Random(seed));
     let after = [resident_mib(process), open_files(process) as f64];
     drop(senders);
-    lightloom_tests::processes::signal(process, "INT");
-    let ran = running.finish(Duration::from_secs(60)).succeeded();
+    signal(process, "INT");
+    let limit = running.age() + PARTING;
+    let ran = running.finish(limit).succeeded();
     let report: Value =
         serde_json::from_str(&ran.stdout).map_err(|error| format!("{error}: {}", ran.stderr))?;
     let heard = heard(Path::new(&tape))?;

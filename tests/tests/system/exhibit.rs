@@ -5,10 +5,11 @@ use lightloom_tests::program::{
 };
 use serde_json::{Value, json};
 use std::fs;
+use std::os::unix::net::UnixDatagram;
 use std::path::Path;
 use std::process::Command;
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/exhibit/examples/");
 
@@ -223,4 +224,31 @@ fn a_supervisor_reads_how_it_goes() {
     running.finish(LIMIT).succeeded();
     assert_eq!(read().unwrap()["state"], json!("ended"));
     assert!(fs::read_to_string(&log).unwrap().lines().count() >= 2);
+}
+
+#[test]
+fn a_service_manager_hears_that_it_begins_goes_on_and_ends() {
+    let museum = Museum::new(TWO_ITEMS);
+    let path = museum.path("notify");
+    let manager = UnixDatagram::bind(&path).unwrap();
+    manager.set_read_timeout(Some(LIMIT)).unwrap();
+    let next = || {
+        let mut bytes = [0; 512];
+        let length = manager.recv(&mut bytes).expect("it says something");
+        String::from_utf8(bytes[..length].to_vec()).unwrap()
+    };
+    let arguments = ["exhibit", &museum.file, "--output", "none", "--device", "cpu"];
+    let running = start(lightloom(&arguments).env("NOTIFY_SOCKET", &path));
+    let first = next();
+    assert!(first.lines().any(|line| line == "READY=1"), "{first}");
+    let began = Instant::now();
+    for _ in 0..2 {
+        let said = next();
+        assert!(said.contains("WATCHDOG=1") && said.contains("STATUS=") && !said.contains("READY"), "{said}");
+    }
+    assert!(began.elapsed() > Duration::from_secs(1), "once a second is enough");
+    assert!(Command::new("kill").args(["-INT", &running.process().to_string()]).status().unwrap().success());
+    running.finish(LIMIT).succeeded();
+    let last = std::iter::from_fn(|| Some(next())).find(|said| said.contains("STOPPING=1"));
+    assert!(last.is_some());
 }
