@@ -72,19 +72,19 @@ pub fn play(
     machine: Machine,
     see: &mut dyn FnMut(usize, &Picture),
 ) -> Played {
-    let (rule, by_path) = match contender {
-        Contender::Control(rule) => (rule, false),
-        Contender::ControlByPath(rule) => (rule, true),
+    let mut lattices = Lattices::new(footage);
+    match contender {
+        Contender::Control(rule) => play_painted(footage, &mut lattices, rule, machine, see),
+        Contender::ControlByPath(rule) => {
+            Controlled { by_path: true, ..Controlled::new(footage, &mut lattices, rule, machine) }.play(see)
+        }
         Contender::Quincunx => {
             let mut screen = Screen::new(footage, see);
             let played = play_quincunx(footage, machine, &mut screen);
             screen.until(footage.len());
-            return played;
+            played
         }
-    };
-    let mut lattices = Lattices::new(footage);
-    let controlled = Controlled { by_path, ..Controlled::new(footage, &mut lattices, rule, machine) };
-    controlled.play(see)
+    }
 }
 
 /// The same by frame control, of what a painter makes of it.

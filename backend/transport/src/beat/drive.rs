@@ -1,5 +1,6 @@
 //! The front-end's side of a driven display: frames on the beat, over a link.
 
+use super::asking::{Asking, Say};
 use super::attendance::{Attendance, Presence};
 use super::clocks::OtherClock;
 use super::happening::Happening;
@@ -18,15 +19,6 @@ const TICK: Duration = Duration::from_millis(50);
 
 /// What the run is doing, for sentences.
 const ACTIVITY: &str = "driving the display";
-
-/// How often back-ends are asked for their clocks.
-const ASK_INTERVAL: Duration = Duration::from_millis(200);
-
-/// The same while nothing happens: two clocks drift apart by some tens of microseconds in that time.
-const ASK_INTERVAL_AT_REST: Duration = Duration::from_secs(5);
-
-/// How long back-ends at rest are given to hear that a question follows.
-const ROUSING: Duration = Duration::from_millis(15);
 
 /// How often back-ends hear that the front-end is alive, where it has no questions.
 const ALIVE_INTERVAL: Duration = Duration::from_secs(1);
@@ -52,9 +44,7 @@ pub struct Drive {
     attendance: Vec<Attendance>,
     /// The latest frame that each was told to show and has drawn, until it says that it shows it.
     owes_show: Vec<Option<u32>>,
-    asked_clocks_at: Option<Duration>,
-    /// When back-ends at rest were told that a question follows.
-    roused_at: Option<Duration>,
+    asking: Asking,
     /// The latest frame that was asked for.
     latest: Option<FrameState>,
     /// The latest frame that all were told to show.
@@ -83,8 +73,7 @@ impl Drive {
             clocks: vec![OtherClock::default(); backends],
             attendance: vec![Attendance::default(); backends],
             owes_show: vec![None; backends],
-            asked_clocks_at: None,
-            roused_at: None,
+            asking: Asking::default(),
             latest: None,
             ordered: None,
             said_alive_at: Instant::now(),
@@ -261,21 +250,11 @@ impl Drive {
             return self.tell_all(&FromFrontend::Alive);
         }
         let now = self.time.now();
-        let is_at_rest = self.link.is_at_rest();
-        let interval = if is_at_rest { ASK_INTERVAL_AT_REST } else { ASK_INTERVAL };
-        if self.asked_clocks_at.is_some_and(|before| now < before + interval) {
-            return Ok(());
+        match self.asking.say(now, self.link.is_at_rest()) {
+            Say::Nothing => return Ok(()),
+            Say::Alive => return self.tell_all(&FromFrontend::Alive),
+            Say::Question => {}
         }
-        if is_at_rest {
-            let roused_at = *self.roused_at.get_or_insert(now);
-            if roused_at == now {
-                return self.tell_all(&FromFrontend::Alive);
-            }
-            if now < roused_at + ROUSING {
-                return Ok(());
-            }
-        }
-        (self.asked_clocks_at, self.roused_at) = (Some(now), None);
         let slowest = self.clocks.iter().filter_map(OtherClock::usual_trip_us).max().unwrap_or(0);
         self.beat.set_lead(LEAD + Duration::from_micros(slowest));
         self.tell_all(&FromFrontend::Clock { asked_us: now.as_micros() as u64 })

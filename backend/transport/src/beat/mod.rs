@@ -1,5 +1,6 @@
 //! The beat of a driven display: the life of a frame from the front-end's clock to every screen.
 
+mod asking;
 mod attendance;
 mod clocks;
 mod drive;

@@ -207,7 +207,7 @@ impl GpuDevice {
         let mut done = 0;
         while done < view.tiles.len() && !(job.stop)() {
             let end = view.tiles.len().min(done + self.batch.tiles());
-            let batch = ViewJob { tiles: self.batch.dealt(&view.tiles[done..end]).into(), ..view.clone() };
+            let batch = ViewJob { tiles: view.tiles[done..end].into(), ..view.clone() };
             let started = Instant::now();
             self.pictures.views[view.picture].prepare(&context, &batch);
             let mut encoder = context.new_encoder();
