@@ -41,7 +41,6 @@ struct NodeRecord {
 struct TableCell {
     first: u32,
     occupied: u32,
-    inside: vec2<f32>,
 }
 
 struct TableEntry {

@@ -3,7 +3,6 @@
 //! | slot | modules |
 //! | --- | --- |
 //! | filter | `sample/hardware`, `sample/exact` |
-//! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
 //! | weights | `levels/no_weights`, `levels/weights` |
 //! | spread | `spread/none`, or `spread/level` with `one`, `two` or `three` |
@@ -23,5 +22,5 @@ mod debug_view;
 mod kernel;
 mod present;
 
-pub use kernel::{Filter, KernelKey, Lookup};
+pub use kernel::{Filter, KernelKey};
 pub use present::PresentKernel;
