@@ -247,10 +247,17 @@ fn faults_are_named_and_the_picture_is_right_wherever_data_came() {
             draw_with(&mut renderer(&display, &(damaged as _), DeviceChoice::Cpu, 256), &scene.frame);
         let mut renderer = renderer(&display, &(Arc::clone(&faulty) as _), DeviceChoice::Cpu, 256);
         let (mut images, mut report) = draw_with(&mut renderer, &live(&scene.frame, 0));
-        // A tenth of a second a frame, so that waits for another try are over in time.
-        for index in 1..400 {
+        // A tenth of a second a frame, so that waits for another try are over in time; bricks that are late are late by the
+        // wall's clock, however fast frames are. Nothing is on its way for longer than the longest wait for another try.
+        let mut quiet = 0;
+        for index in 1..MOST_FRAMES {
             let frame = FrameState { time_s: f64::from(index) * 0.1, ..live(&scene.frame, index) };
             (images, report) = draw_with(&mut renderer, &frame);
+            let is_quiet = report.upkeep.as_ref().is_some_and(|upkeep| upkeep.in_flight == 0);
+            quiet = if is_quiet { quiet + 1 } else { 0 };
+            if index >= 400 && quiet >= 50 {
+                break;
+            }
             std::thread::sleep(Duration::from_millis(2));
         }
         assert!(told.damaged_bricks > 0, "the faults miss the scene: {told:?}");
