@@ -5,7 +5,7 @@ use super::launch::HOW_TO_LAUNCH;
 use super::link::{Link, LinkError};
 use super::mpi::Messenger;
 use super::pause::Pause;
-use super::rest::{DOZE, Matter, Rest};
+use super::rest::{DOZE, Rest};
 use super::roster::{Roster, WHAT_TO_DO};
 use super::watchdog;
 use protocol::wire::{decode, encode};
@@ -64,13 +64,6 @@ pub fn connect() -> Result<ClusterLink, LinkError> {
         first_to_poll: 0,
         rest: Rest::new(Instant::now()),
     })
-}
-
-fn matter_of(message: &FromFrontend) -> Matter {
-    match message {
-        FromFrontend::Alive | FromFrontend::Clock { .. } => Matter::Upkeep,
-        _ => Matter::Work,
-    }
 }
 
 fn two_frontends(rank: usize) -> String {
@@ -137,12 +130,12 @@ impl Link for ClusterLink {
     }
 
     fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
-        self.rest.note(matter_of(message), Instant::now());
+        self.rest.note(message, Instant::now());
         self.post(backend, encode(message)?.into())
     }
 
     fn broadcast(&mut self, message: &FromFrontend) -> Result<(), LinkError> {
-        self.rest.note(matter_of(message), Instant::now());
+        self.rest.note(message, Instant::now());
         let bytes: Arc<[u8]> = encode(message)?.into();
         (0..self.backends()).try_for_each(|backend| self.post(backend, Arc::clone(&bytes)))
     }
@@ -155,8 +148,7 @@ impl Link for ClusterLink {
             let is_moving = self.messenger.is_sending().unwrap_or(false) || self.messenger.is_moving();
             if let Some((backend, bytes)) = self.poll()? {
                 let decoded = decode(&bytes).map_err(|error| LinkError::Garbled { backend, error })?;
-                let is_upkeep = matches!(decoded, FromBackend::Alive | FromBackend::Clock { .. });
-                self.rest.note(if is_upkeep { Matter::Upkeep } else { Matter::Work }, Instant::now());
+                self.rest.note(&decoded, Instant::now());
                 return Ok((backend, decoded));
             }
             self.look_for_gone()?;

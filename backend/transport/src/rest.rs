@@ -4,6 +4,7 @@
 //! whoever has had no work for a second looks every ten milliseconds. The first message after that may be heard so much
 //! later; it ends the rest, so no other is. Clocks are not compared across a doze: who asks says something first.
 
+use protocol::{FromBackend, FromFrontend};
 use std::time::{Duration, Instant};
 
 /// So long after its last work a link is at rest.
@@ -24,6 +25,24 @@ pub(crate) enum Matter {
     Upkeep,
 }
 
+impl From<&FromFrontend> for Matter {
+    fn from(message: &FromFrontend) -> Self {
+        match message {
+            FromFrontend::Alive | FromFrontend::Clock { .. } => Self::Upkeep,
+            _ => Self::Work,
+        }
+    }
+}
+
+impl From<&FromBackend> for Matter {
+    fn from(message: &FromBackend) -> Self {
+        match message {
+            FromBackend::Alive | FromBackend::Clock { .. } => Self::Upkeep,
+            _ => Self::Work,
+        }
+    }
+}
+
 /// What a link knows of its latest messages, sent and received.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rest {
@@ -38,7 +57,8 @@ impl Rest {
     }
 
     /// A message has come or gone.
-    pub(crate) fn note(&mut self, matter: Matter, now: Instant) {
+    pub(crate) fn note(&mut self, matter: impl Into<Matter>, now: Instant) {
+        let matter = matter.into();
         self.spoke_at = now;
         if matter == Matter::Work {
             self.worked_at = now;

@@ -9,7 +9,7 @@ mod packets;
 mod senders;
 
 use lightloom_tests::processes::{open_files, resident_mib, signal};
-use lightloom_tests::program::{lightloom, run, small_display, start};
+use lightloom_tests::program::{lightloom, small_display, start};
 use lightloom_tests::random::Random;
 use lightloom_tests::results::{Program, Results};
 use senders::{Fault, KINDS, Sender};
@@ -29,6 +29,8 @@ const SEED: u64 = 16;
 const HEALTHY: Duration = Duration::from_millis(2500);
 /// How long it may take to end.
 const PARTING: Duration = Duration::from_secs(60);
+/// How long the tape may take: floods put millions of poses on it.
+const REPLAY: Duration = Duration::from_secs(1800);
 /// Until the volume is there.
 const OPENING: Duration = Duration::from_secs(5);
 
@@ -66,7 +68,7 @@ fn main() -> Result<(), String> {
     let report: Value =
         serde_json::from_str(&ran.stdout).map_err(|error| format!("{error}: {}", ran.stderr))?;
     let heard = heard(Path::new(&tape))?;
-    let again = run(&mut lightloom(&[
+    let again = start(&mut lightloom(&[
         "exhibit",
         &exhibit,
         "--tape",
@@ -77,7 +79,8 @@ fn main() -> Result<(), String> {
         "cpu",
         "--stepped",
         "--quiet",
-    ]));
+    ]))
+    .finish(REPLAY);
     let log = fs::read_to_string(&log).map_err(|error| error.to_string())?;
     write(
         &Found {

@@ -116,8 +116,7 @@ impl Keeper {
         if message == FromFrontend::Quit {
             return Ok(Taken::Quit);
         }
-        let is_upkeep = matches!(message, FromFrontend::Alive | FromFrontend::Clock { .. });
-        self.rest.note(if is_upkeep { Matter::Upkeep } else { Matter::Work }, Instant::now());
+        self.rest.note(&message, Instant::now());
         if let State::Running(child) = &mut self.state {
             child.is_set_up |= child.has_greeted && matches!(message, FromFrontend::Setup(_));
             if child.is_set_up {
@@ -170,8 +169,10 @@ impl Keeper {
             return Some(bytes);
         }
         let decoded = decode::<FromBackend>(&bytes);
-        if !matches!(decoded, Ok(FromBackend::Clock { .. } | FromBackend::Alive)) {
-            self.rest.note(Matter::Work, Instant::now());
+        // What cannot be understood ends the renderer, and that is work.
+        let matter = decoded.as_ref().map_or(Matter::Work, Matter::from);
+        if matter == Matter::Work {
+            self.rest.note(matter, Instant::now());
         }
         match decoded {
             Err(error) => self.end(Some(format!("cannot be understood: {error}"))),
