@@ -130,7 +130,7 @@ fn host_structs_and_wgsl_structs_agree() {
         weights,
         deviation_scale
     );
-    assert_layout!(&module, TableCell, first, occupied);
+    assert_layout!(&module, TableCell, first, occupied, inside);
     assert_layout!(&module, TableEntry, value, integral, integral_rest, position, padding);
     assert_layout!(&module, ImportanceEntry, value, integral, integral_rest, padding);
     assert_layout!(&module, IndexEntry, value, slope, jumps);

@@ -18,29 +18,29 @@ fn importance_at(place: TablePlace) -> f32 {
 }
 
 fn importance_between(a: TablePlace, b: TablePlace) -> Importance {
-    var low = a;
-    var high = b;
+    var from_place = a;
+    var to_place = b;
     if b.node < a.node {
-        low = b;
-        high = a;
+        from_place = b;
+        to_place = a;
     }
-    let first = importance_at(low);
-    let last = importance_at(high);
+    let first = importance_at(from_place);
+    let last = importance_at(to_place);
     let at_ends = max(first, last);
-    if low.node == high.node {
+    if from_place.node == to_place.node {
         return Importance(0.5 * (first + last), at_ends);
     }
-    let after = low.node + 1u;
-    let before = high.node;
+    let after = from_place.node + 1u;
+    let before = to_place.node;
     // The nodes between are covered by two spans of a power of two; a row of spans has as many entries as there are nodes.
-    let span = firstLeadingBit(high.node - low.node);
+    let span = firstLeadingBit(to_place.node - from_place.node);
     let row = span * (table_cells[scene.tables.x].first + 1u);
     let inside = max(importance_most[row + after], importance_most[row + before + 1u - (1u << span)]);
-    let left = (first + importance_table[after].value) * (0.5 * (optics_table[after].position - low.u));
-    let right = (importance_table[before].value + last) * (0.5 * (high.u - optics_table[before].position));
+    let left = (first + importance_table[after].value) * (0.5 * (from_place.high - from_place.u));
+    let right = (importance_table[before].value + last) * (0.5 * (to_place.u - to_place.low));
     let whole = (importance_table[before].integral - importance_table[after].integral)
         + (importance_table[before].integral_rest - importance_table[after].integral_rest);
     // The mean is a rounded quotient.
     let most = max(at_ends, inside);
-    return Importance(min((left + whole + right) / (high.u - low.u), most), most);
+    return Importance(min((left + whole + right) / (to_place.u - from_place.u), most), most);
 }

@@ -41,6 +41,7 @@ struct NodeRecord {
 struct TableCell {
     first: u32,
     occupied: u32,
+    inside: vec2<f32>,
 }
 
 struct TableEntry {

@@ -7,6 +7,9 @@ struct TablePlace {
     // The node at or below it, and how far it is from there to the next.
     node: u32,
     part: f32,
+    // The positions of that node and the next.
+    low: f32,
+    high: f32,
 }
 
 // A scalar's place, and a table's values there: looked up once, used for every mean that ends at it.
@@ -15,38 +18,23 @@ struct Located {
     value: vec4<f32>,
 }
 
-fn place_of(s: f32) -> TablePlace {
-    let cells = scene.tables.x;
-    let u = s * f32(cells);
-    let cell = min(u32(u), cells - 1u);
-    let first = table_cells[cell].first;
-    let next = table_cells[cell + 1u].first;
-    if next - first == 1u {
-        return TablePlace(u, first, u - f32(cell));
-    }
-    return place_among_knots(u, first, next);
+// A scalar's position in cells, and the cell.
+struct CellPlace {
+    u: f32,
+    index: u32,
 }
 
-// The same in a cell with knots: among the nodes from its lower border to its upper one, the last at or below u.
-fn place_among_knots(u: f32, first: u32, next: u32) -> TablePlace {
-    var low = first;
-    var high = next;
-    while high - low > 1u {
-        let middle = (low + high) / 2u;
-        if optics_table[middle].position <= u {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let from_u = optics_table[low].position;
-    let width = optics_table[low + 1u].position - from_u;
+fn cell_of(s: f32) -> CellPlace {
+    let cells = scene.tables.x;
+    let u = s * f32(cells);
+    return CellPlace(u, min(u32(u), cells - 1u));
+}
+
+// The place of u between a node and the next, which stand at `low` and `high`.
+fn place_between(u: f32, node: u32, low: f32, high: f32) -> TablePlace {
+    let width = high - low;
     // The end of the last cell may lie on a jump: it is what it is there.
-    var part = 1.0;
-    if width > 0.0 {
-        part = (u - from_u) / width;
-    }
-    return TablePlace(u, low, part);
+    return TablePlace(u, node, select(1.0, (u - low) / width, width > 0.0), low, high);
 }
 
 fn locate(s: f32) -> Located {
@@ -59,28 +47,35 @@ fn optics_between(a: Located, b: Located) -> vec4<f32> {
     if a.place.node == b.place.node {
         return 0.5 * (a.value + b.value);
     }
+    let ends = in_rising_order(a, b);
+    return mean_over(ends.first, optics_table[ends.first.place.node + 1u], optics_table[ends.last.place.node], ends.last);
+}
+
+struct Ends {
+    first: Located,
+    last: Located,
+}
+
+fn in_rising_order(a: Located, b: Located) -> Ends {
     if b.place.node < a.place.node {
-        return mean_over(b, optics_table[b.place.node + 1u], optics_table[a.place.node], a);
+        return Ends(b, a);
     }
-    return mean_over(a, optics_table[a.place.node + 1u], optics_table[b.place.node], b);
+    return Ends(a, b);
 }
 
 // Mean of a table from `first` over the nodes `after` it and `before` the last to `last`. Between two nodes f is linear, so
 // the mean is that of the ends; over several nodes the end pieces are trapezoids and only what lies between nodes uses the
 // difference of integrals, kept as the sum of two floats: nothing cancels.
 fn mean_over(first: Located, after: TableEntry, before: TableEntry, last: Located) -> vec4<f32> {
-    let left = (first.value + after.value) * (0.5 * (after.position - first.place.u));
-    let right = (before.value + last.value) * (0.5 * (last.place.u - before.position));
+    let left = (first.value + after.value) * (0.5 * (first.place.high - first.place.u));
+    let right = (before.value + last.value) * (0.5 * (last.place.u - last.place.low));
     let whole = (before.integral - after.integral) + (before.integral_rest - after.integral_rest);
     return (left + whole + right) / (last.place.u - first.place.u);
 }
 
 // Whether nothing within scalars [low, high] changes a picture.
 fn is_vacant(low: f32, high: f32) -> bool {
-    let cells = scene.tables.x;
-    let c0 = min(u32(low * f32(cells)), cells - 1u);
-    let c1 = min(u32(high * f32(cells)), cells - 1u);
-    return table_cells[c0].occupied == table_cells[c1 + 1u].occupied;
+    return table_cells[cell_of(low).index].occupied == table_cells[cell_of(high).index + 1u].occupied;
 }
 
 // Whether nothing within `spread` of a range of scalars changes a picture.

@@ -4,12 +4,14 @@ use bytemuck::{Pod, Zeroable};
 
 /// A cell of the scalars, by which nodes of tables are found.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TableCell {
     /// The node at its lower border. Nodes between that and the next cell's are knots of transfer functions.
     pub first: u32,
     /// How many cells below it change a picture: so cells a to b together change nothing if those of a and b + 1 are equal.
     pub occupied: u32,
+    /// Where the first two nodes inside it are, in table cells; `f32::MAX` where there are fewer.
+    pub inside: [f32; 2],
 }
 
 /// f and F = ∫ f of four functions at one node of a table: (k red, k green, k blue, τ), or the factors of a material.

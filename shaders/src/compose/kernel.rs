@@ -1,6 +1,7 @@
 //! One kernel: a filter, and what a scene needs.
 
 use super::{chain, constants, debug_view};
+use needs::tables::Tables;
 use needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 use optics::{DebugView, EnhancerKind, MimdaForm};
 
@@ -18,8 +19,26 @@ pub enum Filter {
 pub struct KernelKey {
     /// Interpolation.
     pub filter: Filter,
+    /// How tables are looked up.
+    pub lookup: Lookup,
     /// What the scene needs.
     pub needs: Needs,
+}
+
+/// How the place of a scalar in the tables is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Lookup {
+    /// Among the nodes that its cell lists.
+    Listed,
+    /// By halving the nodes of its cell, which may be more than those: a loop, which takes longer wherever it stands.
+    Halved,
+}
+
+impl Lookup {
+    /// What some tables need.
+    pub fn of(tables: &Tables) -> Self {
+        if tables.is_crowded() { Self::Halved } else { Self::Listed }
+    }
 }
 
 /// A module's text by its place in `wgsl/`.
@@ -114,6 +133,10 @@ impl KernelKey {
             Way::Straight => &[module!("way/straight")][..],
             Way::Refracted => &[module!("way/path"), module!("way/pair"), module!("way/refracted")],
         };
+        let place = match self.lookup {
+            Lookup::Listed => module!("place/listed"),
+            Lookup::Halved => module!("place/halved"),
+        };
         let constants = constants::wgsl();
         let mut modules = vec![
             constants.as_str(),
@@ -121,6 +144,7 @@ impl KernelKey {
             module!("ray"),
             module!("traverse"),
             module!("tables"),
+            place,
             sample,
         ];
         modules.extend(levels_wgsl(needs));
@@ -154,7 +178,8 @@ impl KernelKey {
         ]));
         chains.push(Chain::of_kinds(&[EnhancerKind::ClipPlane; 3]));
         let mut keys = Vec::new();
-        for filter in [Filter::Hardware, Filter::Exact] {
+        // Both look-ups are looked at as one, by filters alike.
+        for (filter, lookup) in [(Filter::Hardware, Lookup::Listed), (Filter::Exact, Lookup::Halved)] {
             for levels in [Levels::Single, Levels::Quadrilinear] {
                 for shading in Shading::ALL {
                     for compositing in Compositing::ALL {
@@ -174,7 +199,7 @@ impl KernelKey {
                                     chain,
                                     debug,
                                 };
-                                keys.push(Self { filter, needs });
+                                keys.push(Self { filter, lookup, needs });
                             }
                         }
                     }
@@ -183,15 +208,16 @@ impl KernelKey {
         }
         // Debug views look at no other slot: each with a plain kernel, and with one that has much.
         for debug in DebugView::ALL.map(Some) {
-            keys.push(Self { filter: Filter::Hardware, needs: Needs { debug, ..Needs::PLAIN } });
+            let needs = Needs { debug, ..Needs::PLAIN };
+            keys.push(Self { filter: Filter::Hardware, lookup: Lookup::Listed, needs });
             let shading = Shading::Exaggerated;
             let compositing = Compositing::Mimda(MimdaForm::Paper);
             let needs = Needs { shading, compositing, way: Way::Refracted, debug, ..Needs::PLAIN };
-            keys.push(Self { filter: Filter::Exact, needs });
+            keys.push(Self { filter: Filter::Exact, lookup: Lookup::Halved, needs });
         }
         // Importance that is not accumulated is looked at by enhancers alone.
         let tells = |key: &&Self| {
-            let Self { filter, needs } = key;
+            let Self { filter, needs, .. } = key;
             let is_plain = needs.shading == Shading::Plain && needs.compositing == Compositing::Over;
             *filter == Filter::Exact && is_plain && needs.chain.needs_importance()
         };
@@ -201,7 +227,7 @@ impl KernelKey {
         // Blending is looked at by levels, gradients and ways alone, and by enhancers through gradients.
         let with_blending = |key: Self| Self { needs: Needs { blends: true, ..key.needs }, ..key };
         let is_apart = |key: &&Self| {
-            let Self { filter, needs } = key;
+            let Self { filter, needs, .. } = key;
             let has_plain_rest =
                 *filter == Filter::Exact && needs.compositing == Compositing::Over && !needs.tells_importance;
             has_plain_rest && (needs.chain.is_empty() || needs.chain.needs_gradient())

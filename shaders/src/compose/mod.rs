@@ -3,6 +3,7 @@
 //! | slot | modules |
 //! | --- | --- |
 //! | filter | `sample/hardware`, `sample/exact` |
+//! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
 //! | weights | `levels/no_weights`, `levels/weights` |
 //! | spread | `spread/none`, or `spread/level` with `one`, `two` or `three` |
@@ -22,5 +23,5 @@ mod debug_view;
 mod kernel;
 mod present;
 
-pub use kernel::{Filter, KernelKey};
+pub use kernel::{Filter, KernelKey, Lookup};
 pub use present::PresentKernel;

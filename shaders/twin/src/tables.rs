@@ -43,12 +43,12 @@ fn cell_of<F: Real>(s: F) -> (F, usize) {
 #[inline(always)]
 pub(super) fn place_of<F: Real>(tables: &Tables, s: F) -> TablePlace<F> {
     let (u, cell) = cell_of(s);
-    let ends = &tables.cells[cell..cell + 2];
-    let (first, next) = (ends[0].first as usize, ends[1].first as usize);
-    if next - first == 1 {
+    let TableCell { first, inside, .. } = tables.cells[cell];
+    let first = first as usize;
+    if inside[0] == f32::MAX {
         return TablePlace { u, node: first, part: u - F::of_u32(cell as u32) };
     }
-    place_among_knots(&tables.optics[first..=next], u, first)
+    place_among_knots(&tables.optics[first..=tables.cells[cell + 1].first as usize], u, first)
 }
 
 /// The same in a cell with knots: among the nodes from its lower border to its upper one, the last at or below u.

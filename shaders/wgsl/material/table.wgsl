@@ -12,10 +12,8 @@ fn materials_between(a: Located, b: Located) -> vec4<f32> {
     if a.place.node == b.place.node {
         return 0.5 * (a.value + b.value);
     }
-    if b.place.node < a.place.node {
-        return mean_over(b, material_table[b.place.node + 1u], material_table[a.place.node], a);
-    }
-    return mean_over(a, material_table[a.place.node + 1u], material_table[b.place.node], b);
+    let ends = in_rising_order(a, b);
+    return mean_over(ends.first, material_table[ends.first.place.node + 1u], material_table[ends.last.place.node], ends.last);
 }
 
 // Mean between two scalars.

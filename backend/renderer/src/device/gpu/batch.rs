@@ -1,5 +1,7 @@
 //! How many tiles of a cast are handed to the driver at a time.
 
+use std::num::NonZero;
+use std::thread::available_parallelism;
 use std::time::Duration;
 
 /// Tiles of the first batch: few, because nobody knows yet how long they take.
@@ -12,17 +14,28 @@ pub(super) struct BatchSize {
     tiles: usize,
     aim: Duration,
     most: usize,
+    /// Threads of a driver in software.
+    threads: usize,
 }
 
 impl BatchSize {
     /// Before anything has been cast. On a driver in software batches take longer: it deals tiles out to its threads
     /// beforehand, which then wait for each other, so that small batches leave threads idle.
     pub fn new(is_software: bool) -> Self {
-        let (aim, most) = match is_software {
-            true => (Duration::from_secs(1), 2048),
-            false => (Duration::from_millis(8), 16_384),
+        let (aim, most, threads) = match is_software {
+            true => (Duration::from_secs(1), 2048, available_parallelism().map_or(1, NonZero::get)),
+            false => (Duration::from_millis(8), 16_384, 1),
         };
-        Self { tiles: FIRST, aim, most }
+        Self { tiles: FIRST, aim, most, threads }
+    }
+
+    /// A batch in the order in which it is handed over. A driver in software gives each thread one stretch of it: neighbours,
+    /// which take about as long as each other, go to different ones.
+    pub fn dealt(&self, tiles: &[u32]) -> Vec<u32> {
+        (0..self.threads)
+            .flat_map(|thread| tiles.iter().skip(thread).step_by(self.threads))
+            .copied()
+            .collect()
     }
 
     /// Tiles of the next batch.
@@ -80,6 +93,14 @@ mod tests {
         let slow = batches(&mut size, 1 << 12, Duration::from_millis(8));
         let long = slow.iter().filter(|(_, took)| *took > Duration::from_secs(2)).count();
         assert_eq!((long, slow[1].0), (1, 125), "{slow:?}");
+    }
+
+    #[test]
+    fn each_thread_gets_a_share_of_every_neighbourhood() {
+        let dealt = |threads| BatchSize { threads, ..BatchSize::new(true) }.dealt(&[10, 11, 12, 13, 14]);
+        assert_eq!(dealt(1), [10, 11, 12, 13, 14]);
+        assert_eq!(dealt(2), [10, 12, 14, 11, 13]);
+        assert_eq!(dealt(8), [10, 11, 12, 13, 14]);
     }
 
     #[test]

@@ -20,7 +20,7 @@ use needs::Way;
 use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
-use shaders::compose::{Filter, KernelKey};
+use shaders::compose::{Filter, KernelKey, Lookup};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -38,6 +38,7 @@ pub struct GpuDevice {
     sampler: wgpu::Sampler,
     filter: Filter,
     filter_error: Option<f32>,
+    lookup: Lookup,
     scene: wgpu::Buffer,
     links: wgpu::Buffer,
     nodes: Storage,
@@ -91,6 +92,7 @@ impl GpuDevice {
             sampler,
             filter,
             filter_error,
+            lookup: Lookup::Listed,
             scene,
             links,
             nodes: storage("nodes"),
@@ -161,6 +163,7 @@ impl GpuDevice {
 
     pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
         let _turn = self.context.turn();
+        self.lookup = Lookup::of(&tables);
         self.optics.write(&self.context, &tables.optics);
         self.table_cells.write(&self.context, &tables.cells);
         self.importance.write_if_any(&self.context, &tables.importance);
@@ -173,7 +176,7 @@ impl GpuDevice {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
         self.prepare(job);
-        let key = KernelKey { filter: self.filter, needs: job.needs };
+        let key = KernelKey { filter: self.filter, lookup: self.lookup, needs: job.needs };
         let pipeline = context.kernel(Kernel::Cast(key));
         let mut encoder = context.new_encoder();
         match job.gather {
@@ -204,7 +207,7 @@ impl GpuDevice {
         let mut done = 0;
         while done < view.tiles.len() && !(job.stop)() {
             let end = view.tiles.len().min(done + self.batch.tiles());
-            let batch = ViewJob { tiles: view.tiles[done..end].into(), ..view.clone() };
+            let batch = ViewJob { tiles: self.batch.dealt(&view.tiles[done..end]).into(), ..view.clone() };
             let started = Instant::now();
             self.pictures.views[view.picture].prepare(&context, &batch);
             let mut encoder = context.new_encoder();
