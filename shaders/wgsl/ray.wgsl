@@ -12,6 +12,8 @@ struct Ray {
     direction_in_display: vec3<f32>,
     // t of the ray's start on the observer's line.
     start: f32,
+    // t of its end, beyond which nothing is looked at.
+    end: f32,
     // Voxels per metre of t.
     speed: f32,
 }
@@ -31,6 +33,7 @@ fn ray_of_pixel(pixel: vec2<f32>) -> Ray {
     var ray: Ray;
     ray.origin_in_display = screen;
     ray.start = -reach;
+    ray.end = FAR;
     let m = scene.volume_from_display;
     ray.origin_in_volume = m[0].xyz * screen.x + m[1].xyz * screen.y + m[3].xyz;
     return turned(ray, (screen - origin) / reach);
@@ -67,7 +70,7 @@ fn point_in_display(ray: Ray, t: f32) -> vec3<f32> {
 
 // The part of the ray inside the volume; empty if x >= y.
 fn clip_to_volume(ray: Ray) -> vec2<f32> {
-    var span = vec2<f32>(ray.start, FAR);
+    var span = vec2<f32>(ray.start, ray.end);
     for (var axis = 0u; axis < 3u; axis++) {
         let origin = ray.origin_in_volume[axis];
         let high = scene.volume[axis];

@@ -55,17 +55,22 @@ impl Coverage {
         Some(Self { first, size, shares })
     }
 
+    /// The pixels of which anything is covered: their columns and rows, and the opacity there of a mark of this opacity.
+    pub(crate) fn pixels(&self, opacity: f32) -> impl Iterator<Item = (UVec2, f32)> {
+        let rows = self.shares.chunks_exact(self.size.x as usize).zip(self.first.y..);
+        rows.flat_map(move |(shares, y)| {
+            shares.iter().zip(self.first.x..).map(move |(share, x)| (*share, x, y))
+        })
+        .filter(|(share, ..)| *share > 0)
+        .map(move |(share, x, y)| (UVec2::new(x, y), opacity * f32::from(share) / 255.0))
+    }
+
     /// Lays an even colour over a picture of this width, of linear colours that are premultiplied by their opacity.
     pub(crate) fn lay_over(&self, paint: Paint, rgba: &mut [f32], width: u32) {
-        let rows = self.shares.chunks_exact(self.size.x as usize).zip(self.first.y as usize..);
-        for (shares, y) in rows {
-            let from = 4 * (y * width as usize + self.first.x as usize);
-            let pixels = rgba[from..].chunks_exact_mut(4).zip(shares);
-            for (pixel, &share) in pixels.filter(|(_, share)| **share > 0) {
-                let opacity = paint.opacity * f32::from(share) / 255.0;
-                let colour = paint.rgb.into_iter().map(|part| part * opacity).chain([opacity]);
-                pixel.iter_mut().zip(colour).for_each(|(part, over)| *part = over + (1.0 - opacity) * *part);
-            }
+        for (at, opacity) in self.pixels(paint.opacity) {
+            let pixel = &mut rgba[4 * (at.y * width + at.x) as usize..][..4];
+            let colour = paint.rgb.into_iter().map(|part| part * opacity).chain([opacity]);
+            pixel.iter_mut().zip(colour).for_each(|(part, over)| *part = over + (1.0 - opacity) * *part);
         }
     }
 }

@@ -11,9 +11,12 @@
 //! | `stroke`, `sheet` | lines and surfaces as polygons of pixels |
 //! | `letters` | text as outlines |
 //! | `fill` | polygons as a colour over a picture |
+//! | `depth`, `fragment` | where rays meet marks, and marks among what else they meet |
 //! | `pen` | all of a frame's marks |
 
+mod depth;
 mod fill;
+mod fragment;
 mod letters;
 mod pen;
 mod polygon;
@@ -21,6 +24,7 @@ mod sheet;
 mod stroke;
 mod view;
 
+pub use fragment::Fragment;
 pub use letters::unknown_characters;
 pub use pen::Pen;
 pub use view::View;

@@ -1,6 +1,8 @@
 //! All of a frame's marks.
 
+use crate::depth::Depth;
 use crate::fill::Coverage;
+use crate::fragment::{Fragment, sort};
 use crate::letters::Font;
 use crate::view::View;
 use crate::{sheet, stroke};
@@ -26,7 +28,7 @@ impl Pen {
     ///
     /// # Panics
     /// If the picture is smaller than the view's, as a slice does.
-    pub fn draw(&mut self, marks: &[Mark], view: &View, rgba: &mut [f32]) {
+    pub fn draw<'m>(&mut self, marks: impl IntoIterator<Item = &'m Mark>, view: &View, rgba: &mut [f32]) {
         for mark in marks {
             for (polygons, paint) in self.polygons(mark, view) {
                 if let Some(coverage) = Coverage::of(&polygons, view.size()) {
@@ -34,6 +36,24 @@ impl Pen {
                 }
             }
         }
+    }
+
+    /// The pixels of marks that belong among what their rays meet: pixel by pixel, the farthest first.
+    pub fn fragments<'m>(&mut self, marks: impl IntoIterator<Item = &'m Mark>, view: &View) -> Vec<Fragment> {
+        let mut fragments = Vec::new();
+        for mark in marks {
+            let depth = Depth::of(&mark.shape);
+            for (polygons, paint) in self.polygons(mark, view) {
+                let Some(coverage) = Coverage::of(&polygons, view.size()) else { continue };
+                fragments.extend(coverage.pixels(paint.opacity).map(|(at, opacity)| {
+                    let ray = view.ray(at);
+                    let (pixel, distance_m) = (at.y * view.size().x + at.x, depth.along(&ray));
+                    Fragment { pixel, ray, distance_m, paint: Paint { opacity, ..paint } }
+                }));
+            }
+        }
+        sort(&mut fragments);
+        fragments
     }
 
     /// What a mark is in pixels: colours, one over the other.

@@ -114,7 +114,7 @@ fn compare(shape: &MarkShape, law: BeamLaw, raster: &Raster, drawn_law: BeamLaw)
     let UVec2 { x: width, y: height } = view.size();
     let mut rgba = vec![0.0; 4 * (width * height) as usize];
     let mut pen = Pen::default();
-    pen.draw(&[Mark { shape: shape.clone(), paint: WHITE }], &view, &mut rgba);
+    pen.draw(&[Mark { shape: shape.clone(), paint: WHITE, is_depth_combined: false }], &view, &mut rgba);
     let letters = match shape {
         MarkShape::Label { text, .. } => edges(&Font::new().letters(text)),
         _ => Vec::new(),
@@ -215,7 +215,11 @@ fn tips_land_where_the_rays_of_all_projectors_put_them() {
             let view = View::new(law, &projector.raster).unwrap();
             let dot = MarkShape::Stroke { points_in_display: vec![tip], radius_m: 0.01 };
             let mut rgba = vec![0.0; 4 * 800 * 600];
-            Pen::default().draw(&[Mark { shape: dot, paint: WHITE }], &view, &mut rgba);
+            Pen::default().draw(
+                &[Mark { shape: dot, paint: WHITE, is_depth_combined: false }],
+                &view,
+                &mut rgba,
+            );
             // The middle of what is drawn.
             let (mut sum, mut weight) = (DVec2::ZERO, 0.0);
             for (i, pixel) in rgba.chunks_exact(4).enumerate().filter(|(_, pixel)| pixel[3] > 0.0) {
@@ -242,6 +246,7 @@ fn colours_lie_over_each_other() {
     let sheet = |rgb, opacity| Mark {
         shape: MarkShape::Sheet { corners_in_display: wall.into() },
         paint: Paint { rgb, opacity },
+        is_depth_combined: false,
     };
     let mut rgba = [0.25, 0.0, 0.0, 0.5].repeat(96 * 72);
     Pen::default().draw(&[sheet([0.0, 1.0, 0.0], 0.5), sheet([0.0, 0.0, 1.0], 0.25)], &view, &mut rgba);
@@ -282,7 +287,7 @@ fn what_has_no_image_is_not_drawn_and_does_not_hang() {
     ];
     for shape in shapes {
         let mut rgba = vec![0.0; 4 * 96 * 72];
-        Pen::default().draw(&[Mark { shape, paint: WHITE }], &view, &mut rgba);
+        Pen::default().draw(&[Mark { shape, paint: WHITE, is_depth_combined: false }], &view, &mut rgba);
         assert!(rgba.iter().all(|part| (0.0..=1.0).contains(part)));
     }
 }

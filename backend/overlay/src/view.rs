@@ -1,6 +1,6 @@
 //! Where points land in a projector's picture.
 
-use display_config::{BeamLaw, Raster, RasterInverse};
+use display_config::{BeamLaw, Homography, Raster, RasterInverse, Ray};
 use glam::{DVec2, DVec3, UVec2};
 
 /// Lengths that the projection magnifies more than this are so near to a plane of no image that nothing of them is drawn.
@@ -15,6 +15,7 @@ pub(crate) const MOST_HALVINGS: u32 = 12;
 #[derive(Clone, Debug)]
 pub struct View {
     law: BeamLaw,
+    screen_from_pixel: Homography,
     inverse: RasterInverse,
     size: UVec2,
 }
@@ -22,7 +23,8 @@ pub struct View {
 impl View {
     /// Of a projector's rays and pixels. None for a singular calibration.
     pub fn new(law: BeamLaw, raster: &Raster) -> Option<Self> {
-        Some(Self { law, inverse: raster.inverse()?, size: raster.pixels() })
+        let Raster { screen_from_pixel, .. } = *raster;
+        Some(Self { law, screen_from_pixel, inverse: raster.inverse()?, size: raster.pixels() })
     }
 
     /// Pixels along x and y.
@@ -34,6 +36,11 @@ impl View {
     /// None where it has no image.
     pub fn pixel(&self, point: DVec3) -> Option<DVec2> {
         self.inverse.pixel(self.law.screen_from_point(point).ok()?)
+    }
+
+    /// The ray of the middle of a pixel.
+    pub(crate) fn ray(&self, pixel: UVec2) -> Ray {
+        self.law.ray(self.screen_from_pixel.apply(pixel.as_dvec2() + 0.5))
     }
 
     /// How far a point is from where nothing is drawn; below 0 beyond. Two numbers that are linear in the point.

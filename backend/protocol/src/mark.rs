@@ -3,13 +3,16 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Something drawn over the picture of each projector, wherever the rays of its pixels meet it. It shines through the volume.
+/// Something drawn over the picture of each projector, wherever the rays of its pixels meet it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// Where it is, and what it looks like.
     pub shape: MarkShape,
     /// Its colour.
     pub paint: Paint,
+    /// Whether the volume before it hides it, as far as that is opaque, and it hides what lies behind it. Otherwise it shines
+    /// through. Refused where light is refracted.
+    pub is_depth_combined: bool,
 }
 
 /// What a mark is. Metres, display frame.

@@ -4,7 +4,7 @@ use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, ScreenIm
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 13;
+pub const PROTOCOL_VERSION: u32 = 14;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -54,7 +54,7 @@ prop_compose! {
             1 => MarkShape::Sheet { corners_in_display: points },
             _ => MarkShape::Label { text, base_in_display: DVec3::X, em_m: radius_m, backing: (rgb[0] > 0.0).then_some(paint) },
         };
-        Mark { shape, paint }
+        Mark { shape, paint, is_depth_combined: kind == 1 }
     }
 }
 

@@ -33,7 +33,7 @@ pub struct Exhibit {
     pub files: Vec<PathBuf>,
 }
 
-/// What is drawn over the volume: everything, where the file says nothing.
+/// What is drawn over the volume: everything, where the file says nothing, shining through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MarkWish {
     /// Tools, where they are.
@@ -42,11 +42,13 @@ pub struct MarkWish {
     pub names: bool,
     /// Below the volume, what is shown.
     pub captions: bool,
+    /// Whether tools lie among what they point at, instead of shining through it. What is written always shines through.
+    pub depth_combined: bool,
 }
 
 impl MarkWish {
     /// Nothing is.
-    pub const NONE: Self = Self { tools: false, names: false, captions: false };
+    pub const NONE: Self = Self { tools: false, names: false, captions: false, depth_combined: false };
 }
 
 /// An item of the programme.

@@ -280,7 +280,12 @@ impl Reader<'_> {
             .and_then(|entry| self.entry::<RawMarks>("marks", entry))
             .map_or_else(RawMarks::default, |(_, raw)| raw);
         let on = |wish: Option<bool>| wish.unwrap_or(true);
-        MarkWish { tools: on(raw.tools), names: on(raw.names), captions: on(raw.captions) }
+        MarkWish {
+            tools: on(raw.tools),
+            names: on(raw.names),
+            captions: on(raw.captions),
+            depth_combined: raw.depth_combined.unwrap_or(false),
+        }
     }
 
     pub(crate) fn tape(&mut self, entry: Option<&Spanned<Value>>) -> Option<TapeWish> {

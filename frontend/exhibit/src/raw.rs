@@ -131,6 +131,7 @@ pub struct RawMarks {
     pub tools: Option<bool>,
     pub names: Option<bool>,
     pub captions: Option<bool>,
+    pub depth_combined: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -139,6 +139,9 @@ impl Opening<'_> {
         }
         let piece = Piece::new(scene, facts, &looks).for_tools();
         self.check_tools(item.line, &piece);
+        if self.exhibit.marks.depth_combined && piece.scene(None).look.refracts() {
+            self.wrong(Some(item.line), "its scene refracts light, so tools cannot be depth-combined with it; take `depth_combined` out of [marks]".into());
+        }
         Some(piece)
     }
 

@@ -104,7 +104,7 @@ fn marks_move_over_a_picture_that_rests() {
     assert!(answer(&mut controlled, &task, [0, 0], false));
     let paint = Paint { rgb: [1.0; 3], opacity: 1.0 };
     let shape = MarkShape::Stroke { points_in_display: vec![DVec3::X], radius_m: 0.01 };
-    let marked = FrameState { marks: vec![Mark { shape, paint }], ..state(1, 0.0) };
+    let marked = FrameState { marks: vec![Mark { shape, paint, is_depth_combined: false }], ..state(1, 0.0) };
     let task = controlled.next(marked.clone(), NOW, || false).unwrap();
     assert_eq!(task.frame.refinement.unwrap(), Refinement { configuration: 1, to: 64 });
     assert_eq!(task.frame.marks, marked.marks);

@@ -48,6 +48,14 @@ impl Look {
         }
     }
 
+    /// Whether it may bend light.
+    pub fn refracts(&self) -> bool {
+        match self {
+            Look::InDataUnits(look) => look.refraction.is_some(),
+            Look::Relative { .. } => false,
+        }
+    }
+
     /// The look for a volume of those values, whose longest edge is `longest_m` metres in the display, through a window of
     /// values. The bands of `chain` are over data values. An error is a sentence's part.
     pub fn optics(

@@ -61,7 +61,7 @@ impl Artist<'_> {
         let base_in_display = DVec3::new(0.0, -0.5 * self.display.height_m + 0.8 * em_m, 0.0);
         let shape =
             MarkShape::Label { text: self.caption.to_owned(), base_in_display, em_m, backing: Some(BACKING) };
-        Mark { shape, paint: Paint { rgb: WHITE, opacity: 1.0 } }
+        Mark { shape, paint: Paint { rgb: WHITE, opacity: 1.0 }, is_depth_combined: false }
     }
 
     /// What sizes count in, metres.
@@ -95,7 +95,8 @@ impl Artist<'_> {
         let width = if tool.grabs || tool.moves_window { 2.0 } else { 1.0 };
         let mut stroke = |points: Vec<DVec3>, radius: f64, opacity: f64| {
             let shape = MarkShape::Stroke { points_in_display: points, radius_m: radius * unit_m };
-            marks.push(Mark { shape, paint: self.paint(tool, opacity) });
+            let (paint, is_depth_combined) = (self.paint(tool, opacity), self.wish.depth_combined);
+            marks.push(Mark { shape, paint, is_depth_combined });
         };
         stroke(vec![tip - BODY * unit_m * axis, tip], width * LINE, 0.9);
         stroke(vec![tip], 2.0 * width * LINE, 1.0);
@@ -155,7 +156,7 @@ impl Artist<'_> {
         for (text, line) in lines.into_iter().rev().zip(0..) {
             let base_in_display = place + DVec3::Y * em_m * (1.2 + 1.3 * f64::from(line));
             let shape = MarkShape::Label { text, base_in_display, em_m, backing: Some(behind) };
-            marks.push(Mark { shape, paint: self.paint(tool, 1.0) });
+            marks.push(Mark { shape, paint: self.paint(tool, 1.0), is_depth_combined: false });
         }
     }
 }

@@ -198,7 +198,7 @@ fn tools_are_drawn_where_they_are_and_names_say_whose() {
     let item = piece.item(Vec::new(), None);
     let kinds = [ToolKind::Pointer, ToolKind::ClipPlane];
     let ensemble = Ensemble { cast: cast_of(&kinds), rules: Rules::default(), pieces: vec![(piece, item)] };
-    let all = MarkWish { tools: true, names: true, captions: true };
+    let all = MarkWish { tools: true, names: true, captions: true, depth_combined: false };
     let bare = Theatre::new(ensemble, Display::load("desk8").unwrap(), PACE);
     let mut theatre = bare.clone().with_marks(all);
     assert_eq!(written(&seen(&mut theatre, 0)), ["Shells"]);
@@ -230,6 +230,13 @@ fn tools_are_drawn_where_they_are_and_names_say_whose() {
         _ => false,
     };
     assert!(frame.marks.iter().any(ends_at_tip), "no line ends at the tip");
+    let among: Vec<&Mark> = frame.marks.iter().filter(|mark| mark.is_depth_combined).collect();
+    assert!(among.is_empty(), "{among:?}");
+    let combined = seen(&mut theatre.with_marks(MarkWish { depth_combined: true, ..all }), 610);
+    for mark in &combined.marks {
+        let is_written = matches!(mark.shape, MarkShape::Label { .. });
+        assert_eq!(mark.is_depth_combined, !is_written, "{mark:?}");
+    }
     // They are drawn over the same volume.
     assert_eq!(FrameState { marks: Vec::new(), ..frame }, seen(&mut bare, 610));
 }

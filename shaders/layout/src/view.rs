@@ -4,6 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 /// Rays are cast in square tiles of this many pixels along an edge: one workgroup each.
 pub const TILE_EDGE: u32 = 8;
+/// Short rays are cast in rows of this many: one workgroup each.
+pub const SHORT_RAYS: u32 = 64;
 /// Set in a pixel's count of samples where its ray met a node that is too coarse.
 pub const MISSING: u32 = 0x8000_0000;
 

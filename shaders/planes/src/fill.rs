@@ -13,7 +13,7 @@ use glam::{DAffine3, DVec3};
 use twin::gradient::Gradients;
 use twin::kernel::Kernel;
 use twin::levels::Brick;
-use twin::ray::Ray;
+use twin::ray::{Ray, far};
 use twin::{Casting, vector::Vec3};
 
 /// The columns of a leaf at a depth.
@@ -104,6 +104,7 @@ impl Grid<'_> {
             origin_in_display: Vec3([0.0, y as f32, depth.z as f32]),
             direction_in_display: Vec3::ZERO,
             start: 0.0,
+            end: far(),
             speed: 0.0,
         };
         ray.turned(self.casting.scene, Vec3([1.0, 0.0, 0.0]))

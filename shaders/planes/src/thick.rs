@@ -3,7 +3,7 @@
 use crate::classify::mean;
 use twin::Casting;
 use twin::gradient::Gradients;
-use twin::ray::Ray;
+use twin::ray::{Ray, far};
 use twin::shade::{Lighting, Phong, Shade};
 use twin::tables::{attenuation_mean, is_vacant_around, locate};
 use twin::vector::Vec3;
@@ -83,6 +83,7 @@ fn lighting(casting: &Casting<f32>, gradient: [f32; 3], direction: [f32; 3]) -> 
         origin_in_display: Vec3::ZERO,
         direction_in_display: Vec3(direction),
         start: 0.0,
+        end: far(),
         speed: 0.0,
     };
     Phong::lighting(casting, &gradients, &ray, casting.scene.material)

@@ -17,12 +17,23 @@ pub enum Filter {
 /// What one kernel is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct KernelKey {
+    /// Which rays it casts.
+    pub rays: KernelRays,
     /// Interpolation.
     pub filter: Filter,
     /// How tables are looked up.
     pub lookup: Lookup,
     /// What the scene needs.
     pub needs: Needs,
+}
+
+/// Which rays a kernel casts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum KernelRays {
+    /// Those of the pixels of tiles.
+    OfTiles,
+    /// A list of rays that end early.
+    Short,
 }
 
 /// How the place of a scalar in the tables is found.
@@ -122,7 +133,15 @@ fn composite_wgsl(needs: &Needs) -> Vec<&'static str> {
 }
 
 impl KernelKey {
-    /// The kernel's WGSL; entry point `cast_tile`.
+    /// The name of its entry point.
+    pub fn entry_point(&self) -> &'static str {
+        match self.rays {
+            KernelRays::OfTiles => "cast_tile",
+            KernelRays::Short => "cast_short",
+        }
+    }
+
+    /// The kernel's WGSL.
     pub fn wgsl(&self) -> String {
         let needs = &self.needs;
         let sample = match self.filter {
@@ -162,7 +181,10 @@ impl KernelKey {
             debug.as_str(),
         ]);
         modules.extend(way);
-        modules.push(module!("cast"));
+        modules.push(match self.rays {
+            KernelRays::OfTiles => module!("cast"),
+            KernelRays::Short => module!("short"),
+        });
         modules.join("\n")
     }
 
@@ -199,7 +221,7 @@ impl KernelKey {
                                     chain,
                                     debug,
                                 };
-                                keys.push(Self { filter, lookup, needs });
+                                keys.push(Self { rays: KernelRays::OfTiles, filter, lookup, needs });
                             }
                         }
                     }
@@ -209,11 +231,12 @@ impl KernelKey {
         // Debug views look at no other slot: each with a plain kernel, and with one that has much.
         for debug in DebugView::ALL.map(Some) {
             let needs = Needs { debug, ..Needs::PLAIN };
-            keys.push(Self { filter: Filter::Hardware, lookup: Lookup::Listed, needs });
+            let rays = KernelRays::OfTiles;
+            keys.push(Self { rays, filter: Filter::Hardware, lookup: Lookup::Listed, needs });
             let shading = Shading::Exaggerated;
             let compositing = Compositing::Mimda(MimdaForm::Paper);
             let needs = Needs { shading, compositing, way: Way::Refracted, debug, ..Needs::PLAIN };
-            keys.push(Self { filter: Filter::Exact, lookup: Lookup::Halved, needs });
+            keys.push(Self { rays, filter: Filter::Exact, lookup: Lookup::Halved, needs });
         }
         // Importance that is not accumulated is looked at by enhancers alone.
         let tells = |key: &&Self| {
@@ -238,6 +261,17 @@ impl KernelKey {
         let with_spreads = |key: Self| Self { needs: Needs { spreads: true, ..key.needs }, ..key };
         let spread: Vec<Self> = keys.iter().filter(is_apart).copied().map(with_spreads).collect();
         keys.extend(spread);
+        // Which rays there are no other slot asks.
+        let plain = Self {
+            rays: KernelRays::Short,
+            filter: Filter::Exact,
+            lookup: Lookup::Listed,
+            needs: Needs::PLAIN,
+        };
+        let chain = Chain::of_kinds(&[EnhancerKind::BandPicker, EnhancerKind::Probe]);
+        let compositing = Compositing::Mimda(MimdaForm::Consistent);
+        let rich = Needs { shading: Shading::Phong, compositing, blends: true, chain, ..Needs::PLAIN };
+        keys.extend([plain, Self { needs: rich, ..plain }]);
         keys
     }
 }

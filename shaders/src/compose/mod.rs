@@ -2,6 +2,7 @@
 //!
 //! | slot | modules |
 //! | --- | --- |
+//! | rays | `cast`, `short` |
 //! | filter | `sample/hardware`, `sample/exact` |
 //! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
@@ -23,5 +24,5 @@ mod debug_view;
 mod kernel;
 mod present;
 
-pub use kernel::{Filter, KernelKey, Lookup};
+pub use kernel::{Filter, KernelKey, KernelRays, Lookup};
 pub use present::PresentKernel;

@@ -34,18 +34,18 @@ macro_rules! enhanced {
     };
 }
 
+/// The ray of a projector's pixel (x, y).
 #[inline(always)]
-fn ray_of_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Ray<F> {
+pub(super) fn ray_of_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Ray<F> {
     let half = F::of(0.5);
     Ray::of_pixel(casting.scene, rays, F::of_u32(x) + half, F::of_u32(y) + half)
 }
 
-/// Casts the ray of a projector's pixel (x, y) with the modules that a kernel for the scene's needs has.
+/// Casts a ray with the modules that a kernel for the scene's needs has.
 #[inline(always)]
-pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Cast<F> {
+pub(super) fn cast_leanly<F: Real>(casting: &Casting<F>, ray: Ray<F>) -> Cast<F> {
     let needs = casting.needs;
     let is_plain = needs.shading == Shading::Plain;
-    let ray = ray_of_pixel(casting, rays, x, y);
     match (Frame::of(needs), is_plain) {
         (Frame::Lean, true) => composited!(Lean, Plain, casting, ray),
         (Frame::Lean, false) => composited!(Lean, Phong, casting, ray),
@@ -53,20 +53,30 @@ pub fn cast_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32
         (Frame::Blended, false) => composited!(Blended, Phong, casting, ray),
         (Frame::Enhanced, true) => enhanced!(Plain, casting, ray),
         (Frame::Enhanced, false) => enhanced!(Phong, casting, ray),
-        (Frame::Full, _) => cast_in_full(casting, rays, x, y),
+        (Frame::Full, _) => cast_with_all(casting, ray),
     }
 }
 
-/// The same with a twin that has every module: it sees the same, only later.
+/// Casts the ray of a projector's pixel (x, y) with a twin that has every module.
 #[inline(always)]
 pub fn cast_in_full<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F>, x: u32, y: u32) -> Cast<F> {
-    let ray = ray_of_pixel(casting, rays, x, y);
-    let cast = if casting.needs.tells_importance {
+    as_shown(casting, cast_with_all(casting, ray_of_pixel(casting, rays, x, y)))
+}
+
+/// A pixel's cast with the colour that it has in the picture.
+#[inline(always)]
+pub(super) fn as_shown<F: Real>(casting: &Casting<F>, cast: Cast<F>) -> Cast<F> {
+    Cast { rgba: debug_pixel(casting, cast.rgba, cast.samples), ..cast }
+}
+
+/// Casts a ray with every module: it sees the same as with those alone that it needs, only later.
+#[inline(always)]
+pub(super) fn cast_with_all<F: Real>(casting: &Casting<F>, ray: Ray<F>) -> Cast<F> {
+    if casting.needs.tells_importance {
         cast_ray::<F, Full<AnyShade, Over<true>>>(casting, &ray)
     } else {
         composited!(Full, AnyShade, casting, ray)
-    };
-    Cast { rgba: debug_pixel(casting, cast.rgba, cast.samples), ..cast }
+    }
 }
 
 /// The twin with the fewest features that has all that a scene needs, shading and compositing apart.

@@ -22,6 +22,8 @@ pub struct Ray<F> {
     pub direction_in_display: Vec3<F>,
     /// t of the ray's start on the observer's line.
     pub start: F,
+    /// t of its end, beyond which nothing is looked at.
+    pub end: F,
     /// Voxels per metre of t.
     pub speed: F,
 }
@@ -45,6 +47,7 @@ impl<F: Real> Ray<F> {
             origin_in_display: screen,
             direction_in_display: Vec3::ZERO,
             start: -reach,
+            end: F::of(FAR),
             speed: F::ZERO,
         };
         ray.turned(scene, toward.map(|c| c / reach))
@@ -99,10 +102,16 @@ impl<F: Real> Ray<F> {
         (offset - normal.dot(self.origin_in_display)) / speed
     }
 
+    /// The same ray as far as t.
+    #[inline(always)]
+    pub fn until(self, end: F) -> Self {
+        Self { end, ..self }
+    }
+
     /// The part of the ray inside the volume; empty if the first is not below the second.
     #[inline(always)]
     pub fn clip_to_volume(&self, dims: Vec3<F>) -> (F, F) {
-        let (mut enter, mut leave) = (self.start, F::of(FAR));
+        let (mut enter, mut leave) = (self.start, self.end);
         for axis in 0..3 {
             let (origin, high) = (self.origin_in_volume.0[axis], dims.0[axis]);
             if self.is_parallel(axis) {

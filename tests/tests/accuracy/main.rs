@@ -7,6 +7,7 @@
 
 mod blending;
 mod debug_views;
+mod depth_marks;
 mod deviation;
 mod devices;
 mod eye;

@@ -5,23 +5,21 @@ use super::rows::cast_rows;
 use super::tiles::{TileFound, cast_tiles};
 use super::under_way::UnderWay;
 use super::{
-    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShowJob, TaggedFeedback,
+    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShortJob, ShowJob,
+    TaggedFeedback,
 };
 use crate::present::{Thresholds, ease, reconstruct};
 use bricks::BRICK_VOXELS;
-use layout::NodeRecord;
+use layout::{NodeRecord, SHORT_RAYS};
 use needs::tables::Tables;
+use rayon::prelude::*;
 use std::borrow::Cow;
-use twin::{Casting, FeedbackCell, Observer, Volume};
+use twin::{Casting, FeedbackCell, Observer, ShortRay, Volume, cast_short};
 
 /// The brick cache in main memory, and the pictures.
 #[derive(Debug)]
 pub struct CpuDevice {
-    atlas: Vec<u16>,
-    /// Empty where bricks have none.
-    deviations: Vec<u8>,
-    nodes: Vec<NodeRecord>,
-    cells: Vec<u32>,
+    held: Held,
     tables: Tables,
     /// The colours of each picture.
     pictures: Vec<Vec<f32>>,
@@ -33,14 +31,34 @@ pub struct CpuDevice {
     tables_of_frames: UnderWay<TaggedFeedback>,
 }
 
+/// What rays sample.
+#[derive(Debug)]
+struct Held {
+    atlas: Vec<u16>,
+    /// Empty where bricks have none.
+    deviations: Vec<u8>,
+    nodes: Vec<NodeRecord>,
+    cells: Vec<u32>,
+}
+
+impl Held {
+    fn volume(&self) -> Volume<'_> {
+        let Self { nodes, cells, atlas, deviations } = self;
+        Volume { nodes, cells, atlas, deviations }
+    }
+}
+
 impl CpuDevice {
     /// A device with room for `slots` bricks, and for their standard deviations if they have any.
     pub fn new(slots: u32, has_deviations: bool) -> Self {
-        Self {
+        let held = Held {
             atlas: vec![0; slots as usize * BRICK_VOXELS],
             deviations: vec![0; if has_deviations { slots as usize * BRICK_VOXELS } else { 0 }],
             nodes: Vec::new(),
             cells: Vec::new(),
+        };
+        Self {
+            held,
             tables: Tables::default(),
             pictures: Vec::new(),
             shown: Vec::new(),
@@ -50,22 +68,22 @@ impl CpuDevice {
     }
 
     pub(super) fn slots(&self) -> u32 {
-        (self.atlas.len() / BRICK_VOXELS) as u32
+        (self.held.atlas.len() / BRICK_VOXELS) as u32
     }
 
     pub(super) fn write_brick(&mut self, slot: u32, samples: &[u16]) {
         let start = slot as usize * BRICK_VOXELS;
-        self.atlas[start..start + BRICK_VOXELS].copy_from_slice(samples);
+        self.held.atlas[start..start + BRICK_VOXELS].copy_from_slice(samples);
     }
 
     pub(super) fn write_deviations(&mut self, slot: u32, codes: &[u8]) {
         let start = slot as usize * BRICK_VOXELS;
-        self.deviations[start..start + BRICK_VOXELS].copy_from_slice(codes);
+        self.held.deviations[start..start + BRICK_VOXELS].copy_from_slice(codes);
     }
 
     pub(super) fn write_index(&mut self, nodes: &[NodeRecord], cells: &[u32]) {
-        self.nodes = nodes.to_vec();
-        self.cells = cells.to_vec();
+        self.held.nodes = nodes.to_vec();
+        self.held.cells = cells.to_vec();
         // What was gathered says nothing of another index.
         self.clear_feedback();
     }
@@ -76,17 +94,12 @@ impl CpuDevice {
 
     pub(super) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
         let own = match job.gather {
-            Gather::Own => no_feedback(&self.nodes),
+            Gather::Own => no_feedback(&self.held.nodes),
             Gather::Frame => Vec::new(),
         };
         let casting = Casting {
             scene: job.scene,
-            volume: Volume {
-                nodes: &self.nodes,
-                cells: &self.cells,
-                atlas: &self.atlas,
-                deviations: &self.deviations,
-            },
+            volume: self.held.volume(),
             tables: &self.tables,
             needs: &job.needs,
             observer: Observer {
@@ -124,8 +137,22 @@ impl CpuDevice {
         Ok(outcome)
     }
 
+    pub(super) fn cast_short(&mut self, job: &ShortJob) -> Result<Vec<[f32; 4]>, DeviceError> {
+        let unread = no_feedback(&self.held.nodes);
+        let casting = Casting {
+            scene: job.scene,
+            volume: self.held.volume(),
+            tables: &self.tables,
+            needs: &job.needs,
+            observer: Observer { feedback: &unread },
+        };
+        let cast =
+            |short: &[ShortRay]| cast_short(&casting, job.rays, short).into_iter().map(|cast| cast.rgba);
+        Ok(job.short.par_chunks(SHORT_RAYS as usize).flat_map_iter(cast).collect())
+    }
+
     pub(super) fn clear_feedback(&mut self) {
-        self.frame_feedback = no_feedback(&self.nodes);
+        self.frame_feedback = no_feedback(&self.held.nodes);
     }
 
     pub(super) fn end_feedback(&mut self, tag: FeedbackTag) {

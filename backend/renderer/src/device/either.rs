@@ -1,7 +1,7 @@
 //! A device of either kind, with its brick cache.
 
 use super::{
-    CastJob, CastOutcome, CpuDevice, DeviceError, DevicePicture, FeedbackTag, FinishJob, ShowJob,
+    CastJob, CastOutcome, CpuDevice, DeviceError, DevicePicture, FeedbackTag, FinishJob, ShortJob, ShowJob,
     TaggedFeedback,
 };
 use layout::NodeRecord;
@@ -100,6 +100,14 @@ impl Device {
     /// The device stopped answering.
     pub fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
         on_device!(self, device => device.cast(job))
+    }
+
+    /// Casts short rays: the colour of each, premultiplied by its opacity, in their order. They tell nothing of what they need.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    pub fn cast_short(&mut self, job: &ShortJob) -> Result<Vec<[f32; 4]>, DeviceError> {
+        on_device!(self, device => device.cast_short(job))
     }
 
     /// Makes what is shown of what was cast last into a picture (see [`CastJob::first_picture`]), and of what was shown of

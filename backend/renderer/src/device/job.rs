@@ -5,7 +5,7 @@ use needs::Needs;
 use planes::Fans;
 use protocol::StopAsked;
 use std::borrow::Cow;
-use twin::{Lattice, ProjectorRays, SceneNumbers};
+use twin::{Lattice, ProjectorRays, SceneNumbers, ShortRay};
 
 /// The tiles of a raster: squares of 8 × 8 cast pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,6 +112,19 @@ pub struct CastJob<'a> {
     pub counts: bool,
     /// Asked before each tile whether to leave the others; a GPU asks before each batch of tiles.
     pub stop: StopAsked<'a>,
+}
+
+/// Some rays of one projector that end early, for marks that the volume may hide.
+#[derive(Clone, Copy, Debug)]
+pub struct ShortJob<'a> {
+    /// The scene, in f32.
+    pub scene: &'a SceneNumbers<f32>,
+    /// The projector's rays, in f32.
+    pub rays: &'a ProjectorRays<f32>,
+    /// What the scene needs of a kernel.
+    pub needs: Needs,
+    /// The rays.
+    pub short: &'a [ShortRay],
 }
 
 /// What a cast casts of one view.

@@ -3,6 +3,7 @@
 use crate::device::DeviceError;
 use crate::working_set::TraceError;
 use bricks::BrickError;
+use needs::Way;
 use protocol::{DrawError, FrameState, Pace};
 
 /// Why a frame could not be drawn.
@@ -28,6 +29,11 @@ pub enum RenderError {
     /// The optical model is out of bounds.
     #[error(transparent)]
     Optics(#[from] optics::OpticsError),
+    /// Marks are to be depth-combined, and light is refracted.
+    #[error(
+        "marks cannot be depth-combined where light is refracted: the ray of a pixel does not meet them where they seem to be; let them shine through"
+    )]
+    Marks,
     /// The light is out of bounds.
     #[error("the light's {0}")]
     Light(optics::OutOfBounds),
@@ -64,6 +70,11 @@ pub(super) fn check(frame: &FrameState) -> Result<(), RenderError> {
     frame.optics.check()?;
     frame.light.map_or(Ok(()), |light| light.check()).map_err(RenderError::Light)?;
     frame.quality.check().map_err(RenderError::Quality)?;
+    if Way::for_optics(&frame.optics) == Way::Refracted
+        && frame.marks.iter().any(|mark| mark.is_depth_combined)
+    {
+        return Err(RenderError::Marks);
+    }
     let wrong = |what, seconds| Err(RenderError::Clock { what, seconds });
     match frame.pace {
         _ if !frame.time_s.is_finite() => wrong("time", frame.time_s),

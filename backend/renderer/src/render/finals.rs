@@ -5,9 +5,8 @@ use super::engine::Engine;
 use super::work::Work;
 use crate::device::{DeviceError, DevicePicture, FinishJob, Patch, ShowJob};
 use crate::present::{Raster, resampled};
-use overlay::View;
 use planes::RasterWarp;
-use protocol::{FrameState, ProjectorImage, ScreenImage};
+use protocol::{ProjectorImage, ScreenImage};
 use std::time::Instant;
 
 /// One of them.
@@ -38,7 +37,7 @@ impl Engine {
         &mut self,
         work: &mut Work,
         sink: &mut dyn FnMut(T),
-        take: impl Fn(&mut Self, &FrameState, &Final) -> Result<T, DeviceError>,
+        take: impl Fn(&mut Self, &Work, &Final) -> Result<T, DeviceError>,
     ) -> Result<(), DeviceError> {
         for projector in std::mem::take(&mut work.finals) {
             let started = Instant::now();
@@ -47,7 +46,7 @@ impl Engine {
             let (picture, is_as_cast) = self.show(work, projector, view)?;
             let mended = work.mended.as_mut().filter(|_| is_as_cast);
             let patch = mended.map_or_else(Patch::default, |mended| std::mem::take(&mut mended[view]));
-            let taken = take(self, &work.frame, &Final { projector, view, size, picture, warp, patch })?;
+            let taken = take(self, work, &Final { projector, view, size, picture, warp, patch })?;
             work.account.stages.readback_ms += milliseconds(started);
             sink(taken);
         }
@@ -77,7 +76,7 @@ impl Engine {
     }
 
     /// Its linear colours.
-    pub(super) fn colours(&mut self, frame: &FrameState, of: &Final) -> Result<ProjectorImage, DeviceError> {
+    pub(super) fn colours(&mut self, work: &Work, of: &Final) -> Result<ProjectorImage, DeviceError> {
         let &Final { projector, view, size: [width, height], picture, ref warp, ref patch } = of;
         let shown = match picture {
             Shown::Device(picture) => self.device.picture(picture)?,
@@ -90,15 +89,15 @@ impl Engine {
         for &(pixel, colour) in patch {
             rgba[4 * pixel as usize..][..4].copy_from_slice(&colour);
         }
-        self.mark(frame, projector, &mut rgba);
+        self.mark(work, view, &mut rgba)?;
         Ok(ProjectorImage { projector, width, height, rgba })
     }
 
     /// The codes that its projector shows it with.
-    pub(super) fn codes(&mut self, frame: &FrameState, of: &Final) -> Result<ScreenImage, DeviceError> {
+    pub(super) fn codes(&mut self, work: &Work, of: &Final) -> Result<ScreenImage, DeviceError> {
         let &Final { projector, view, size: [width, height], picture, ref warp, .. } = of;
         let finisher = &self.finishers[view];
-        let is_as_shown = frame.marks.is_empty() && warp.is_none();
+        let is_as_shown = work.frame.marks.is_empty() && warp.is_none();
         let rgb = match picture {
             Shown::Device(picture) if is_as_shown => {
                 let raster = Raster::of([width, height]);
@@ -106,22 +105,10 @@ impl Engine {
             }
             Shown::Filled if is_as_shown => finisher.codes(self.refining.shown(view)),
             Shown::Device(_) | Shown::Filled => {
-                let rgba = self.colours(frame, of)?.rgba;
+                let rgba = self.colours(work, of)?.rgba;
                 self.finishers[view].codes(&rgba)
             }
         };
         Ok(ScreenImage { projector, width, height, rgb })
-    }
-
-    /// Draws a frame's marks over a picture. What rays see of it is not touched: the next frame goes on from that.
-    fn mark(&mut self, frame: &FrameState, projector: u32, rgba: &mut [f32]) {
-        if frame.marks.is_empty() {
-            return;
-        }
-        let (display, index) = (&self.options.display, projector as usize);
-        // A frame whose rays are not its display's was refused before.
-        let law = display.beam_law(index, frame.observer_in_display, frame.eta).ok();
-        let view = law.and_then(|law| View::new(law, &display.projectors[index].raster));
-        view.iter().for_each(|view| self.pen.draw(&frame.marks, view, rgba));
     }
 }

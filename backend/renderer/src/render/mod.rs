@@ -24,6 +24,7 @@ mod interrupt_tests;
 mod known;
 mod live;
 mod live_memory;
+mod marks;
 #[cfg(test)]
 mod mirror_tests;
 mod parts;

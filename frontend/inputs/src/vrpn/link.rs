@@ -15,6 +15,9 @@ use std::time::{Duration, Instant};
 const ANSWER: Duration = Duration::from_secs(1);
 /// How long a server may take to describe its devices.
 const DESCRIPTION: Duration = Duration::from_secs(3);
+/// How long a message may take to arrive, from its first byte to its last: servers write each at once. Without it a wrong
+/// length would swallow all that follows, for as long as that is fewer bytes than it says.
+const WHOLE: Duration = Duration::from_secs(1);
 /// A server that does not acknowledge anything is lost after some 8 s: the system asks after 5 s, three times.
 const QUIET: Duration = Duration::from_secs(5);
 const ASK_AGAIN: Duration = Duration::from_secs(1);
@@ -40,8 +43,14 @@ struct Connected {
     session: Session,
     /// What was read last.
     bytes: Vec<u8>,
-    /// What has arrived by the stream and is not whole yet.
-    pending: Vec<u8>,
+    pending: Pending,
+}
+
+/// What has arrived by the stream and is not whole yet.
+struct Pending {
+    bytes: Vec<u8>,
+    /// Since when its first message has been waited for.
+    since: Instant,
 }
 
 impl Client {
@@ -89,7 +98,7 @@ impl Client {
         let datagrams = if self.takes_datagrams { Some(offer_datagrams(&mut stream)?) } else { None };
         stream.set_nonblocking(true)?;
         let session = Session::new(&self.device);
-        let (bytes, pending) = (vec![0; AT_A_TIME], Vec::new());
+        let (bytes, pending) = (vec![0; AT_A_TIME], Pending::new(Instant::now()));
         Ok(Connected { server: server.ip(), stream, datagrams, session, bytes, pending })
     }
 }
@@ -173,18 +182,47 @@ impl Connected {
     }
 
     fn take_stream(&mut self, outbox: &mut Outbox) -> Result<bool> {
-        match self.stream.read(&mut self.bytes) {
+        let now = Instant::now();
+        let arrived = match self.stream.read(&mut self.bytes) {
             Ok(0) => return Ok(false),
-            Ok(count) => self.pending.extend(&self.bytes[..count]),
-            Err(error) if is_passing(error.kind()) => return Ok(true),
+            Ok(count) => &self.bytes[..count],
+            Err(error) if is_passing(error.kind()) => &[],
             Err(error) => return Err(error),
-        }
-        let heard = hear(&mut self.session, &self.pending, outbox).map_err(|refusal| {
+        };
+        let leaves = self.pending.hear(arrived, now, &mut self.session, outbox).map_err(|refusal| {
             outbox.take(Err(refusal));
             invalid("a message is refused", refusal)
         })?;
-        self.pending.drain(..heard.taken);
-        Ok(!heard.leaves)
+        Ok(!leaves)
+    }
+}
+
+impl Pending {
+    const fn new(now: Instant) -> Self {
+        Self { bytes: Vec::new(), since: now }
+    }
+
+    /// Goes on with what has arrived by now. Whether the server said goodbye.
+    fn hear(
+        &mut self,
+        arrived: &[u8],
+        now: Instant,
+        session: &mut Session,
+        outbox: &mut Outbox,
+    ) -> std::result::Result<bool, Refusal> {
+        if self.bytes.is_empty() {
+            self.since = now;
+        }
+        self.bytes.extend(arrived);
+        let heard = hear(session, &self.bytes, outbox)?;
+        if heard.taken > 0 {
+            self.bytes.drain(..heard.taken);
+            self.since = now;
+        }
+        if !self.bytes.is_empty() && now.duration_since(self.since) > WHOLE {
+            return Err(Refusal::Short);
+        }
+        Ok(heard.leaves)
     }
 }
 

@@ -66,3 +66,23 @@ fn wherever_a_conversation_is_garbled_nothing_breaks() {
     }
     assert!(differ > bytes.len(), "the canary: garbling shows");
 }
+
+#[test]
+fn a_message_that_does_not_become_whole_is_refused_and_swallows_nothing_more() {
+    let began = Instant::now();
+    let at = |ms| began + Duration::from_millis(ms);
+    let (mut outbox, mut session) = (Outbox::new(Arc::default()), Session::new("Wand"));
+    let mut pending = Pending::new(began);
+    let mut hear = |bytes: &[u8], ms| pending.hear(bytes, at(ms), &mut session, &mut outbox);
+    let bytes = conversation();
+    assert_eq!(hear(&bytes, 0), Ok(false));
+    assert_eq!(hear(&[], 60_000), Ok(false), "silence between messages is none");
+    assert_eq!(hear(&bytes[..30], 60_000), Ok(false));
+    assert_eq!(hear(&bytes[30..], 60_900), Ok(false), "as slow as it may be");
+    let mut garbled = bytes.clone();
+    garbled[2] = 0xf0;
+    for ms in (61_000..=62_000).step_by(100) {
+        assert_eq!(hear(&garbled, ms), Ok(false), "it may still come, {ms}");
+    }
+    assert_eq!(hear(&garbled, 62_001), Err(Refusal::Short));
+}

@@ -27,8 +27,8 @@ pub fn wire(out: &Path) -> Result<(), Box<dyn Error>> {
     let still = FrameState::still(DVec3::Z, DAffine3::IDENTITY, optics);
     let paint = Paint { rgb: [1.0, 0.5, 0.0], opacity: 0.5 };
     let shape = MarkShape::Stroke { points_in_display: vec![DVec3::X, DVec3::Y], radius_m: 0.01 };
-    let marked =
-        FrameState { sub_frame: Some(SubFrame::Right), marks: vec![Mark { shape, paint }], ..still.clone() };
+    let marks = vec![Mark { shape, paint, is_depth_combined: true }];
+    let marked = FrameState { sub_frame: Some(SubFrame::Right), marks, ..still.clone() };
     let picture = ScreenImage { projector: 1, width: 2, height: 1, rgb: vec![1, 2, 3, 4, 5, 6] };
     let frontend = [
         FromFrontend::Frame(Box::new(still.clone())),

@@ -8,51 +8,51 @@ use super::kernels::Kernel;
 use super::pictures::Pictures;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
+use super::short::ShortRays;
 use super::storage::{Storage, uniform};
-use super::view::ViewBuffers;
 use crate::device::job::ViewJob;
 use crate::device::{
     CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShowJob, TaggedFeedback,
 };
 use bricks::BRICK_VOXELS;
-use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock, binding};
-use needs::Way;
+use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
 use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
-use shaders::compose::{Filter, KernelKey, Lookup};
+use shaders::compose::{Filter, KernelKey, KernelRays, Lookup};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Workgroups along x of a dispatch: a tile each.
-const GROUPS_ACROSS: u32 = 32768;
+pub(super) const GROUPS_ACROSS: u32 = 32768;
 
 /// A device with its brick cache.
 #[derive(Debug)]
 pub struct GpuDevice {
-    context: Arc<Context>,
-    atlas: Atlas,
+    pub(super) context: Arc<Context>,
+    pub(super) atlas: Atlas,
     /// The bricks' standard deviations, slot by slot as in the atlas; None where bricks have none.
-    deviations: Option<Atlas>,
-    sampler: wgpu::Sampler,
-    filter: Filter,
+    pub(super) deviations: Option<Atlas>,
+    pub(super) sampler: wgpu::Sampler,
+    pub(super) filter: Filter,
     filter_error: Option<f32>,
-    lookup: Lookup,
-    scene: wgpu::Buffer,
-    links: wgpu::Buffer,
-    nodes: Storage,
-    cells: Storage,
-    optics: Storage,
-    importance: Storage,
-    importance_most: Storage,
-    index: Storage,
-    materials: Storage,
-    table_cells: Storage,
+    pub(super) lookup: Lookup,
+    pub(super) scene: wgpu::Buffer,
+    pub(super) links: wgpu::Buffer,
+    pub(super) nodes: Storage,
+    pub(super) cells: Storage,
+    pub(super) optics: Storage,
+    pub(super) importance: Storage,
+    pub(super) importance_most: Storage,
+    pub(super) index: Storage,
+    pub(super) materials: Storage,
+    pub(super) table_cells: Storage,
     pictures: Pictures,
-    feedback: Storage,
+    pub(super) feedback: Storage,
     frame_feedback: FrameFeedback,
     feedback_back: Readback,
+    pub(super) short: ShortRays,
     /// Places of the index.
     places: usize,
     batch: BatchSize,
@@ -107,6 +107,7 @@ impl GpuDevice {
             feedback: storage("feedback"),
             frame_feedback: FrameFeedback::new(&context),
             feedback_back: Readback::new(),
+            short: ShortRays::new(&context),
             places: 0,
             batch: BatchSize::new(context.is_software),
             context,
@@ -176,7 +177,7 @@ impl GpuDevice {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
         self.prepare(job);
-        let key = KernelKey { filter: self.filter, lookup: self.lookup, needs: job.needs };
+        let key = self.key(KernelRays::OfTiles, job.needs);
         let pipeline = context.kernel(Kernel::Cast(key));
         let mut encoder = context.new_encoder();
         match job.gather {
@@ -320,66 +321,7 @@ impl GpuDevice {
     fn prepare(&mut self, job: &CastJob) {
         let Self { context, pictures, .. } = self;
         pictures.make_room(context, job.first_picture + job.views.len());
-        context.queue.write_buffer(&self.scene, 0, bytemuck::bytes_of(&job.scene.block(self.atlas.slots)));
-        if !job.needs.chain.is_empty() {
-            context.queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&job.scene.links()));
-        }
-    }
-
-    fn bind(
-        &self,
-        pipeline: &wgpu::ComputePipeline,
-        key: KernelKey,
-        view: &ViewBuffers,
-        feedback: &Storage,
-    ) -> wgpu::BindGroup {
-        let buffers = [
-            (binding::NODES, &self.nodes),
-            (binding::OPTICS, &self.optics),
-            (binding::TILES, &view.tiles),
-            (binding::PIXELS, &view.pixels),
-            (binding::COUNTS, &view.counts),
-            (binding::FEEDBACK, feedback),
-            (binding::TABLE_CELLS, &self.table_cells),
-            (binding::CELLS, &self.cells),
-        ];
-        let mut entries: Vec<wgpu::BindGroupEntry> = buffers
-            .into_iter()
-            .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
-            .collect();
-        for (binding, block) in [(binding::SCENE, &self.scene), (binding::VIEW, &view.block)] {
-            entries.push(wgpu::BindGroupEntry { binding, resource: block.as_entire_binding() });
-        }
-        let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
-        entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
-        if let Some(deviations) = self.deviations.as_ref().filter(|_| key.needs.spreads) {
-            let resource = wgpu::BindingResource::TextureView(&deviations.view);
-            entries.push(wgpu::BindGroupEntry { binding: binding::DEVIATIONS, resource });
-        }
-        if key.filter == Filter::Hardware {
-            let sampler = wgpu::BindingResource::Sampler(&self.sampler);
-            entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });
-        }
-        if !key.needs.chain.is_empty() {
-            entries.push(wgpu::BindGroupEntry {
-                binding: binding::LINKS,
-                resource: self.links.as_entire_binding(),
-            });
-        }
-        let tables = [
-            (binding::IMPORTANCE, &self.importance, key.needs.reads_importance()),
-            (binding::IMPORTANCE_MOST, &self.importance_most, key.needs.reads_importance()),
-            (binding::INDEX, &self.index, key.needs.way == Way::Refracted),
-            (binding::MATERIALS, &self.materials, key.needs.has_materials),
-        ];
-        for (binding, storage, _) in tables.into_iter().filter(|&(.., is_read)| is_read) {
-            entries.push(wgpu::BindGroupEntry { binding, resource: storage.binding() });
-        }
-        self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        })
+        self.upload_scene(job.scene, &job.needs);
     }
 }
 

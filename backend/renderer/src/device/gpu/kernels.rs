@@ -20,7 +20,7 @@ fn probe(@builtin(global_invocation_id) id: vec3<u32>) {
 /// What can be compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Kernel {
-    /// Casts tiles.
+    /// Casts rays.
     Cast(KernelKey),
     /// Makes what is shown of what was cast.
     Present(PresentKernel),
@@ -39,7 +39,7 @@ impl Kernel {
 
     fn entry_point(&self) -> &'static str {
         match self {
-            Self::Cast(_) => "cast_tile",
+            Self::Cast(key) => key.entry_point(),
             Self::Present(kernel) => kernel.entry_point(),
             Self::FilterPrecision => "probe",
         }

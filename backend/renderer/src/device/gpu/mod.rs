@@ -3,6 +3,7 @@
 mod adapters;
 mod atlas;
 mod batch;
+mod bind;
 mod cache_file;
 mod context;
 mod device;
@@ -14,6 +15,7 @@ mod pipeline_cache;
 mod precision;
 mod present;
 mod readback;
+mod short;
 mod show;
 mod storage;
 mod view;

@@ -6,7 +6,7 @@ use super::storage::{Storage, uniform};
 use crate::device::job::{CastOutcome, ViewJob};
 use crate::device::{CastJob, DeviceError};
 use layout::{MISSING, ViewBlock};
-use twin::Tiling;
+use twin::{Lattice, ProjectorRays, ShortRay, Tiling};
 
 /// The buffers of one view.
 #[derive(Debug)]
@@ -52,6 +52,16 @@ impl ViewBuffers {
         self.counts.reserve(context, 4 * pixels);
         self.tiles.write(context, &view.tiles);
         context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(&view.rays.block(&tiling)));
+    }
+
+    /// The same for a list of short rays, each with a colour and a count of its own.
+    pub(super) fn prepare_short(&mut self, context: &Context, rays: &ProjectorRays<f32>, short: &[ShortRay]) {
+        let count = short.len() as u32;
+        self.pixels.reserve(context, 16 * u64::from(count));
+        self.counts.reserve(context, 4 * u64::from(count));
+        self.tiles.write(context, &short.iter().map(ShortRay::words).collect::<Vec<_>>());
+        let tiling = Tiling { lattice: Lattice::ALL, across: 1, tiles: count };
+        context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(&rays.block(&tiling)));
     }
 
     /// Notes a copy of the counts.

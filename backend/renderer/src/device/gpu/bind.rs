@@ -1,0 +1,82 @@
+//! What kernels that cast are given.
+
+use super::device::GpuDevice;
+use super::storage::Storage;
+use super::view::ViewBuffers;
+use layout::binding;
+use needs::{Needs, Way};
+use shaders::compose::{Filter, KernelKey, KernelRays};
+use twin::SceneNumbers;
+
+impl GpuDevice {
+    /// The kernel for what a scene needs.
+    pub(super) fn key(&self, rays: KernelRays, needs: Needs) -> KernelKey {
+        KernelKey { rays, filter: self.filter, lookup: self.lookup, needs }
+    }
+
+    /// Uploads what all views of a scene share.
+    pub(super) fn upload_scene(&self, scene: &SceneNumbers<f32>, needs: &Needs) {
+        let queue = &self.context.queue;
+        queue.write_buffer(&self.scene, 0, bytemuck::bytes_of(&scene.block(self.atlas.slots)));
+        if !needs.chain.is_empty() {
+            queue.write_buffer(&self.links, 0, bytemuck::cast_slice(&scene.links()));
+        }
+    }
+
+    /// All that a kernel reads and writes: of a view, what it has of its own.
+    pub(super) fn bind(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        key: KernelKey,
+        view: &ViewBuffers,
+        feedback: &Storage,
+    ) -> wgpu::BindGroup {
+        let buffers = [
+            (binding::NODES, &self.nodes),
+            (binding::OPTICS, &self.optics),
+            (binding::TILES, &view.tiles),
+            (binding::PIXELS, &view.pixels),
+            (binding::COUNTS, &view.counts),
+            (binding::FEEDBACK, feedback),
+            (binding::TABLE_CELLS, &self.table_cells),
+            (binding::CELLS, &self.cells),
+        ];
+        let mut entries: Vec<wgpu::BindGroupEntry> = buffers
+            .into_iter()
+            .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
+            .collect();
+        for (binding, block) in [(binding::SCENE, &self.scene), (binding::VIEW, &view.block)] {
+            entries.push(wgpu::BindGroupEntry { binding, resource: block.as_entire_binding() });
+        }
+        let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
+        entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
+        if let Some(deviations) = self.deviations.as_ref().filter(|_| key.needs.spreads) {
+            let resource = wgpu::BindingResource::TextureView(&deviations.view);
+            entries.push(wgpu::BindGroupEntry { binding: binding::DEVIATIONS, resource });
+        }
+        if key.filter == Filter::Hardware {
+            let sampler = wgpu::BindingResource::Sampler(&self.sampler);
+            entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });
+        }
+        if !key.needs.chain.is_empty() {
+            entries.push(wgpu::BindGroupEntry {
+                binding: binding::LINKS,
+                resource: self.links.as_entire_binding(),
+            });
+        }
+        let tables = [
+            (binding::IMPORTANCE, &self.importance, key.needs.reads_importance()),
+            (binding::IMPORTANCE_MOST, &self.importance_most, key.needs.reads_importance()),
+            (binding::INDEX, &self.index, key.needs.way == Way::Refracted),
+            (binding::MATERIALS, &self.materials, key.needs.has_materials),
+        ];
+        for (binding, storage, _) in tables.into_iter().filter(|&(.., is_read)| is_read) {
+            entries.push(wgpu::BindGroupEntry { binding, resource: storage.binding() });
+        }
+        self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        })
+    }
+}
