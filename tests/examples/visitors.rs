@@ -1,12 +1,12 @@
 //! What visitors' tools do to a head for whoever holds them and for a bystander, and how an exhibit of three visitors goes.
 //!
-//! `cargo run --release -p lightloom-tests --example visitors -- [pictures | show [SECONDS]]`
+//! `cargo run --release -p lightloom-tests --example visitors -- [pictures | show [SECONDS] | hour [SECONDS]]`
 //!
 //! Writes `visitors.png` beside its page, or into the present folder.
 
 use image::{RgbImage, imageops};
 use lightloom_tests::data;
-use lightloom_tests::program::{lightloom, run, start};
+use lightloom_tests::program::{lightloom, run, small_display, start};
 use lightloom_tests::results::{self, Program, Results};
 use serde_json::Value;
 use std::fs;
@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 
 /// Seconds of a show.
 const SECONDS: u64 = 120;
+/// Seconds of one at full rate.
+const HOUR: u64 = 3600;
 /// Pixels of a picture on the page.
 const SIZE: [u32; 2] = [400, 225];
 /// In front of the display, and 20° aside of that.
@@ -213,13 +215,41 @@ fn pictures() -> Result<(), String> {
 }
 
 /// The example that ships, driven by the clock.
-fn show(seconds: u64) -> Result<(), String> {
-    let exhibit = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/exhibit/examples/tracked.toml");
+/// The folder of the example with three wands.
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/exhibit/examples");
+
+/// The same example on a display that is small enough for its rate.
+fn at_full_rate(folder: &Path) -> std::io::Result<()> {
+    let display = small_display(folder);
+    for entry in fs::read_dir(EXAMPLES)? {
+        let entry = entry?;
+        let text = fs::read_to_string(entry.path())?.replace("display = \"desk8\"", &format!("display = '{display}'"));
+        fs::write(folder.join(entry.file_name()), text)?;
+    }
+    Ok(())
+}
+
+/// Where a show is, and what is said of it.
+enum Stage {
+    /// On a desk.
+    Desk,
+    /// On a display that is small enough for the rate.
+    Small,
+}
+
+fn show(seconds: u64, stage: &Stage) -> Result<(), String> {
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (exhibit, part, display) = match stage {
+        Stage::Desk => (format!("{EXAMPLES}/tracked.toml"), "a show", "desk8"),
+        Stage::Small => {
+            at_full_rate(folder.path()).map_err(|error| error.to_string())?;
+            (path("tracked.toml"), "at full rate", "four projectors of 96 × 72 at 60 Hz")
+        }
+    };
     let (status, tape, length) = (path("status.json"), path("day.mcap"), seconds.to_string());
     let arguments = [
-        "exhibit", exhibit, "--output", "none", "--device", "cpu", "--for", &length, "--status", &status,
+        "exhibit", &exhibit, "--output", "none", "--device", "cpu", "--for", &length, "--status", &status,
         "--record", &tape, "--json",
     ];
     let running = start(&mut lightloom(&arguments));
@@ -241,14 +271,16 @@ fn show(seconds: u64) -> Result<(), String> {
         return Err("the exhibit said nothing of itself".to_owned());
     };
     let info: Vec<String> = succeed(&["tape", "info", &tape])?.lines().map(str::to_owned).collect();
-    let mut results = Results::new(Program::Study("visitors"), "visitors", "a show");
-    results.line(format!("Three simulated visitors with wands of 60 samples a second, `frontend/exhibit/examples/tracked.toml`, {seconds} s, no output, tools and names drawn, on tape."));
+    let mut results = Results::new(Program::Study("visitors"), "visitors", part);
+    results.line(format!("Three simulated visitors with wands of 60 samples a second, `frontend/exhibit/examples/tracked.toml` on {display}, {seconds} s, no output, tools and names drawn, on tape."));
     results.line("");
     results.line("| | |");
     results.line("| --- | --- |");
     let beat = &report["beat"];
     let frames = &beat["frames"];
-    results.line(format!("| frames shown | {frames} in {seconds} s |"));
+    let late: u64 =
+        beat["backends"].as_array().into_iter().flatten().filter_map(|one| one["late"].as_u64()).sum();
+    results.line(format!("| frames shown | {frames} in {seconds} s, {late} of them late |"));
     for (name, key) in [
         ("from input to screen, ms: median, 99 %, largest", "input_to_shown_ms"),
         ("from frame to frame, ms", "interval_ms"),
@@ -271,14 +303,17 @@ fn show(seconds: u64) -> Result<(), String> {
     results.finish()
 }
 
+fn seconds(text: Option<String>, otherwise: u64) -> Result<u64, String> {
+    text.map_or(Ok(otherwise), |text| text.parse()).map_err(|_| "give whole seconds".to_owned())
+}
+
 fn main() -> Result<(), String> {
     let mut arguments = std::env::args().skip(1);
     match (arguments.next().as_deref(), arguments.next()) {
-        (None, None) => pictures().and_then(|()| show(SECONDS)),
+        (None, None) => pictures().and_then(|()| show(SECONDS, &Stage::Desk)),
         (Some("pictures"), None) => pictures(),
-        (Some("show"), seconds) => {
-            show(seconds.map_or(Ok(SECONDS), |text| text.parse()).map_err(|_| "give whole seconds")?)
-        }
-        _ => Err("give pictures, show, or show SECONDS".to_owned()),
+        (Some("show"), length) => show(seconds(length, SECONDS)?, &Stage::Desk),
+        (Some("hour"), length) => show(seconds(length, HOUR)?, &Stage::Small),
+        _ => Err("give pictures, show, hour, or one of the latter with a number of seconds".to_owned()),
     }
 }
