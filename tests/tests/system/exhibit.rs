@@ -135,6 +135,31 @@ fn a_check_says_all_that_is_wrong_at_once() {
 }
 
 #[test]
+fn tools_lie_in_the_volume_where_they_are_asked_to() {
+    let scene = |more: &str| {
+        format!(
+            "name = 'Ball'\n[volume]\nsource = 'procedural:shells@64'\n[optics]\ndomain = [0, 1]\n\
+             extinction_unit = 'per_metre'\nextinction = [[0.2, 0], [0.6, 60]]\ncolour = [[0, 1, 1, 1]]\n{more}"
+        )
+    };
+    let item = TWO_ITEMS.replace("'procedural:shells@64'", "'ball.toml'");
+    let combined = Museum::new(&format!("{item}\n[marks]\ndepth_combined = true\n"));
+    let ball = combined.path("ball.toml");
+    fs::write(&ball, scene("refraction = [[0.2, 1.0], [0.6, 1.2]]\n")).unwrap();
+    let ran = run(&mut lightloom(&["exhibit", &combined.file, "--check"]));
+    assert!(ran.code == Some(1) && ran.stdout.contains("`depth_combined`"), "{}", ran.stdout);
+    fs::write(&ball, scene("")).unwrap();
+    let through = Museum::new(&item);
+    fs::write(through.path("ball.toml"), scene("")).unwrap();
+    let (within, _) = combined.shown("within", &["--frames", "8"]);
+    let (over, _) = through.shown("over", &["--frames", "8"]);
+    assert_eq!(within.len(), over.len());
+    assert!(within != over, "tools shine through a ball");
+    let (two, _) = combined.shown("two", &["--frames", "8", "--backends", "2"]);
+    assert_same("two back-ends", &within, &two);
+}
+
+#[test]
 fn a_tape_shows_the_same_again_in_one_process_and_in_many() {
     let museum = Museum::new(TWO_ITEMS);
     let tape = museum.path("day.mcap");
