@@ -1,5 +1,6 @@
 //! Every kernel is valid WGSL, and lays its structs out as the host does.
 
+use layout::present::{Layer, MarkedPixel};
 use layout::{
     FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, PresentBlock, SceneBlock, TableCell,
     TableEntry, ViewBlock, binding,
@@ -138,4 +139,7 @@ fn host_structs_and_wgsl_structs_agree() {
     assert_layout!(&module, Link, a, b, c, d);
     let module = parse(&PresentKernel::Finish.wgsl());
     assert_layout!(&module, PresentBlock, raster, steps, numbers, stages, black);
+    let module = parse(&PresentKernel::Layers.wgsl());
+    assert_layout!(&module, Layer, before, rgb, opacity);
+    assert_layout!(&module, MarkedPixel, pixel, first, count);
 }

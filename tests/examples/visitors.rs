@@ -223,7 +223,8 @@ fn at_full_rate(folder: &Path) -> std::io::Result<()> {
     let display = small_display(folder);
     for entry in fs::read_dir(EXAMPLES)? {
         let entry = entry?;
-        let text = fs::read_to_string(entry.path())?.replace("display = \"desk8\"", &format!("display = '{display}'"));
+        let text = fs::read_to_string(entry.path())?
+            .replace("display = \"desk8\"", &format!("display = '{display}'"));
         fs::write(folder.join(entry.file_name()), text)?;
     }
     Ok(())

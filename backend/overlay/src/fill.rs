@@ -1,8 +1,7 @@
-//! Polygons as a colour over a picture.
+//! Polygons as shares of pixels.
 
 use crate::polygon::cut;
 use glam::{DVec2, UVec2};
-use protocol::Paint;
 use zeno::{Command, Fill, Format, Mask, Vector};
 
 /// What lies further outside a picture is cut off first: the rasteriser's numbers are not made for great ones.
@@ -63,14 +62,5 @@ impl Coverage {
         })
         .filter(|(share, ..)| *share > 0)
         .map(move |(share, x, y)| (UVec2::new(x, y), opacity * f32::from(share) / 255.0))
-    }
-
-    /// Lays an even colour over a picture of this width, of linear colours that are premultiplied by their opacity.
-    pub(crate) fn lay_over(&self, paint: Paint, rgba: &mut [f32], width: u32) {
-        for (at, opacity) in self.pixels(paint.opacity) {
-            let pixel = &mut rgba[4 * (at.y * width + at.x) as usize..][..4];
-            let colour = paint.rgb.into_iter().map(|part| part * opacity).chain([opacity]);
-            pixel.iter_mut().zip(colour).for_each(|(part, over)| *part = over + (1.0 - opacity) * *part);
-        }
     }
 }

@@ -1,35 +1,36 @@
-//! Pixels of marks that the volume may hide.
+//! Pixels of marks.
 
 use display_config::Ray;
 use protocol::Paint;
+use std::cmp::Ordering;
 
-/// What a mark adds to one pixel, at a depth.
+/// What a mark adds to one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fragment {
     /// The pixel's place in the picture, row by row.
     pub pixel: u32,
-    /// The pixel's ray.
-    pub ray: Ray,
-    /// How far from the ray's start the mark lies, metres.
-    pub distance_m: f64,
     /// Its colour; the opacity is that of what it covers of the pixel.
     pub paint: Paint,
+    /// Where it lies, if the volume may hide it; None where it shines through.
+    pub place: Option<FragmentPlace>,
 }
 
-impl Fragment {
-    /// Lays it into a pixel of which `before` is the part of the ray that ends there: linear colours, premultiplied by their
-    /// opacity. With an opaque mark the pixel is that part over the mark; with one of opacity a, the mean of this and of what it
-    /// was, with weight a. That is what the ray sees if the mark is one more thing on its way.
-    pub fn lay_behind(&self, before: [f32; 4], pixel: &mut [f32]) {
-        let Paint { rgb: [r, g, b], opacity } = self.paint;
-        let seen = 1.0 - before[3];
-        let backed = [r, g, b, 1.0].into_iter().zip(before).map(|(own, before)| before + seen * own);
-        pixel.iter_mut().zip(backed).for_each(|(part, backed)| *part += opacity * (backed - *part));
-    }
+/// Where a fragment lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FragmentPlace {
+    /// On the ray of its pixel,
+    pub ray: Ray,
+    /// so far from the ray's start, metres.
+    pub distance_m: f64,
 }
 
-/// Sorts fragments pixel by pixel, the farthest first, so that each can be laid over what lies behind it. Those as far stay in
-/// their order.
-pub(crate) fn sort(fragments: &mut [Fragment]) {
-    fragments.sort_by(|a, b| a.pixel.cmp(&b.pixel).then(b.distance_m.total_cmp(&a.distance_m)));
+/// The order in which fragments are laid one over the other: pixel by pixel, the farthest first, and last what shines through. Those
+/// as far stay in their order.
+pub(crate) fn order(a: &Fragment, b: &Fragment) -> Ordering {
+    a.pixel.cmp(&b.pixel).then_with(|| match (&a.place, &b.place) {
+        (Some(a), Some(b)) => b.distance_m.total_cmp(&a.distance_m),
+        (Some(_), None) => Ordering::Less,
+        (None, Some(_)) => Ordering::Greater,
+        (None, None) => Ordering::Equal,
+    })
 }

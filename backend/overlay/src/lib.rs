@@ -10,7 +10,7 @@
 //! | `polygon` | polygons cut by lines and planes, and their hulls |
 //! | `stroke`, `sheet` | lines and surfaces as polygons of pixels |
 //! | `letters` | text as outlines |
-//! | `fill` | polygons as a colour over a picture |
+//! | `fill` | polygons as shares of pixels |
 //! | `depth`, `fragment` | where rays meet marks, and marks among what else they meet |
 //! | `pen` | all of a frame's marks |
 
@@ -24,7 +24,7 @@ mod sheet;
 mod stroke;
 mod view;
 
-pub use fragment::Fragment;
+pub use fragment::{Fragment, FragmentPlace};
 pub use letters::unknown_characters;
 pub use pen::Pen;
 pub use view::View;

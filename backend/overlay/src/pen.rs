@@ -2,14 +2,14 @@
 
 use crate::depth::Depth;
 use crate::fill::Coverage;
-use crate::fragment::{Fragment, sort};
+use crate::fragment::{Fragment, FragmentPlace, order};
 use crate::letters::Font;
 use crate::view::View;
 use crate::{sheet, stroke};
 use glam::DVec2;
 use protocol::{Mark, MarkShape, Paint};
 
-/// Draws marks over pictures. It keeps the outlines of texts that come again.
+/// Draws marks. It keeps the outlines of texts that come again.
 #[derive(Default)]
 pub struct Pen {
     /// Once there is something to write.
@@ -23,36 +23,24 @@ impl std::fmt::Debug for Pen {
 }
 
 impl Pen {
-    /// Draws marks, one after the other, over a projector's picture: linear colours, premultiplied by their opacity, rows from the
-    /// top, 4 numbers per pixel.
-    ///
-    /// # Panics
-    /// If the picture is smaller than the view's, as a slice does.
-    pub fn draw<'m>(&mut self, marks: impl IntoIterator<Item = &'m Mark>, view: &View, rgba: &mut [f32]) {
-        for mark in marks {
-            for (polygons, paint) in self.polygons(mark, view) {
-                if let Some(coverage) = Coverage::of(&polygons, view.size()) {
-                    coverage.lay_over(paint, rgba, view.size().x);
-                }
-            }
-        }
-    }
-
-    /// The pixels of marks that belong among what their rays meet: pixel by pixel, the farthest first.
-    pub fn fragments<'m>(&mut self, marks: impl IntoIterator<Item = &'m Mark>, view: &View) -> Vec<Fragment> {
+    /// The pixels of marks in a projector's picture, in the order in which they are laid into it: pixel by pixel, first those that are
+    /// depth-combined, the farthest first, then those that shine through, as they are listed.
+    pub fn fragments(&mut self, marks: &[Mark], view: &View) -> Vec<Fragment> {
         let mut fragments = Vec::new();
         for mark in marks {
-            let depth = Depth::of(&mark.shape);
+            let depth = mark.is_depth_combined.then(|| Depth::of(&mark.shape));
             for (polygons, paint) in self.polygons(mark, view) {
                 let Some(coverage) = Coverage::of(&polygons, view.size()) else { continue };
                 fragments.extend(coverage.pixels(paint.opacity).map(|(at, opacity)| {
-                    let ray = view.ray(at);
-                    let (pixel, distance_m) = (at.y * view.size().x + at.x, depth.along(&ray));
-                    Fragment { pixel, ray, distance_m, paint: Paint { opacity, ..paint } }
+                    let place = depth.as_ref().map(|depth| {
+                        let ray = view.ray(at);
+                        FragmentPlace { distance_m: depth.along(&ray), ray }
+                    });
+                    Fragment { pixel: at.y * view.size().x + at.x, paint: Paint { opacity, ..paint }, place }
                 }));
             }
         }
-        sort(&mut fragments);
+        fragments.sort_by(order);
         fragments
     }
 

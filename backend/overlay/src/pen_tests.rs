@@ -16,6 +16,15 @@ const BETWEEN: f64 = 1.5 / CLOSE_RAYS as f64;
 
 const WHITE: Paint = Paint { rgb: [1.0; 3], opacity: 1.0 };
 
+/// Lays marks that shine through into a picture.
+fn draw(pen: &mut Pen, marks: &[Mark], view: &View, rgba: &mut [f32]) {
+    for Fragment { pixel, paint: Paint { rgb: [r, g, b], opacity }, place } in pen.fragments(marks, view) {
+        assert_eq!(place, None);
+        let parts = rgba[4 * pixel as usize..].iter_mut().zip([r, g, b, 1.0]);
+        parts.for_each(|(part, own)| *part = (1.0 - opacity) * *part + opacity * own);
+    }
+}
+
 /// Whether the ray of a screen point meets a mark, told without any inverse.
 fn meets(law: &BeamLaw, screen: DVec2, shape: &MarkShape, letters: &[[DVec2; 2]]) -> bool {
     let ray = law.ray(screen);
@@ -114,7 +123,12 @@ fn compare(shape: &MarkShape, law: BeamLaw, raster: &Raster, drawn_law: BeamLaw)
     let UVec2 { x: width, y: height } = view.size();
     let mut rgba = vec![0.0; 4 * (width * height) as usize];
     let mut pen = Pen::default();
-    pen.draw(&[Mark { shape: shape.clone(), paint: WHITE, is_depth_combined: false }], &view, &mut rgba);
+    draw(
+        &mut pen,
+        &[Mark { shape: shape.clone(), paint: WHITE, is_depth_combined: false }],
+        &view,
+        &mut rgba,
+    );
     let letters = match shape {
         MarkShape::Label { text, .. } => edges(&Font::new().letters(text)),
         _ => Vec::new(),
@@ -215,7 +229,8 @@ fn tips_land_where_the_rays_of_all_projectors_put_them() {
             let view = View::new(law, &projector.raster).unwrap();
             let dot = MarkShape::Stroke { points_in_display: vec![tip], radius_m: 0.01 };
             let mut rgba = vec![0.0; 4 * 800 * 600];
-            Pen::default().draw(
+            draw(
+                &mut Pen::default(),
                 &[Mark { shape: dot, paint: WHITE, is_depth_combined: false }],
                 &view,
                 &mut rgba,
@@ -249,7 +264,7 @@ fn colours_lie_over_each_other() {
         is_depth_combined: false,
     };
     let mut rgba = [0.25, 0.0, 0.0, 0.5].repeat(96 * 72);
-    Pen::default().draw(&[sheet([0.0, 1.0, 0.0], 0.5), sheet([0.0, 0.0, 1.0], 0.25)], &view, &mut rgba);
+    draw(&mut Pen::default(), &[sheet([0.0, 1.0, 0.0], 0.5), sheet([0.0, 0.0, 1.0], 0.25)], &view, &mut rgba);
     for pixel in rgba.chunks_exact(4) {
         let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
         assert!(
@@ -287,7 +302,61 @@ fn what_has_no_image_is_not_drawn_and_does_not_hang() {
     ];
     for shape in shapes {
         let mut rgba = vec![0.0; 4 * 96 * 72];
-        Pen::default().draw(&[Mark { shape, paint: WHITE, is_depth_combined: false }], &view, &mut rgba);
+        draw(
+            &mut Pen::default(),
+            &[Mark { shape, paint: WHITE, is_depth_combined: false }],
+            &view,
+            &mut rgba,
+        );
         assert!(rgba.iter().all(|part| (0.0..=1.0).contains(part)));
     }
+}
+
+#[test]
+fn marks_among_others_are_laid_from_the_farthest_to_the_nearest() {
+    let display = Display::load("holo72").unwrap();
+    let law = display.beam_law(30, display.observer_in_display, 1.0).unwrap();
+    let view = View::new(law, &raster([0.0; 8])).unwrap();
+    let at = |z: f64, opacity: f32, is_depth_combined: bool| {
+        let wall = [(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)].map(|(x, y)| DVec3::new(x, y, z));
+        let shape = MarkShape::Sheet { corners_in_display: wall.into() };
+        Mark { shape, paint: Paint { rgb: [1.0; 3], opacity }, is_depth_combined }
+    };
+    // The opacity tells which it is.
+    let marks = [at(-0.5, 0.5, false), at(0.2, 0.1, true), at(-1.0, 0.2, true), at(0.2, 0.3, true)];
+    let fragments = Pen::default().fragments(&marks, &view);
+    assert_eq!(fragments.len(), 4 * 96 * 72);
+    for of_pixel in fragments.chunks_exact(4) {
+        assert!(of_pixel.iter().all(|one| one.pixel == of_pixel[0].pixel));
+        let order: Vec<f32> = of_pixel.iter().map(|one| one.paint.opacity).collect();
+        assert_eq!(order, [0.2, 0.1, 0.3, 0.5]);
+        let places: Vec<FragmentPlace> = of_pixel.iter().filter_map(|one| one.place).collect();
+        assert_eq!(places.len(), 3);
+        for (FragmentPlace { ray, distance_m }, z) in places.iter().zip([-1.0, 0.2, 0.2]) {
+            assert!((ray.at(*distance_m).z - z).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_line_into_the_depth_lies_where_its_discs_are() {
+    let display = Display::load("holo72").unwrap();
+    let law = display.beam_law(36, display.observer_in_display, 1.0).unwrap();
+    let view = View::new(law, &raster([0.0; 8])).unwrap();
+    let (a, b) = (DVec3::new(-0.3, 0.05, -0.6), DVec3::new(0.3, -0.05, 0.4));
+    let shape = MarkShape::Stroke { points_in_display: vec![a, b], radius_m: 0.02 };
+    let mark = Mark { shape, paint: WHITE, is_depth_combined: true };
+    let fragments = Pen::default().fragments(&[mark], &view);
+    assert!(fragments.len() > 100, "{}", fragments.len());
+    let mut reach = (f64::INFINITY, f64::NEG_INFINITY);
+    for Fragment { place, .. } in &fragments {
+        let FragmentPlace { ray, distance_m } = place.unwrap();
+        let at = ray.at(distance_m);
+        let middle = a.lerp(b, (at.z - a.z) / (b.z - a.z));
+        // A pixel that the line covers in part has its middle beside it, by less than a pixel's diagonal.
+        let pixel_m = law.divisors(at.z) * DVec2::new(display.width_m / 96.0, display.height_m / 72.0);
+        assert!(at.distance(middle) <= 0.02 + pixel_m.length(), "{at} is not at {middle}");
+        reach = (reach.0.min(at.z), reach.1.max(at.z));
+    }
+    assert!(reach.0 < -0.55 && reach.1 > 0.35, "{reach:?}");
 }

@@ -68,6 +68,12 @@ bindings! {
     CURVES = 27;
     /// The codes, pixel by pixel: red in the lowest byte, then green and blue.
     CODES = 28;
+    /// The [`MarkedPixel`](crate::present::MarkedPixel)s.
+    MARKED_PIXELS = 29;
+    /// The [`Layer`](crate::present::Layer)s of all of them.
+    LAYERS = 30;
+    /// The colours of a picture with its marks.
+    MARKED = 31;
 }
 
 #[cfg(test)]

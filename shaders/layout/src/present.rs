@@ -39,3 +39,30 @@ pub struct PresentBlock {
     /// The black level of red, green and blue.
     pub black: [f32; 4],
 }
+
+/// Pixels with marks are listed in rows of this many.
+pub const MARKED_ACROSS: u32 = 1024;
+
+/// One thing that is laid into a pixel, see the renderer's `present::Layers`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Layer {
+    /// What the pixel's ray meets before it: linear colour, premultiplied, and opacity.
+    pub before: [f32; 4],
+    /// Its own linear colour.
+    pub rgb: [f32; 3],
+    /// How much of the pixel it covers.
+    pub opacity: f32,
+}
+
+/// A pixel with the layers that are laid into it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct MarkedPixel {
+    /// Its place in the picture, row by row.
+    pub pixel: u32,
+    /// Its first layer.
+    pub first: u32,
+    /// How many there are.
+    pub count: u32,
+}

@@ -10,13 +10,15 @@ pub enum PresentKernel {
     Reconstruct,
     /// The step from what was shown before.
     Ease,
+    /// Marks over what is shown.
+    Layers,
     /// From linear colours to codes.
     Finish,
 }
 
 impl PresentKernel {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Reconstruct, Self::Ease, Self::Finish];
+    pub const ALL: [Self; 4] = [Self::Reconstruct, Self::Ease, Self::Layers, Self::Finish];
 
     /// Its WGSL.
     pub fn wgsl(self) -> String {
@@ -25,6 +27,7 @@ impl PresentKernel {
         modules.extend(match self {
             Self::Reconstruct => &[module!("present/reconstruct")][..],
             Self::Ease => &[module!("present/ease")],
+            Self::Layers => &[module!("present/layers")],
             Self::Finish => {
                 &[module!("present/warp"), module!("present/transfer"), module!("present/finish")]
             }
@@ -32,11 +35,13 @@ impl PresentKernel {
         modules.join("\n")
     }
 
-    /// The name of its entry point, which is called for each pixel in tiles of [`layout::TILE_EDGE`].
+    /// The name of its entry point, which is called for each pixel in tiles of [`layout::TILE_EDGE`]; that of layers for each of a
+    /// list.
     pub fn entry_point(self) -> &'static str {
         match self {
             Self::Reconstruct => "reconstruct_pixel",
             Self::Ease => "ease_pixel",
+            Self::Layers => "lay_pixel",
             Self::Finish => "finish_pixel",
         }
     }

@@ -9,6 +9,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Times that a case that fails is made simpler, and drawn again.
 const SIMPLER: usize = 60;
 
+/// After so many cases a run says how far it is.
+const TOLD: u64 = 50;
+
 /// Share of the pixels whose truth the reference may fail to find: rays that strong refraction scatters.
 const UNKNOWN: f64 = 0.02;
 /// Share of the pixels that may be excused by their condition.
@@ -80,6 +83,9 @@ pub fn run(plan: &Plan) -> Summary {
             summary.failed.push(told(plan, case, &found, simplest.as_ref()));
         }
         summary.add(case, scene, &found);
+        if summary.cases.is_multiple_of(TOLD) && summary.cases < plan.cases {
+            println!("{} of {} cases, {} failed", summary.cases, plan.cases, summary.failed.len());
+        }
     }
     summary
 }

@@ -2,13 +2,14 @@
 
 use bricks::BRICK_VOXELS;
 use display_config::Display;
+use layout::present::Layer;
 use lightloom_tests::presented::picture;
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, view};
 use lightloom_tests::{calibrated, draw};
 use protocol::{AdapterWish, DeviceChoice, FilterChoice, SubFrame};
 use renderer::device::{CacheWish, Device, DevicePicture, FinishJob, ShowJob, open_device};
-use renderer::present::{Classes, Finisher, Raster, Thresholds, ease, lattice_of, reconstruct};
+use renderer::present::{Classes, Finisher, Layers, Raster, Thresholds, ease, lattice_of, reconstruct};
 
 const SIZE: [u32; 2] = [97, 71];
 /// A driver may fuse a product and a sum, and divide less exactly than the host; numbers are about 1.
@@ -104,6 +105,21 @@ fn a_gpu_shows_what_the_host_would() {
     assert!(apart(&gpu.shown(), &spoiled) > 1e3 * LARGEST, "a mistake passes");
 }
 
+/// What is laid into every third pixel of a projector's picture, more than one row of the list, and up to three things each; nothing
+/// into the first projector's.
+fn layers(projector: u32) -> Layers {
+    let mut layers = Layers::default();
+    for pixel in (0..SIZE[0] * SIZE[1]).step_by(3).take(if projector == 0 { 0 } else { usize::MAX }) {
+        for one in 0..=pixel / 3 % 3 {
+            let part = |of: u32| ((pixel * 7 + one * 5) % of) as f32 / of as f32;
+            let alpha = part(11);
+            let before = [alpha * part(3), alpha * part(5), alpha * part(13), alpha];
+            layers.push(pixel, Layer { before, rgb: [part(17), part(19), part(23)], opacity: part(29) });
+        }
+    }
+    layers
+}
+
 #[test]
 fn a_gpu_makes_the_codes_that_the_host_would() {
     let _turn = draw::turn();
@@ -115,20 +131,27 @@ fn a_gpu_makes_the_codes_that_the_host_would() {
     let finishers: Vec<Finisher> = gpu.display.projectors.iter().map(Finisher::new).collect();
     for (projector, finisher) in (0..).zip(&finishers) {
         let cast = gpu.cast(projector);
-        let job = FinishJob { picture: DevicePicture::Cast(0), raster, view: projector as usize, finisher };
-        let codes = gpu.device.codes(&job).unwrap();
-        let differ = |finisher: &Finisher| {
-            let of_host = finisher.codes(&cast);
+        let layers = &layers(projector);
+        let (picture, view) = (DevicePicture::Cast(0), projector as usize);
+        let codes = gpu.device.codes(&FinishJob { picture, raster, layers, view, finisher }).unwrap();
+        let (bare, mut marked) = (cast.clone(), cast);
+        layers.lay_into(&mut marked);
+        let differ = |finisher: &Finisher, rgba: &[f32]| {
+            let of_host = finisher.codes(rgba);
             assert_eq!(codes.len(), of_host.len());
             let pairs = || codes.iter().zip(&of_host);
             let wrong = pairs().filter(|(a, b)| a != b).count() as f64 / codes.len() as f64;
             (wrong, pairs().map(|(a, b)| a.abs_diff(*b)).max().unwrap())
         };
-        let (wrong, largest) = differ(finisher);
+        let (wrong, largest) = differ(finisher, &marked);
         println!("projector {projector}: {wrong:.1e} of the codes differ, by {largest} at most");
         assert!(codes.iter().any(|&code| code > 100), "it is black");
         assert!(wrong <= WRONG_CODES && largest <= 1, "projector {projector}: {wrong}, {largest}");
-        let (spoiled, _) = differ(&finishers[(projector as usize + 1) % finishers.len()]);
+        if !layers.is_empty() {
+            let (spoiled, _) = differ(finisher, &bare);
+            assert!(spoiled > 10.0 * WRONG_CODES, "a picture without its marks passes: {spoiled}");
+        }
+        let (spoiled, _) = differ(&finishers[(projector as usize + 1) % finishers.len()], &marked);
         assert!(spoiled > 10.0 * WRONG_CODES, "another projector's finish passes: {spoiled}");
     }
 }

@@ -202,7 +202,11 @@ impl CpuDevice {
     }
 
     pub(super) fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
-        Ok(job.finisher.codes(&self.picture(job.picture)?))
+        let mut rgba = self.picture(job.picture)?;
+        if !job.layers.is_empty() {
+            job.layers.lay_into(rgba.to_mut());
+        }
+        Ok(job.finisher.codes(&rgba))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a device is asked on the way from what was cast to what is shown.
 
-use crate::present::{Classes, Finisher, Raster};
+use crate::present::{Classes, Finisher, Layers, Raster};
 
 /// A picture that a device has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,8 @@ pub struct FinishJob<'a> {
     pub picture: DevicePicture,
     /// Its size.
     pub raster: Raster,
+    /// What is laid over it first.
+    pub layers: &'a Layers,
     /// The view that it is of: each has a finisher of its own, always the same.
     pub view: usize,
     /// What makes codes of it.

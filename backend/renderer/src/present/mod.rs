@@ -3,6 +3,7 @@
 mod classes;
 mod ease;
 mod finish;
+mod layers;
 mod reconstruct;
 mod resample;
 
@@ -11,6 +12,7 @@ pub use ease::ease;
 #[cfg(feature = "gpu")]
 pub use finish::FinishTables;
 pub use finish::Finisher;
+pub use layers::Layers;
 #[cfg(feature = "gpu")]
 pub use reconstruct::{Pass, passes};
 pub use reconstruct::{Raster, Thresholds, reconstruct};

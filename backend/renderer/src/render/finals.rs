@@ -89,21 +89,22 @@ impl Engine {
         for &(pixel, colour) in patch {
             rgba[4 * pixel as usize..][..4].copy_from_slice(&colour);
         }
-        self.mark(work, view, &mut rgba)?;
+        self.layers(work, view)?.lay_into(&mut rgba);
         Ok(ProjectorImage { projector, width, height, rgba })
     }
 
     /// The codes that its projector shows it with.
     pub(super) fn codes(&mut self, work: &Work, of: &Final) -> Result<ScreenImage, DeviceError> {
         let &Final { projector, view, size: [width, height], picture, ref warp, .. } = of;
-        let finisher = &self.finishers[view];
-        let is_as_shown = work.frame.marks.is_empty() && warp.is_none();
         let rgb = match picture {
-            Shown::Device(picture) if is_as_shown => {
-                let raster = Raster::of([width, height]);
-                self.device.codes(&FinishJob { picture, raster, view, finisher })?
+            Shown::Device(picture) if warp.is_none() => {
+                let (raster, layers) = (Raster::of([width, height]), &self.layers(work, view)?);
+                let finisher = &self.finishers[view];
+                self.device.codes(&FinishJob { picture, raster, layers, view, finisher })?
             }
-            Shown::Filled if is_as_shown => finisher.codes(self.refining.shown(view)),
+            Shown::Filled if work.frame.marks.is_empty() && warp.is_none() => {
+                self.finishers[view].codes(self.refining.shown(view))
+            }
             Shown::Device(_) | Shown::Filled => {
                 let rgba = self.colours(work, of)?.rgba;
                 self.finishers[view].codes(&rgba)

@@ -10,6 +10,7 @@ mod device;
 mod feedback;
 mod finish;
 mod kernels;
+mod layers;
 mod pictures;
 mod pipeline_cache;
 mod precision;

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::finish::Finishing;
+use super::layers::Laying;
 use super::readback::Readback;
 use super::show::Showing;
 use super::storage::Storage;
@@ -14,6 +15,7 @@ pub(super) struct Pictures {
     pub(super) views: Vec<ViewBuffers>,
     pixels_back: Readback,
     showing: Showing,
+    laying: Laying,
     finishing: Finishing,
 }
 
@@ -23,6 +25,7 @@ impl Pictures {
             views: Vec::new(),
             pixels_back: Readback::new(),
             showing: Showing::new(context),
+            laying: Laying::new(context),
             finishing: Finishing::new(context),
         }
     }
@@ -53,7 +56,8 @@ impl Pictures {
     /// The codes of a picture.
     pub(super) fn codes(&mut self, context: &Context, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
         let (colours, _) = colours_of(&self.views, job.picture);
-        self.finishing.codes(context, colours, job)
+        let marked = (!job.layers.is_empty()).then(|| self.laying.lay(context, colours, job));
+        self.finishing.codes(context, marked.unwrap_or(colours), job)
     }
 }
 
