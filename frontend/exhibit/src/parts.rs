@@ -144,6 +144,13 @@ impl Reader<'_> {
         }
         let sensor = self.sensor(line, raw.input.as_deref(), raw.sensor, inputs);
         let buttons = self.buttons(line, &raw.buttons);
+        let picks = buttons.iter().any(|button| button.action == Action::PickBand);
+        if picks && !raw.kinds.iter().any(|kind| kind.picks_band()) {
+            self.wrong(
+                line,
+                "`buttons` has \"pick-band\", and it picks none; add \"band-picker\" or \"layer-opacity\" to `kinds`",
+            );
+        }
         let dials = raw.dials.iter().map(|dial| {
             let per_s = self.within(line, "dials.per_s", Some(dial.per_s), -100.0..=100.0).unwrap_or(0.0);
             Dial { index: dial.axis, kind: dial.does, per_s }

@@ -28,6 +28,8 @@ fn the_examples_say_what_they_show() {
     assert_eq!(tools.iter().map(|tool| tool.holder.0).collect::<Vec<_>>(), [0, 1, 2]);
     assert_eq!(tools[1].kinds, [ToolKind::Probe, ToolKind::BandPicker]);
     assert_eq!(tools[2].buttons[1].action, Action::NextLook);
+    assert_eq!(tools[0].buttons[2].action, Action::Menu);
+    assert_eq!(tools[1].buttons[3].action, Action::PickBand);
     assert!(matches!(tools[2].sensor, Sensor::Of { sensor: 0, source } if source.0 == 2));
     assert_eq!(tools[0].holder, VisitorId(0));
     assert_eq!(tracked.rules.longest_hold, Some(Duration::from_secs(60)));
@@ -66,6 +68,12 @@ fn each_fault_is_a_sentence_with_its_line() {
         (instead("['probe']", "['probe', 'probe']"), "the same thing twice"),
         (instead("['probe']", "['sword']"), "line 7: [[tool]] cannot be read"),
         (with("buttons = { x = 'grab' }\n"), "a button \"x\""),
+        (
+            with("buttons = { 1 = 'meny' }\n"),
+            "line 7: [[tool]] cannot be read (unknown variant `meny` (did you mean `menu`?)",
+        ),
+        (with("buttons = { 1 = 'pickband' }\n"), "(did you mean `pick-band`?)"),
+        (with("buttons = { 1 = 'pick-band' }\n"), "line 7: `buttons` has \"pick-band\", and it picks none"),
         (with("buttons = { 1 = 'grab', 01 = 'undo' }\n"), "button 1 has two actions"),
         (with("sensor = 300\n"), "line 7: [[tool]] cannot be read"),
         (instead("input = 'wand of Ada'", "sensor = 3"), "it has a `sensor` and no `input`"),

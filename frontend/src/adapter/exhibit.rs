@@ -2,14 +2,14 @@
 
 use super::{load_display, looks_of, meet_volume};
 use crate::scene::{LookName, QualityPreset, Scene};
-use crate::staging::{Ensemble, Piece, carries, needs_band};
+use crate::staging::{Ensemble, Piece, carries, menu_size, needs_band};
 use ::exhibit::{Exhibit, Fault, ItemWish, Looks};
 use clap::ValueEnum;
 use display_config::Display;
 use display_config::text::{brief_text, did_you_mean};
 use optics::MOST_ENHANCERS;
 use overlay::unknown_characters;
-use world::{Item, Preset};
+use world::{Action, Item, Preset};
 
 /// What finds out what is wrong with an exhibit besides its text.
 struct Opening<'a> {
@@ -42,6 +42,10 @@ pub fn open_exhibit(exhibit: &Exhibit) -> Result<(Ensemble, Display), Vec<Fault>
         .collect();
     let pieces: Vec<(Piece, Item)> =
         pieces.into_iter().map(|(piece, item)| opening.item(piece, item)).collect();
+    pieces
+        .iter()
+        .zip(&exhibit.items)
+        .for_each(|((piece, item), wish)| opening.check_menus(wish, piece, item));
     let Opening { display, faults, .. } = opening;
     match display {
         Some(display) if faults.is_empty() => {
@@ -68,13 +72,54 @@ impl Opening<'_> {
         if exhibit.marks.names {
             texts.extend(exhibit.cast.visitors.iter().map(|visitor| visitor.name.as_str()));
         }
+        self.check_letters(
+            None,
+            texts,
+            "leave it out with `names = false` or `captions = false` under [marks]",
+        );
+    }
+
+    /// Whether there are letters for all texts; what else can be done where there are not.
+    fn check_letters(&mut self, line: Option<usize>, texts: Vec<&str>, otherwise: &str) {
         for (text, unknown) in unknown_characters(texts) {
             let unknown: String = unknown.into_iter().take(8).collect();
             let text = brief_text(text).into_owned();
-            self.wrong(None, format!(
+            self.wrong(line, format!(
                     "{text} cannot be written over the volume: there are no letters for \"{unknown}\"; use Latin, Greek or \
-                     Cyrillic ones, or leave it out with `names = false` or `captions = false` under [marks]"
+                     Cyrillic ones, or {otherwise}"
                 ));
+        }
+    }
+
+    /// Whether what tools' menus list of an item can be written, and all at once.
+    fn check_menus(&mut self, wish: &ItemWish, piece: &Piece, item: &Item) {
+        let exhibit = self.exhibit;
+        let tools = &exhibit.cast.tools;
+        let has = |action: Action| {
+            tools.iter().any(|tool| tool.buttons.iter().any(|button| button.action == action))
+        };
+        let mut texts = Vec::new();
+        if has(Action::Menu) {
+            texts.push(item.title.as_str());
+            texts.extend(item.presets.iter().map(|preset| preset.title.as_str()));
+        }
+        if has(Action::PickBand) {
+            texts.extend((0..item.bands).filter_map(|band| piece.band_name(band)));
+        }
+        self.check_letters(Some(wish.line), texts, "take the buttons away that list it");
+        let Some(size) = self.display.as_ref().map(menu_size) else { return };
+        let opens = |action| matches!(action, Action::Menu | Action::PickBand);
+        let items = exhibit.items.len();
+        let full = tools.iter().find(|tool| {
+            tool.buttons.iter().any(|button| opens(button.action)) && !size.has_room(tool, item, items)
+        });
+        if let Some(tool) = full {
+            let name = brief_text(&tool.name).into_owned();
+            self.wrong(Some(wish.line), format!(
+                "the menu of {name} has no room on the display for all that it lists of this item, {} columns of {} entries; take \
+                 looks, presets, bands or items away",
+                size.most_columns, size.most_rows
+            ));
         }
     }
 

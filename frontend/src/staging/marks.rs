@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use optics::Enhancer;
 use protocol::{Mark, MarkShape, Paint};
 use std::f64::consts::TAU;
-use world::{Cast, Refusal, ShownTool, Stage, ToolKind, VisitorId};
+use world::{Cast, Choice, Refusal, ShownTool, Stage, ToolKind, VisitorId};
 
 /// Sizes, in hundredths of the screen's height: half a line's width, the length of a tool's body, its sign, the reach of a clip
 /// plane's frame, and the em of what is written.
@@ -34,6 +34,8 @@ pub(super) struct Artist<'a> {
     /// What tools carry, in their places.
     pub carried: &'a [Enhancer],
     pub caption: &'a str,
+    /// What visitors read of a choice.
+    pub words: &'a dyn Fn(Choice) -> String,
 }
 
 impl Artist<'_> {
@@ -49,9 +51,13 @@ impl Artist<'_> {
             if self.wish.tools {
                 self.tool(tool, &mut marks);
             }
-            if self.wish.names {
+            // Where a menu is open, its entries are what is to be read.
+            if self.wish.names && self.stage.menus.iter().all(|menu| menu.tool != tool.tool) {
                 self.names(tool, &mut marks);
             }
+        }
+        if self.wish.tools || self.wish.names || self.wish.captions {
+            self.stage.menus.iter().for_each(|menu| self.menu(menu, &mut marks));
         }
         marks
     }
@@ -71,7 +77,7 @@ impl Artist<'_> {
 
     /// Where a text of this em is written that belongs to a place: as near to that as it can be read, on the way to the screen as
     /// the display's observer sees it.
-    fn readable(&self, place: DVec3, em_m: f64) -> DVec3 {
+    pub(super) fn readable(&self, place: DVec3, em_m: f64) -> DVec3 {
         let (resolution, observer) = (self.display.resolution(), self.display.observer_in_display);
         let deepest_m = (em_m / READABLE - resolution.at(0.0)) / (resolution.at(1.0) - resolution.at(0.0));
         let z = place.z.clamp(-deepest_m.max(0.0), deepest_m.max(0.0));
@@ -80,7 +86,7 @@ impl Artist<'_> {
         if along.is_finite() && along > 0.0 { observer + along * (place - observer) } else { place }
     }
 
-    fn paint(&self, tool: &ShownTool, opacity: f64) -> Paint {
+    pub(super) fn paint(&self, tool: &ShownTool, opacity: f64) -> Paint {
         let visitor = self.cast.visitor(self.cast.holder(tool.tool));
         Paint {
             rgb: visitor.colour.map(|part| part.clamp(0.0, 1.0) as f32),
@@ -167,7 +173,8 @@ fn way(corner: u32, of: u32) -> DVec3 {
     DVec3::new(cos, sin, 0.0)
 }
 
-fn kind_name(kind: ToolKind) -> &'static str {
+/// What visitors read of a kind of tool.
+pub(super) fn kind_name(kind: ToolKind) -> &'static str {
     match kind {
         ToolKind::Pointer => "pointer",
         ToolKind::Light => "light",

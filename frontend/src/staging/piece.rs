@@ -60,7 +60,8 @@ impl Piece {
     /// What it is in a programme, by its own name.
     pub fn item(&self, presets: Vec<Preset>, time: Option<Duration>) -> Item {
         let (looks, bands) = (self.looks.len(), self.own.bands.len());
-        Item { title: self.own.name.clone(), looks, bands, presets, time }
+        let own_look = self.own_look.and_then(|name| self.look_at(name));
+        Item { title: self.own.name.clone(), looks, own_look, bands, presets, time }
     }
 
     /// What people call its scene.
@@ -101,6 +102,11 @@ impl Piece {
     /// A band, over data values.
     pub fn band(&self, band: Option<usize>) -> Option<Trapezoid> {
         self.own.bands.get(band.unwrap_or(0)).map(|band| band.values)
+    }
+
+    /// What a band is called.
+    pub fn band_name(&self, band: usize) -> Option<&str> {
+        self.own.bands.get(band).map(|band| band.name.as_str())
     }
 
     /// What the scene's own tool carries of a kind.

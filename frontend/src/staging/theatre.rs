@@ -2,6 +2,7 @@
 
 use super::carried::{carried, held, light};
 use super::marks::Artist;
+use super::menu::{menu_size, words};
 use super::piece::Piece;
 use crate::scene::{CLIP_CONTEXT, Handled, HeldTool, LookName, Scene, SceneError, VolumeFacts};
 use display_config::Display;
@@ -51,7 +52,7 @@ impl Theatre {
     pub fn new(ensemble: Ensemble, display: Display, pace: Pace) -> Self {
         let Ensemble { cast, rules, pieces } = ensemble;
         let (pieces, items) = pieces.into_iter().unzip();
-        let world = World::new(cast, Programme(items), rules);
+        let world = World::new(cast, Programme(items), rules, menu_size(&display));
         Self {
             world,
             pieces,
@@ -180,6 +181,7 @@ impl Theatre {
             stage,
             carried: &handled.carried,
             caption: self.world.caption(),
+            words: &|choice| words(choice, piece, self.world.programme(), stage.item),
         };
         let frame = scene.frame_at(index, stage.script_s, &handled, &self.display, piece.facts())?;
         Ok(FrameState {

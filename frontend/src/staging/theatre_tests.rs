@@ -319,3 +319,6 @@ fn frames_that_differ_in_anything_seen_have_other_check_numbers() {
     assert_ne!(number(&FrameState { eta: 0.5, ..frame.clone() }), number(&frame));
     assert_eq!(number(&FrameState { welcomes_planes: true, ..frame.clone() }), number(&frame));
 }
+
+#[path = "menu_tests.rs"]
+mod menus;

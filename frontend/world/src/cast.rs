@@ -95,6 +95,13 @@ pub enum ToolKind {
     LayerOpacity,
 }
 
+impl ToolKind {
+    /// Whether it looks at the band of values that visitors pick.
+    pub fn picks_band(self) -> bool {
+        matches!(self, Self::BandPicker | Self::LayerOpacity)
+    }
+}
+
 /// A button of a tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Button {
@@ -112,6 +119,10 @@ pub enum Action {
     Grab,
     /// While it is down, the tool's moves shift and stretch the values that the look shows.
     Window,
+    /// While it is down, what its holder can do is listed beside the tool's tip, to be chosen from when it is released.
+    Menu,
+    /// While it is down, the bands of values are listed there, and that under the tip is tried out.
+    PickBand,
     /// The tool becomes the next thing that it can be.
     NextKind,
     /// The next look.

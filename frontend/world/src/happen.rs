@@ -71,23 +71,19 @@ impl World {
         match action {
             Action::Grab => self.grab(tool),
             Action::Window => self.hold_window(tool),
+            Action::Menu => self.open_menu(tool),
+            Action::PickBand => self.open_bands(tool),
             Action::NextKind => {
-                let (kinds, state) =
-                    (&self.cast.tools[usize::from(tool.0)].kinds, &mut self.tools[usize::from(tool.0)]);
-                self.history.push(visitor, Before::Kind(tool, state.kind));
-                state.kind = (state.kind + 1) % kinds.len().max(1);
+                let place = usize::from(tool.0);
+                let kinds = self.cast.tools[place].kinds.len().max(1);
+                self.become_kind(tool, (self.tools[place].kind + 1) % kinds);
             }
             Action::NextLook | Action::PreviousLook => {
-                if self.may_change_look(visitor) {
-                    self.history.push(visitor, Before::Look(self.stage.look, self.stage.window));
-                    self.turn_look(action == Action::NextLook);
+                if let Some(look) = self.look_beside(action == Action::NextLook) {
+                    self.show_look(visitor, Some(look));
                 }
             }
-            Action::NextBand => {
-                self.history.push(visitor, Before::Band(self.stage.band));
-                let bands = self.item().bands;
-                self.stage.band = (bands > 0).then(|| self.stage.band.map_or(0, |band| (band + 1) % bands));
-            }
+            Action::NextBand => self.next_band(visitor),
             Action::NextPreset => self.next_preset(visitor),
             Action::Undo => self.undo(visitor),
             Action::Reset => {
@@ -97,11 +93,7 @@ impl World {
                     self.forget_looks();
                 }
             }
-            Action::NextItem => {
-                if self.may_move(visitor) {
-                    self.next_item();
-                }
-            }
+            Action::NextItem => self.show_item(visitor, self.next_item()),
         }
     }
 
@@ -111,6 +103,8 @@ impl World {
             Action::Window => {
                 self.window_holding = self.window_holding.filter(|holding| holding.tool != tool);
             }
+            Action::Menu => self.choose(tool, false),
+            Action::PickBand => self.choose(tool, true),
             _ => {}
         }
     }

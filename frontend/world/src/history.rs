@@ -80,6 +80,11 @@ impl History {
         Ok(before)
     }
 
+    /// Whether there is a deed of a visitor's.
+    pub fn has_deed_of(&self, visitor: VisitorId) -> bool {
+        self.0.iter().any(|deed| deed.0 == visitor)
+    }
+
     /// How many deeds are remembered.
     pub fn len(&self) -> usize {
         self.0.len()

@@ -11,7 +11,7 @@ use crate::world::World;
 const PER_WINDOW_M: f64 = 0.5;
 
 impl World {
-    fn hand_of(&self, tool: ToolId) -> Option<Hand> {
+    pub(crate) fn hand_of(&self, tool: ToolId) -> Option<Hand> {
         self.tools[usize::from(tool.0)].shown.map(|shown| shown.0)
     }
 
@@ -65,8 +65,9 @@ impl World {
         }
     }
 
-    /// A tool lets go of everything.
+    /// A tool lets go of everything, and nothing is chosen with it.
     pub(crate) fn let_go(&mut self, tool: ToolId) {
+        self.close_menu(tool);
         self.let_go_of_volume(tool);
         self.window_holding = self.window_holding.filter(|holding| holding.tool != tool);
     }

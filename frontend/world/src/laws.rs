@@ -2,6 +2,7 @@
 
 use crate::cast::VisitorId;
 use crate::history::MOST_DEEDS;
+use crate::menu::{Choice, Menu};
 use crate::stage::Handling;
 use crate::world::World;
 
@@ -37,6 +38,46 @@ impl World {
             ("nothing grows", self.history.len() <= MOST_DEEDS && self.waiting.len() <= MOST_WAITING),
             ("time goes on", stage.script_s >= 0.0 && stage.script_s.is_finite()),
         ];
-        laws.into_iter().filter(|law| !law.1).map(|law| law.0).collect()
+        laws.into_iter().chain(self.menu_laws()).filter(|law| !law.1).map(|law| law.0).collect()
+    }
+
+    /// Those of menus.
+    fn menu_laws(&self) -> [(&'static str, bool); 7] {
+        let (stage, menus) = (self.stage(), &self.stage().menus);
+        let is_shown = |menu: &Menu| stage.tools.iter().any(|tool| tool.tool == menu.tool);
+        let trials: Vec<_> = menus.iter().filter_map(|menu| Some((menu.choice(), menu.trial?))).collect();
+        let is_tried = |(choice, before): (Option<Choice>, Option<usize>)| match choice {
+            Some(Choice::Band(band)) => stage.band == Some(band),
+            Some(_) => false,
+            None => stage.band == before,
+        };
+        [
+            ("menus are of tools that are there", menus.iter().all(is_shown)),
+            ("a tool has one menu at most", menus.windows(2).all(|pair| pair[0].tool < pair[1].tool)),
+            ("a menu lists something", menus.iter().all(|menu| !menu.entries.is_empty())),
+            ("what it lists can be chosen", menus.iter().all(|menu| self.has_all_of(menu))),
+            (
+                "what is marked is on it",
+                menus.iter().all(|menu| menu.marked.is_none_or(|marked| marked < menu.entries.len())),
+            ),
+            ("one band is tried out at most", trials.len() <= 1),
+            (
+                "a band that is tried out is shown",
+                trials.iter().all(|&(choice, trial)| is_tried((choice, trial.before))),
+            ),
+        ]
+    }
+
+    /// Whether there is all that a menu lists.
+    fn has_all_of(&self, menu: &Menu) -> bool {
+        let (item, tool) = (self.item(), &self.cast.tools[usize::from(menu.tool.0)]);
+        menu.entries.iter().all(|entry| match entry.choice {
+            Choice::Undo => true,
+            Choice::Kind(kind) => tool.kinds.contains(&kind),
+            Choice::Look(look) => look.is_none_or(|look| look < item.looks),
+            Choice::Preset(preset) => preset < item.presets.len(),
+            Choice::Item(item) => item < self.programme.0.len(),
+            Choice::Band(band) => menu.trial.is_some() && band < item.bands,
+        })
     }
 }

@@ -14,6 +14,8 @@ pub struct Item {
     pub title: String,
     /// How many looks it has besides its own.
     pub looks: usize,
+    /// Which of these its own is, from 0; None where it is none of them.
+    pub own_look: Option<usize>,
     /// How many bands of values its band pickers go through; 0 where they keep their own.
     pub bands: usize,
     /// Placements that somebody prepared.

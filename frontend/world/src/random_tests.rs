@@ -1,6 +1,7 @@
 //! What random visitors do to a world leaves its laws whole.
 
 use super::*;
+use crate::menu::{Choice, Menu};
 
 #[test]
 fn the_laws_find_what_is_against_them() {
@@ -21,9 +22,32 @@ fn the_laws_find_what_is_against_them() {
     assert!(!spoiled(|world| world.waiting = vec![ToolId(1); 7]).is_empty());
 }
 
+#[test]
+fn the_laws_find_what_is_against_those_of_menus() {
+    let spoiled = |index: u8, spoil: fn(&mut World)| {
+        let mut play = Play::of_two();
+        play.button(0, index, true);
+        play.go_on(2);
+        spoil(&mut play.world);
+        play.world.faults()
+    };
+    assert!(spoiled(MENU, |world| assert!(!world.stage.menus.is_empty())).is_empty());
+    assert!(!spoiled(MENU, |world| world.stage.menus[0].tool = ToolId(5)).is_empty());
+    assert!(!spoiled(MENU, |world| world.stage.menus.push(world.stage.menus[0].clone())).is_empty());
+    assert!(!spoiled(MENU, |world| world.stage.menus[0].entries.clear()).is_empty());
+    assert!(!spoiled(MENU, |world| world.stage.menus[0].entries[0].choice = Choice::Preset(2)).is_empty());
+    assert!(!spoiled(MENU, |world| world.stage.menus[0].marked = Some(99)).is_empty());
+    assert!(!spoiled(PICK_BAND, |world| world.stage.band = Some(1)).is_empty());
+    let again = |world: &mut World| {
+        let menu = Menu { tool: ToolId(2), ..world.stage.menus[0].clone() };
+        world.stage.menus.push(menu);
+    };
+    assert_eq!(spoiled(PICK_BAND, again), ["one band is tried out at most"]);
+}
+
 /// What a random visitor does next.
 fn doing() -> impl Strategy<Value = (usize, u8, [f64; 4])> {
-    (0..6_usize, 0..20_u8, [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0, -1.0..1.0])
+    (0..6_usize, 0..27_u8, [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0, -1.0..1.0])
 }
 
 fn run(doings: &[(usize, u8, [f64; 4])]) -> Vec<Stage> {
@@ -31,8 +55,10 @@ fn run(doings: &[(usize, u8, [f64; 4])]) -> Vec<Stage> {
     let mut stages = Vec::new();
     for &(tool, what, [x, y, z, w]) in doings {
         match what {
-            0..=9 => play.button(tool, what, w > 0.0),
-            10..=13 => {
+            0..=11 => play.button(tool, what, w > 0.0),
+            20..=22 => play.button(tool, if what == 20 { MENU } else { PICK_BAND }, w > 0.0),
+            23..=26 => play.point(tool, z.abs()),
+            12..=13 => {
                 let rotation = DQuat::from_xyzw(x, y, z, w + 1.5).normalize();
                 play.hands[tool] = Some(Hand { tip_m: DVec3::new(x, y, z), rotation });
             }
@@ -78,6 +104,9 @@ fn no_trigonometry_of_the_system_is_used() {
     let sources = [
         include_str!("world.rs"),
         include_str!("step.rs"),
+        include_str!("act.rs"),
+        include_str!("choose.rs"),
+        include_str!("menu.rs"),
         include_str!("holding.rs"),
         include_str!("grip.rs").split("#[cfg(test)]").next().unwrap(),
         include_str!("turn.rs").split("#[cfg(test)]").next().unwrap(),

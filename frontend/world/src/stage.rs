@@ -1,5 +1,6 @@
 //! What a frame shows of a world.
 
+use crate::menu::Menu;
 use crate::turn::{about_x, about_y};
 use crate::{ToolId, ToolKind, VisitorId};
 use glam::{DQuat, DVec3};
@@ -24,6 +25,8 @@ pub struct Stage {
     pub clip_m: Option<f64>,
     /// Tools of which there is something, by their numbers.
     pub tools: Vec<ShownTool>,
+    /// Menus that are open, by the numbers of their tools.
+    pub menus: Vec<Menu>,
     /// Whose hands the volume is in.
     pub held_by: Option<VisitorId>,
     /// Whether anybody is there.

@@ -30,6 +30,7 @@ impl World {
             self.stage.script_s += passed_s;
         }
         self.step_tools(moment);
+        self.mark_menus();
         self.home_m = home(self.stage.item, self.stage.script_s);
         self.turn_dials(passed_s);
         self.move_held();
@@ -121,10 +122,12 @@ impl World {
         if !self.is_undone && self.rules.undone_after.is_some_and(|after| idle >= after) {
             self.rest();
         }
-        if let Some(attract) = self.rules.attract.as_ref().filter(|attract| idle >= attract.after) {
+        let attract = self.rules.attract.as_ref().filter(|attract| idle >= attract.after);
+        if let Some(turn_per_s) = attract.map(|attract| attract.turn_per_s) {
             self.stage.phase = Phase::Attract;
+            self.close_menus();
             if self.easing.is_none() {
-                let turn = about_y(attract.turn_per_s * passed_s) * self.stage.handling.turn;
+                let turn = about_y(turn_per_s * passed_s) * self.stage.handling.turn;
                 self.stage.handling.turn = turn.normalize();
             }
         }
@@ -136,7 +139,7 @@ impl World {
             Phase::Open => (shown_for >= time && idle >= UNDISTURBED) || shown_for >= 2 * time,
         };
         if is_due {
-            self.next_item();
+            self.begin_item(self.next_item());
         }
     }
 }

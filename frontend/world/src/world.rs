@@ -4,8 +4,9 @@ use crate::cast::{Cast, ToolId, VisitorId};
 use crate::deed::{Change, Deed, Moment};
 use crate::easing::Easing;
 use crate::grip::Body;
-use crate::history::{Before, History, NoUndo};
+use crate::history::History;
 use crate::holding::{Holding, WindowHolding};
+use crate::menu::MenuSize;
 use crate::programme::{Item, Programme};
 use crate::rules::Rules;
 use crate::stage::{Handling, Phase, Refusal, ShownTool, Stage, Window};
@@ -16,9 +17,7 @@ use std::time::Duration;
 
 /// How long somebody is told that something was refused.
 const TOLD_FOR: Duration = Duration::from_millis(1500);
-/// How long a volume takes to a placement that somebody prepared.
-const TO_PRESET: Duration = Duration::from_millis(600);
-/// The same to where it was before a deed.
+/// How long a volume takes to where it was before a deed.
 pub(crate) const TO_BEFORE: Duration = Duration::from_millis(300);
 /// The same to where its scene has it, when nobody is there.
 const TO_REST: Duration = Duration::from_secs(2);
@@ -29,6 +28,7 @@ pub struct World {
     pub(crate) cast: Cast,
     pub(crate) programme: Programme,
     pub(crate) rules: Rules,
+    pub(crate) menu_size: MenuSize,
     pub(crate) tools: Vec<ToolState>,
     pub(crate) stage: Stage,
     /// Who holds the volume.
@@ -57,7 +57,7 @@ pub struct World {
 
 impl World {
     /// A world in which nothing has happened yet. The programme has at least one item.
-    pub fn new(cast: Cast, programme: Programme, rules: Rules) -> Self {
+    pub fn new(cast: Cast, programme: Programme, rules: Rules, menu_size: MenuSize) -> Self {
         assert!(!programme.0.is_empty(), "a programme has at least one item");
         let stage = Stage {
             item: 0,
@@ -68,6 +68,7 @@ impl World {
             window: Window::default(),
             clip_m: None,
             tools: Vec::new(),
+            menus: Vec::new(),
             held_by: None,
             phase: Phase::Open,
             refusals: Vec::new(),
@@ -77,6 +78,7 @@ impl World {
             cast,
             programme,
             rules,
+            menu_size,
             stage,
             holding: None,
             window_holding: None,
@@ -110,6 +112,11 @@ impl World {
         asks.map(|attract| attract.caption.as_str())
             .filter(|caption| !caption.is_empty())
             .unwrap_or(self.title())
+    }
+
+    /// What is shown, one item after the other.
+    pub fn programme(&self) -> &Programme {
+        &self.programme
     }
 
     /// Who takes part.
@@ -170,51 +177,6 @@ impl World {
         self.refusals.iter().map(|told| told.0).collect()
     }
 
-    pub(crate) fn turn_look(&mut self, onward: bool) {
-        let looks = self.item().looks;
-        if looks == 0 {
-            return;
-        }
-        let step = if onward { 1 } else { looks - 1 };
-        let first = if onward { 0 } else { looks - 1 };
-        self.stage.look = Some(self.stage.look.map_or(first, |look| (look + step) % looks));
-        (self.stage.window, self.window_holding) = (Window::default(), None);
-    }
-
-    pub(crate) fn next_preset(&mut self, visitor: VisitorId) {
-        let presets = &self.item().presets;
-        let here = presets.iter().position(|preset| self.aim() == self.limited(preset.handling));
-        let Some(preset) = presets.get(here.map_or(0, |here| (here + 1) % presets.len())) else { return };
-        let (handling, look) = (preset.handling, preset.look);
-        if !self.may_move(visitor) || !self.may_change_look(visitor) {
-            return;
-        }
-        self.history.push(visitor, Before::Look(self.stage.look, self.stage.window));
-        self.history.push(visitor, Before::Handling(self.stage.handling));
-        self.ease(handling, TO_PRESET);
-        if look != self.stage.look {
-            (self.stage.look, self.stage.window) = (look, Window::default());
-        }
-    }
-
-    pub(crate) fn undo(&mut self, visitor: VisitorId) {
-        // Whoever holds something has it.
-        if !self.may_move(visitor) || !self.may_change_look(visitor) {
-            return;
-        }
-        match self.history.undo(visitor) {
-            Ok(Before::Handling(handling)) => self.ease(handling, TO_BEFORE),
-            Ok(Before::Look(look, window)) => (self.stage.look, self.stage.window) = (look, window),
-            Ok(Before::Window(window)) => self.stage.window = window,
-            Ok(Before::Band(band)) => self.stage.band = band,
-            Ok(Before::Kind(tool, kind)) => self.tools[usize::from(tool.0)].kind = kind,
-            Err(NoUndo::Nothing) => {}
-            Err(NoUndo::ChangedBy(changed_by)) => {
-                self.refuse(Refusal::ChangedSince { wanted_by: visitor, changed_by });
-            }
-        }
-    }
-
     /// What mouse and keys do. These give way to nobody, and what is held stays held from where it is then.
     fn apply_change(&mut self, change: Change) {
         let mut handling = self.stage.handling;
@@ -230,8 +192,12 @@ impl World {
                 let moved = |at_m: f64| (at_m + by_m).clamp(-farthest_m, farthest_m);
                 self.stage.clip_m = self.stage.clip_m.map(moved);
             }
-            Change::NextLook => self.turn_look(true),
-            Change::NextItem => self.next_item(),
+            Change::NextLook => {
+                if let Some(look) = self.look_beside(true) {
+                    self.take_look(Some(look));
+                }
+            }
+            Change::NextItem => self.begin_item(self.next_item()),
             Change::Pause => self.is_paused = !self.is_paused,
             Change::Reset => {
                 handling = Handling::default();
@@ -248,6 +214,7 @@ impl World {
     }
 
     pub(crate) fn forget_looks(&mut self) {
+        self.end_trial();
         (self.stage.look, self.stage.band, self.stage.window) = (None, None, Window::default());
         self.window_holding = None;
     }
@@ -259,7 +226,7 @@ impl World {
     }
 
     /// Where the volume is, or goes.
-    fn aim(&self) -> Handling {
+    pub(crate) fn aim(&self) -> Handling {
         self.easing.as_ref().map_or(self.stage.handling, Easing::aim)
     }
 
@@ -282,11 +249,16 @@ impl World {
         self.stage.phase = Phase::Open;
     }
 
-    /// The next item begins, as its scene has it.
-    pub(crate) fn next_item(&mut self) {
+    /// The item that follows.
+    pub(crate) fn next_item(&self) -> usize {
+        (self.stage.item + 1) % self.programme.0.len()
+    }
+
+    /// An item begins, as its scene has it. What menus list is of the one before.
+    pub(crate) fn begin_item(&mut self, item: usize) {
+        self.close_menus();
         let stage = &mut self.stage;
-        stage.item = (stage.item + 1) % self.programme.0.len();
-        (stage.script_s, stage.handling, stage.clip_m) = (0.0, Handling::default(), None);
+        (stage.item, stage.script_s, stage.handling, stage.clip_m) = (item, 0.0, Handling::default(), None);
         self.forget_looks();
         (self.holding, self.easing, self.dialling) = (None, None, None);
         self.waiting.clear();
@@ -296,6 +268,7 @@ impl World {
 
     /// Time undoes what visitors did.
     pub(crate) fn rest(&mut self) {
+        self.close_menus();
         self.ease(Handling::default(), TO_REST);
         self.forget_looks();
         self.stage.clip_m = None;

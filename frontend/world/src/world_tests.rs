@@ -5,7 +5,7 @@ use crate::cast::{Action, Button, Dial, DialKind, Sensor, Tool, ToolKind, Visito
 use crate::grip::Hand;
 use crate::programme::Preset;
 use crate::rules::Attract;
-use glam::DQuat;
+use glam::{DQuat, DVec2};
 use inputs::{Event, Pose, SourceId, What};
 use proptest::prelude::*;
 use tracking::{RigidTransform, TrackSettings};
@@ -13,7 +13,7 @@ use tracking::{RigidTransform, TrackSettings};
 /// Rounding of lengths of a metre through filters and grips.
 const ROUNDING_M: f64 = 1e-9;
 
-const ACTIONS: [Action; 10] = [
+const ACTIONS: [Action; 12] = [
     Action::Grab,
     Action::Window,
     Action::NextKind,
@@ -24,13 +24,22 @@ const ACTIONS: [Action; 10] = [
     Action::Undo,
     Action::Reset,
     Action::NextItem,
+    Action::Menu,
+    Action::PickBand,
 ];
 const GRAB: u8 = 0;
 const WINDOW: u8 = 1;
 const NEXT_KIND: u8 = 2;
 const NEXT_LOOK: u8 = 3;
+const NEXT_BAND: u8 = 5;
 const NEXT_PRESET: u8 = 6;
 const UNDO: u8 = 7;
+const NEXT_ITEM: u8 = 9;
+const MENU: u8 = 10;
+const PICK_BAND: u8 = 11;
+/// Entries are as low as can be, and lists of a few of them have several columns.
+const MENU_SIZE: MenuSize =
+    MenuSize { entry_m: DVec2::new(0.1, MenuSize::LEAST_M), most_rows: 5, most_columns: 4 };
 
 /// Three visitors with two tools each, every tool with a source and all buttons of its own.
 fn cast() -> Cast {
@@ -40,7 +49,7 @@ fn cast() -> Cast {
         holder: VisitorId(number / 2),
         sensor: Sensor::Of { source: SourceId(number), sensor: 0 },
         sensor_from_tip: RigidTransform { rotation: DQuat::IDENTITY, translation_m: DVec3::ZERO },
-        kinds: vec![ToolKind::Pointer, ToolKind::Probe, ToolKind::ClipPlane],
+        kinds: vec![ToolKind::Pointer, ToolKind::Probe, ToolKind::BandPicker],
         buttons: (0..).zip(ACTIONS).map(|(index, action)| Button { index, action }).collect(),
         dials: vec![
             Dial { index: 0, kind: DialKind::TurnRight, per_s: 2.0 },
@@ -72,6 +81,7 @@ fn programme() -> Programme {
     let item = |looks, bands, seconds| Item {
         title: String::new(),
         looks,
+        own_look: looks.checked_sub(1),
         bands,
         presets: vec![preset(0.1), preset(0.3)],
         time: Some(Duration::from_secs(seconds)),
@@ -91,7 +101,7 @@ const FRAME: Duration = Duration::from_micros(16_667);
 impl Play {
     fn new(rules: Rules) -> Self {
         let hands = vec![None; cast().tools.len()];
-        Self { world: World::new(cast(), programme(), rules), now: Duration::ZERO, hands }
+        Self { world: World::new(cast(), programme(), rules, MENU_SIZE), now: Duration::ZERO, hands }
     }
 
     fn event(&mut self, tool: usize, what: What) {
@@ -338,6 +348,9 @@ fn an_item_that_is_due_waits_for_who_holds_it() {
     play.button(0, GRAB, false);
     assert_eq!(play.go_on(2).item, 1, "it is twice due");
 }
+
+#[path = "choose_tests.rs"]
+mod choosing;
 
 #[path = "random_tests.rs"]
 mod random;

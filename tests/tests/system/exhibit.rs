@@ -160,6 +160,22 @@ fn tools_lie_in_the_volume_where_they_are_asked_to() {
 }
 
 #[test]
+fn a_menu_that_cannot_be_read_whole_is_refused() {
+    let presets = "[[item.preset]]\ntitle = '上'\n".to_owned() + &"[[item.preset]]\n".repeat(200);
+    let text = TWO_ITEMS.replacen("time_s = 1\n", &format!("time_s = 1\n{presets}"), 1);
+    let check = |text: &str| {
+        let museum = Museum::new(text);
+        run(&mut lightloom(&["exhibit", &museum.file, "--check"]))
+    };
+    check(&text).succeeded();
+    let ran = check(&format!("{text}buttons = {{ 0 = 'menu' }}\n"));
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    for part in ["there are no letters for \"上\"", "the menu of finger has no room"] {
+        assert!(ran.stdout.contains(part), "{part} is missing in: {}", ran.stdout);
+    }
+}
+
+#[test]
 fn a_tape_shows_the_same_again_in_one_process_and_in_many() {
     let museum = Museum::new(TWO_ITEMS);
     let tape = museum.path("day.mcap");
