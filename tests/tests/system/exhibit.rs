@@ -139,10 +139,14 @@ fn tools_lie_in_the_volume_where_they_are_asked_to() {
     let scene = |more: &str| {
         format!(
             "name = 'Ball'\n[volume]\nsource = 'procedural:shells@64'\n[optics]\ndomain = [0, 1]\n\
-             extinction_unit = 'per_metre'\nextinction = [[0.2, 0], [0.6, 60]]\ncolour = [[0, 1, 1, 1]]\n{more}"
+             extinction_unit = 'per_metre'\nextinction = [[0.2, 0], [0.6, 60]]\ncolour = [[0, 1, 0.3, 0.1]]\n{more}"
         )
     };
-    let item = TWO_ITEMS.replace("'procedural:shells@64'", "'ball.toml'");
+    // Long enough for pointers to be in it, and of another colour than they are: white before white is no less white.
+    let item = TWO_ITEMS
+        .replace("'procedural:shells@64'", "'ball.toml'")
+        .replace("time_s = 1", "time_s = 60")
+        .replace("'clip-plane'", "'pointer'");
     let combined = Museum::new(&format!("{item}\n[marks]\ndepth_combined = true\n"));
     let ball = combined.path("ball.toml");
     fs::write(&ball, scene("refraction = [[0.2, 1.0], [0.6, 1.2]]\n")).unwrap();
@@ -151,11 +155,11 @@ fn tools_lie_in_the_volume_where_they_are_asked_to() {
     fs::write(&ball, scene("")).unwrap();
     let through = Museum::new(&item);
     fs::write(through.path("ball.toml"), scene("")).unwrap();
-    let (within, _) = combined.shown("within", &["--frames", "8"]);
-    let (over, _) = through.shown("over", &["--frames", "8"]);
+    let (within, _) = combined.shown("within", &["--frames", "30"]);
+    let (over, _) = through.shown("over", &["--frames", "30"]);
     assert_eq!(within.len(), over.len());
     assert!(within != over, "tools shine through a ball");
-    let (two, _) = combined.shown("two", &["--frames", "8", "--backends", "2"]);
+    let (two, _) = combined.shown("two", &["--frames", "30", "--backends", "2"]);
     assert_same("two back-ends", &within, &two);
 }
 
