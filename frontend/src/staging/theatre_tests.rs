@@ -318,6 +318,23 @@ fn frames_that_differ_in_anything_seen_have_other_check_numbers() {
     assert_ne!(number(&moved), number(&frame));
     assert_ne!(number(&FrameState { eta: 0.5, ..frame.clone() }), number(&frame));
     assert_eq!(number(&FrameState { welcomes_planes: true, ..frame.clone() }), number(&frame));
+    let marked = |marks: &[(f64, bool)]| {
+        let mark = |&(x, is_depth_combined): &(f64, bool)| {
+            let shape = MarkShape::Stroke { points_in_display: vec![DVec3::X * x], radius_m: 0.01 };
+            Mark { shape, paint: Paint { rgb: [1.0; 3], opacity: 1.0 }, is_depth_combined }
+        };
+        number(&FrameState { marks: marks.iter().map(mark).collect(), ..frame.clone() })
+    };
+    let numbers = [
+        marked(&[]),
+        marked(&[(0.1, false), (0.2, false)]),
+        marked(&[(0.2, false), (0.1, false)]),
+        marked(&[(0.1, true), (0.2, false)]),
+        marked(&[(0.1, false), (0.2, true)]),
+    ];
+    assert_eq!(numbers[0], number(&frame));
+    let all: std::collections::BTreeSet<u64> = numbers.into_iter().collect();
+    assert_eq!(all.len(), numbers.len(), "{numbers:?}");
 }
 
 #[path = "menu_tests.rs"]

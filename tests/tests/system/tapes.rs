@@ -74,6 +74,19 @@ fn tapes_of_the_first_version_play_to_their_ends() {
     }
 }
 
+/// A program that has changed since may say so only of frames that show anything else.
+#[test]
+fn frames_of_the_first_version_are_what_they_were() {
+    let out = tempfile::tempdir().unwrap();
+    let out = out.path().to_string_lossy().into_owned();
+    for (name, ..) in SHIPPED {
+        let [file, tape] = ["toml", "mcap"].map(|kind| format!("{TAPES}{name}.{kind}"));
+        let fixed = ["simulate", &file, "--tape", &tape, "--frames", "90..91", "--out", &out, "--quiet"];
+        let said = run(&mut lightloom(&[&fixed[..], &["--device", "cpu"]].concat())).succeeded().stderr;
+        assert!(!said.contains("is not what it was"), "{name}");
+    }
+}
+
 #[test]
 fn a_frame_of_a_tape_is_simulated_as_it_is_driven() {
     let copies = Copies::new();
