@@ -8,7 +8,7 @@ use bricks::procedural::ProceduralVolume;
 use glam::{DQuat, UVec3};
 use inputs::{Event, Pose, SourceId, What};
 use proptest::prelude::*;
-use protocol::{Mark, MarkShape};
+use protocol::{Mark, MarkShape, Paint};
 use world::{Change, ToolKind};
 
 const PACE: Pace = Pace::Live { upload_bytes: 1 << 20, fade_s: 0.0 };
