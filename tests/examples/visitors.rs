@@ -6,7 +6,7 @@
 
 use image::{RgbImage, imageops};
 use lightloom_tests::data;
-use lightloom_tests::program::{lightloom, run, small_display, start};
+use lightloom_tests::program::{late_frames, lightloom, run, small_display, start};
 use lightloom_tests::results::{self, Program, Results};
 use serde_json::Value;
 use std::fs;
@@ -214,7 +214,6 @@ fn pictures() -> Result<(), String> {
     results.finish()
 }
 
-/// The example that ships, driven by the clock.
 /// The folder of the example with three wands.
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../frontend/exhibit/examples");
 
@@ -238,6 +237,7 @@ enum Stage {
     Small,
 }
 
+/// The example that ships, driven by the clock.
 fn show(seconds: u64, stage: &Stage) -> Result<(), String> {
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
@@ -279,8 +279,7 @@ fn show(seconds: u64, stage: &Stage) -> Result<(), String> {
     results.line("| --- | --- |");
     let beat = &report["beat"];
     let frames = &beat["frames"];
-    let late: u64 =
-        beat["backends"].as_array().into_iter().flatten().filter_map(|one| one["late"].as_u64()).sum();
+    let late = late_frames(beat);
     results.line(format!("| frames shown | {frames} in {seconds} s, {late} of them late |"));
     for (name, key) in [
         ("from input to screen, ms: median, 99 %, largest", "input_to_shown_ms"),

@@ -2,7 +2,7 @@
 
 use bricks::BrickSource;
 use bricks::LodRule;
-use display_config::Display;
+use display_config::{Display, Ray};
 use protocol::{FrameState, ProjectorImage};
 use rayon::prelude::*;
 pub use reference::Errors;
@@ -53,6 +53,22 @@ pub fn traced(
     let rule = lod_rule(display, frame);
     let reference = Reference::new(Arc::clone(source), frame, &rule, Integrator::default())
         .expect("a test scene has a reference");
+    let truth = |ray: &Ray| {
+        reference
+            .radiance(ray.origin_in_display, ray.direction_in_display)
+            .expect("every brick of a test scene can be read")
+    };
+    seen_by(display, frame, projectors, stride, truth)
+}
+
+/// What `sees` says of the rays of the same pixels.
+pub fn seen_by(
+    display: &Display,
+    frame: &FrameState,
+    projectors: &[u32],
+    stride: u32,
+    sees: impl Fn(&Ray) -> Radiance + Sync,
+) -> Vec<TruePixel> {
     let mut pixels = Vec::new();
     for &projector in projectors {
         let raster = &display.projectors[projector as usize].raster;
@@ -65,10 +81,7 @@ pub fn traced(
             let law = display
                 .beam_law(projector as usize, frame.observer_in_display, frame.eta)
                 .expect("a test scene goes with its display");
-            let ray = law.ray(display.pixel_on_screen(projector as usize, x, y));
-            let truth = reference
-                .radiance(ray.origin_in_display, ray.direction_in_display)
-                .expect("every brick of a test scene can be read");
+            let truth = sees(&law.ray(display.pixel_on_screen(projector as usize, x, y)));
             TruePixel { projector, x, y, truth }
         })
         .collect()

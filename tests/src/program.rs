@@ -66,6 +66,11 @@ pub fn test_data(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).to_string_lossy().into_owned()
 }
 
+/// Frames that back-ends have shown late, by the report of a show's beat.
+pub fn late_frames(beat: &Value) -> u64 {
+    beat["backends"].as_array().into_iter().flatten().filter_map(|one| one["late"].as_u64()).sum()
+}
+
 /// `lightloom` with arguments.
 pub fn lightloom<S: AsRef<str>>(arguments: &[S]) -> Command {
     let mut command = Command::new(folder_of_programs().join("lightloom"));

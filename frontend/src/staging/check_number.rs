@@ -1,6 +1,8 @@
 //! Whether two frames are the same.
 
 use crate::FrontendError;
+use glam::{DAffine3, DVec3};
+use optics::{Curve, Optics};
 use protocol::wire::encode;
 use protocol::{FrameState, FromFrontend, Mark, Pace};
 
@@ -27,8 +29,7 @@ pub fn check_number(frame: &FrameState) -> Result<u64, FrontendError> {
     let (index, pace, sub_frame, welcomes_planes) = (0, Pace::Complete, None, false);
     let bare = FrameState { index, pace, sub_frame, welcomes_planes, marks: Vec::new(), ..frame.clone() };
     let bytes = bytes_of(&bare)?;
-    let marks = frame.marks.iter().map(|mark| mark_bytes(&bare, bytes.len(), mark));
-    let marks = marks.collect::<Result<Vec<_>, _>>()?.concat();
+    let marks = mark_bytes(&frame.marks)?;
     let length = (bytes.len() - HEADER + marks.len()) as u32;
     let combined = frame.marks.iter().any(|mark| mark.is_depth_combined);
     let later = frame.marks.iter().map(|mark| u8::from(mark.is_depth_combined)).filter(|_| combined);
@@ -47,8 +48,16 @@ fn bytes_of(frame: &FrameState) -> Result<Vec<u8>, FrontendError> {
         .map_err(|error| FrontendError::Backend(error.to_string()))
 }
 
-/// The bytes of a mark but the last, which says whether it is depth-combined: those that a frame of so many gets by it.
-fn mark_bytes(bare: &FrameState, length: usize, mark: &Mark) -> Result<Vec<u8>, FrontendError> {
-    let with = bytes_of(&FrameState { marks: vec![mark.clone()], ..bare.clone() })?;
-    Ok(with[length..with.len() - 1].to_vec())
+/// The bytes of marks, without the last of each, which says whether it is depth-combined: those that a frame gets by it. Any frame
+/// will do, so it is a short one.
+fn mark_bytes(marks: &[Mark]) -> Result<Vec<u8>, FrontendError> {
+    let mut frame = FrameState::still(DVec3::Z, DAffine3::IDENTITY, Optics::grey(Curve::constant(0.0)));
+    let bare = bytes_of(&frame)?.len();
+    let mut all = Vec::new();
+    for mark in marks {
+        frame.marks = vec![mark.clone()];
+        let with = bytes_of(&frame)?;
+        all.extend(&with[bare..with.len() - 1]);
+    }
+    Ok(all)
 }

@@ -9,7 +9,7 @@ mod packets;
 mod senders;
 
 use lightloom_tests::processes::{open_files, resident_mib, signal};
-use lightloom_tests::program::{lightloom, small_display, start};
+use lightloom_tests::program::{late_frames, lightloom, small_display, start};
 use lightloom_tests::random::Random;
 use lightloom_tests::results::{Program, Results};
 use senders::{Fault, KINDS, Sender};
@@ -185,8 +185,7 @@ fn write(found: &Found, schedules: u32) -> Result<(), String> {
         ));
     }
     results.line("\n| | |\n| --- | --- |");
-    let late: u64 =
-        beat["backends"].as_array().into_iter().flatten().filter_map(|one| one["late"].as_u64()).sum();
+    let late = late_frames(beat);
     let times = |key: &str| {
         let [p50, p99, max] = ["p50", "p99", "max"].map(|name| beat[key][name].as_f64().unwrap_or(f64::NAN));
         format!("{p50:.1} / {p99:.1} / {max:.1}")

@@ -1,16 +1,14 @@
 //! Marks that are depth-combined, against what rays see if the marks are things on their way.
 
-use bricks::BrickSource;
 use display_config::{Display, Ray};
 use glam::DVec3;
-use lightloom_tests::compare::{Limits, TruePixel, errors, lod_rule};
+use lightloom_tests::compare::{Limits, TruePixel, errors, lod_rule, seen_by};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques;
 use optics::Curve;
 use protocol::{DeviceChoice, FrameState, Mark, MarkShape, Paint};
-use rayon::prelude::*;
-use reference::{Integrator, Radiance, StoredField, Tracer};
+use reference::{Integrator, Radiance, Reference};
 use std::sync::Arc;
 
 const PROJECTORS: [u32; 2] = [1, 6];
@@ -58,31 +56,22 @@ impl Wall {
 fn truth(display: &Display, scene: &TestScene, walls: &[Wall]) -> Vec<TruePixel> {
     let TestScene { frame, source, .. } = scene;
     let rule = lod_rule(display, frame);
-    let field = StoredField::new(Arc::clone(source) as Arc<dyn BrickSource>, &rule);
-    let field = if frame.quality.blended { field.blended(&rule, &frame.optics) } else { field };
-    let tracer = Tracer::new(frame, Integrator::default()).unwrap();
-    let mut pixels = Vec::new();
-    for projector in PROJECTORS {
-        let raster = &display.projectors[projector as usize].raster;
-        let along = |n: u32| (1..n).step_by(STRIDE as usize);
-        pixels.extend(along(raster.height).flat_map(|y| along(raster.width).map(move |x| (projector, x, y))));
-    }
-    let pixel = |(projector, x, y): (u32, u32, u32)| {
-        let law = display.beam_law(projector as usize, frame.observer_in_display, frame.eta).unwrap();
-        let ray = law.ray(display.pixel_on_screen(projector as usize, x, y));
+    let reference = Reference::new(Arc::clone(source), frame, &rule, Integrator::default()).unwrap();
+    seen_by(display, frame, &PROJECTORS, STRIDE, |ray| {
         let mut near: Vec<(f64, Radiance)> =
-            walls.iter().map(|wall| (wall.distance_m(&ray), wall.radiance())).collect();
+            walls.iter().map(|wall| (wall.distance_m(ray), wall.radiance())).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         let way = reference::Ray::new(ray.origin_in_display, ray.direction_in_display);
-        let part = |from: f64, to: f64| tracer.radiance_within(&field, &way, (from, to)).unwrap();
+        let part = |from: f64, to: f64| {
+            reference.tracer().radiance_within(reference.field(), &way, (from, to)).unwrap()
+        };
         let (mut seen, mut from) = (Radiance::NOTHING, 0.0);
         for (distance, wall) in near {
             seen = seen.over(part(from, distance)).over(wall);
             from = distance;
         }
-        TruePixel { projector, x, y, truth: seen.over(part(from, f64::INFINITY)) }
-    };
-    pixels.into_par_iter().map(pixel).collect()
+        seen.over(part(from, f64::INFINITY))
+    })
 }
 
 fn with_walls(frame: &FrameState, walls: &[Wall]) -> FrameState {
