@@ -6,7 +6,7 @@ use layout::{
     TableEntry, ViewBlock, binding,
 };
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use shaders::compose::{KernelKey, PresentKernel};
+use shaders::compose::{KernelKey, PresentKernel, tally_wgsl};
 use std::mem::{offset_of, size_of};
 
 fn parse(wgsl: &str) -> naga::Module {
@@ -30,6 +30,9 @@ fn every_permutation_is_valid() {
         if let Err(why) = is_valid(&key.wgsl()) {
             panic!("{key:?}: {why}");
         }
+    }
+    if let Err(why) = is_valid(&tally_wgsl()) {
+        panic!("{why}");
     }
     for kernel in PresentKernel::ALL {
         let wgsl = kernel.wgsl();

@@ -74,6 +74,8 @@ bindings! {
     LAYERS = 30;
     /// The colours of a picture with its marks.
     MARKED = 31;
+    /// The samples taken, tile by tile.
+    TALLIES = 32;
 }
 
 #[cfg(test)]

@@ -6,7 +6,9 @@ use bytemuck::{Pod, Zeroable};
 pub const TILE_EDGE: u32 = 8;
 /// Short rays are cast in rows of this many: one workgroup each.
 pub const SHORT_RAYS: u32 = 64;
-/// Set in a pixel's count of samples where its ray met a node that is too coarse.
+/// Tiles are tallied in rows of this many: one workgroup each.
+pub const TALLIED_TILES: u32 = 64;
+/// Set in a pixel's count of samples where its ray met a node that is too coarse, and in that of a tile.
 pub const MISSING: u32 = 0x8000_0000;
 
 /// The uniform block of one view. Every member fills 16 bytes.

@@ -4,8 +4,8 @@ use layout::present::{
     CODES, CURVE_NUMBERS, DITHER_BITS, HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED, MOST_PAIRS, NOWHERE,
 };
 use layout::{
-    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, SHORT_RAYS, TILE_EDGE, binding,
-    brick,
+    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, SHORT_RAYS, TALLIED_TILES,
+    TILE_EDGE, binding, brick,
 };
 use optics::MOST_ENHANCERS;
 
@@ -36,6 +36,7 @@ pub(super) fn wgsl() -> String {
         ("MISSING", MISSING),
         ("TILE_EDGE", TILE_EDGE),
         ("SHORT_RAYS", SHORT_RAYS),
+        ("TALLIED_TILES", TALLIED_TILES),
         ("DITHER_BITS", DITHER_BITS),
         ("HAS_WARP", HAS_WARP),
         ("HAS_BLEND", HAS_BLEND),

@@ -16,13 +16,16 @@
 //! | way | `way/straight`, or `way/path`, `pair` and `refracted` |
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 //!
-//! What is shown of a picture is made by kernels of their own, without slots: [`PresentKernel`].
+//! What is shown of a picture is made by kernels of their own, without slots: [`PresentKernel`]. So is
+//! what the rays of each tile counted: [`tally_wgsl`].
 
 mod chain;
 mod constants;
 mod debug_view;
 mod kernel;
 mod present;
+mod tally;
 
 pub use kernel::{Filter, KernelKey, KernelRays, Lookup};
 pub use present::PresentKernel;
+pub use tally::{TALLY_ENTRY_POINT, tally_wgsl};

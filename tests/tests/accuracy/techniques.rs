@@ -376,7 +376,8 @@ fn the_longest_chain_tells_the_same_picture() {
         let errors = compare::errors(&picture.images, &truth);
         println!("eight links: {errors}");
         assert!(KEPT_IN_A_PROBE.hold(&errors), "{errors}");
-        assert!(SAME_TO_ROUNDING.hold(&errors_between(&picture.images, &pictures[0].images)));
+        let apart = errors_between(&picture.images, &pictures[0].images);
+        assert!(SAME_TO_ROUNDING.hold(&apart), "{apart}");
     }
     for left in 0..chain.len() {
         let mut chain = chain.clone();

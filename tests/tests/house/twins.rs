@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 const SHOWS: &str = "it casts no rays: the CPU device shows with it, and nobody asks for it in f64";
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 29] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 30] = [
     ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
@@ -41,6 +41,7 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 29] = [
     ("spread/none", Some("shaders/twin/src/spread/level.rs"), "a branch in the twin"),
     ("spread/one", Some("shaders/twin/src/spread/three.rs"), "the twin of three without ancestors"),
     ("spread/two", Some("shaders/twin/src/spread/three.rs"), "the twin of three without a grandparent"),
+    ("tally", Some("backend/renderer/src/device/tiles.rs"), "the CPU device adds up as it casts"),
     ("sample/hardware", None, "the texture unit does it; its precision is measured instead"),
 ];
 

@@ -1,7 +1,7 @@
 //! Compiled kernels, each made when a device of the process first needs it.
 
 use super::pipeline_cache::PipelineCache;
-use shaders::compose::{KernelKey, PresentKernel};
+use shaders::compose::{KernelKey, PresentKernel, TALLY_ENTRY_POINT, tally_wgsl};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
@@ -22,6 +22,8 @@ fn probe(@builtin(global_invocation_id) id: vec3<u32>) {
 pub(super) enum Kernel {
     /// Casts rays.
     Cast(KernelKey),
+    /// Adds up what the rays of each tile counted.
+    Tally,
     /// Makes what is shown of what was cast.
     Present(PresentKernel),
     /// Measures the texture unit.
@@ -32,6 +34,7 @@ impl Kernel {
     fn wgsl(&self) -> Cow<'static, str> {
         match self {
             Self::Cast(key) => key.wgsl().into(),
+            Self::Tally => tally_wgsl().into(),
             Self::Present(kernel) => kernel.wgsl().into(),
             Self::FilterPrecision => FILTER_PRECISION.into(),
         }
@@ -40,6 +43,7 @@ impl Kernel {
     fn entry_point(&self) -> &'static str {
         match self {
             Self::Cast(key) => key.entry_point(),
+            Self::Tally => TALLY_ENTRY_POINT,
             Self::Present(kernel) => kernel.entry_point(),
             Self::FilterPrecision => "probe",
         }

@@ -1,11 +1,12 @@
 //! What the GPU keeps of one view: its rays and tiles, its picture and its counts.
 
 use super::context::Context;
+use super::kernels::Kernel;
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
 use crate::device::job::{CastOutcome, ViewJob};
 use crate::device::{CastJob, DeviceError};
-use layout::{MISSING, ViewBlock};
+use layout::{MISSING, TALLIED_TILES, ViewBlock, binding};
 use twin::{Lattice, ProjectorRays, ShortRay, Tiling};
 
 /// The buffers of one view.
@@ -18,7 +19,11 @@ pub(super) struct ViewBuffers {
     /// What is shown of them.
     pub(super) shown: Storage,
     pub(super) counts: Storage,
-    counts_back: Readback,
+    /// Those of the tiles of a batch, added up.
+    tallies: Storage,
+    /// Those of all batches, in the order of their casts.
+    all_tallies: Storage,
+    tallies_back: Readback,
     /// Width and height of its picture, pixels.
     raster: [u32; 2],
 }
@@ -32,7 +37,9 @@ impl ViewBuffers {
             pixels: storage("pixels"),
             shown: storage("shown pixels"),
             counts: storage("sample counts"),
-            counts_back: Readback::new(),
+            tallies: storage("sample counts of tiles"),
+            all_tallies: storage("sample counts of all tiles"),
+            tallies_back: Readback::new(),
             raster: [0, 0],
         }
     }
@@ -64,13 +71,53 @@ impl ViewBuffers {
         context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(&rays.block(&tiling)));
     }
 
-    /// Notes a copy of the counts.
-    pub(super) fn copy_counts(&mut self, context: &Context, encoder: &mut wgpu::CommandEncoder) {
-        let bytes = 4 * self.pixel_count() as u64;
-        self.counts_back.copy(context, encoder, &self.counts.buffer, bytes);
+    /// Makes room for the tallies of so many tiles.
+    pub(super) fn prepare_tallies(&mut self, context: &Context, tiles: usize) {
+        self.tallies.reserve(context, 4 * tiles as u64);
+        self.all_tallies.reserve(context, 4 * tiles as u64);
     }
 
-    /// Adds what the view's cast found to `outcome`; `index` is the view's among those of the job.
+    /// Notes that the tiles of a batch, the first of them the `first`th of the cast, are added up behind what casts them.
+    pub(super) fn tally(
+        &self,
+        context: &Context,
+        encoder: &mut wgpu::CommandEncoder,
+        first: usize,
+        tiles: usize,
+    ) {
+        let pipeline = context.kernel(Kernel::Tally);
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &[
+                entry(binding::VIEW, self.block.as_entire_binding()),
+                entry(binding::TILES, self.tiles.binding()),
+                entry(binding::COUNTS, self.counts.binding()),
+                entry(binding::TALLIES, self.tallies.binding()),
+            ],
+        });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bind_group, &[]);
+        pass.dispatch_workgroups((tiles as u32).div_ceil(TALLIED_TILES), 1, 1);
+        drop(pass);
+        let [at, bytes] = [first, tiles].map(|tiles| 4 * tiles as u64);
+        encoder.copy_buffer_to_buffer(&self.tallies.buffer, 0, &self.all_tallies.buffer, at, bytes);
+    }
+
+    /// Notes a copy of the tallies of so many tiles.
+    pub(super) fn copy_tallies(
+        &mut self,
+        context: &Context,
+        encoder: &mut wgpu::CommandEncoder,
+        tiles: usize,
+    ) {
+        self.tallies_back.copy(context, encoder, &self.all_tallies.buffer, 4 * tiles as u64);
+    }
+
+    /// Adds what the view's cast found to `outcome`; `index` is the view's among those of the job, its tiles are in the order in
+    /// which they were cast.
     pub(super) fn add_up(
         &self,
         context: &Context,
@@ -79,21 +126,16 @@ impl ViewBuffers {
         outcome: &mut CastOutcome,
     ) -> Result<(), DeviceError> {
         outcome.rays += view.ray_count();
-        if !job.counts {
+        if !job.counts || view.tiles.is_empty() {
             return Ok(());
         }
-        let counts: Vec<u32> = self.counts_back.read(context, self.pixel_count())?;
-        for &tile in view.tiles.iter() {
-            let mut is_missing = false;
-            for (x, y) in view.pixels(tile) {
-                let count = counts[y as usize * self.raster[0] as usize + x as usize];
-                outcome.samples += u64::from(count & !MISSING);
-                is_missing |= count & MISSING != 0;
-            }
-            if is_missing {
-                outcome.missing_tiles[index].push(tile);
-            }
-        }
+        let tallies: Vec<u32> = self.tallies_back.read(context, view.tiles.len())?;
+        outcome.samples += tallies.iter().map(|tally| u64::from(tally & !MISSING)).sum::<u64>();
+        let cast = view.tiles.iter().zip(&tallies);
+        let mut missing: Vec<u32> =
+            cast.filter(|(_, tally)| **tally & MISSING != 0).map(|(&tile, _)| tile).collect();
+        missing.sort_unstable();
+        outcome.missing_tiles[index].extend(missing);
         Ok(())
     }
 }

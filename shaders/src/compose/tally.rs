@@ -1,0 +1,12 @@
+//! The kernel that adds up what the rays of each tile counted.
+
+use super::constants;
+use super::kernel::module;
+
+/// The name of its entry point, which is called for each of a list of tiles.
+pub const TALLY_ENTRY_POINT: &str = "tally_tile";
+
+/// Its WGSL.
+pub fn tally_wgsl() -> String {
+    [constants::wgsl().as_str(), module!("layout"), module!("tally")].join("\n")
+}

@@ -1,0 +1,27 @@
+// What the rays of each tile counted, added up: a word a tile, so that pictures' counts stay on the device.
+
+@group(0) @binding(BINDING_TALLIES) var<storage, read_write> tallies: array<u32>;
+
+// One tile per invocation: the samples of its rays, with MISSING where any of them met a node that is too coarse.
+@compute @workgroup_size(TALLIED_TILES, 1, 1)
+fn tally_tile(@builtin(global_invocation_id) place: vec3<u32>) {
+    let listed = place.x;
+    if listed >= projector.raster.w {
+        return;
+    }
+    let tile = tiles[listed];
+    let across = projector.raster.z;
+    let corner = vec2<u32>(tile % across, tile / across) * TILE_EDGE;
+    var samples = 0u;
+    var missing = 0u;
+    for (var i = 0u; i < TILE_EDGE * TILE_EDGE; i++) {
+        let in_tiles = corner + vec2<u32>(i % TILE_EDGE, i / TILE_EDGE);
+        let pixel = in_tiles * projector.lattice.xy + projector.lattice.zw;
+        if pixel.x < projector.raster.x && pixel.y < projector.raster.y {
+            let count = counts[pixel.y * projector.raster.x + pixel.x];
+            samples += count & ~MISSING;
+            missing |= count & MISSING;
+        }
+    }
+    tallies[listed] = samples | missing;
+}
