@@ -50,6 +50,10 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
             let with = draw::With { cache_bytes: 512 << 20, ..draw::With::device(device) };
             let (mut renderer, info) = draw::renderer(display, source, projectors, with);
             results.drawn_by(&info.adapter);
+            if device != DeviceChoice::Cpu {
+                // The first frame compiles kernels.
+                draw::timed(&mut renderer, &frame, &[]);
+            }
             let (seconds, report, images) = draw::timed(&mut renderer, &frame, keep);
             let peak_mib = peak_mib();
             drop(renderer);

@@ -19,6 +19,9 @@ use twin::Real;
 const PROJECTORS: [u32; 2] = [1, 5];
 /// What two ways to round cost: see the comparison of kernel and twin.
 const SAME_TO_ROUNDING: Limits = Limits::of_255(0.002, 0.05, 1.0);
+/// The same where eight links cut a ray: each stretch has a number of steps of its own, so that there are eight times as many
+/// places where rounding makes it another, and the RMS is √8 times as large.
+const SAME_TO_ROUNDING_OF_EIGHT: Limits = Limits::of_255(0.0057, 0.05, 1.0);
 /// The same where light is bent: each of some hundred turns passes on the rounding of the turns before it, and on real
 /// data, where neighbouring rays part, a few pixels meet another surface.
 const SAME_BUT_BENT: Limits = Limits::of_255(0.05, 0.2, 8.0);
@@ -377,7 +380,7 @@ fn the_longest_chain_tells_the_same_picture() {
         println!("eight links: {errors}");
         assert!(KEPT_IN_A_PROBE.hold(&errors), "{errors}");
         let apart = errors_between(&picture.images, &pictures[0].images);
-        assert!(SAME_TO_ROUNDING.hold(&apart), "{apart}");
+        assert!(SAME_TO_ROUNDING_OF_EIGHT.hold(&apart), "{apart}");
     }
     for left in 0..chain.len() {
         let mut chain = chain.clone();
@@ -385,6 +388,6 @@ fn the_longest_chain_tells_the_same_picture() {
         let without = draw_on(&display, &told(&chain), DeviceChoice::Cpu);
         let errors = errors_between(&without.images, &pictures[0].images);
         println!("without link {left}: {errors}");
-        assert!(!SAME_TO_ROUNDING.hold(&errors), "link {left} does nothing: {errors}");
+        assert!(!SAME_TO_ROUNDING_OF_EIGHT.hold(&errors), "link {left} does nothing: {errors}");
     }
 }
