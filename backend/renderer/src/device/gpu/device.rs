@@ -188,43 +188,36 @@ impl GpuDevice {
         let mut outcome = CastOutcome::nothing(job);
         let mut cast = Vec::new();
         for (index, view) in job.view_jobs() {
-            let tiles = self.cast_view(&pipeline, key, job, &view)?;
-            outcome.left[index] = view.tiles[tiles.len()..].to_vec();
-            cast.push((index, ViewJob { tiles: tiles.into(), ..view.clone() }));
+            let done = self.cast_view(&pipeline, key, job, &view)?;
+            let (tiles, left) = view.tiles.split_at(done);
+            outcome.left[index] = left.to_vec();
+            cast.push((index, ViewJob { tiles: tiles.to_vec().into(), ..view.clone() }));
         }
         self.bring_back(job, &cast, outcome)
     }
 
-    /// Casts the tiles of a view, batch by batch, until it is asked to leave off. Those that it has cast, in
-    /// the order in which it has.
+    /// Casts the tiles of a view, batch by batch, until it is asked to leave off. How many it has cast.
     fn cast_view(
         &mut self,
         pipeline: &wgpu::ComputePipeline,
         key: KernelKey,
         job: &CastJob,
         view: &ViewJob,
-    ) -> Result<Vec<u32>, DeviceError> {
+    ) -> Result<usize, DeviceError> {
         let context = Arc::clone(&self.context);
-        let mut cast = Vec::with_capacity(view.tiles.len());
-        if job.counts {
-            self.pictures.views[view.picture].prepare_tallies(&context, view.tiles.len());
-        }
-        while cast.len() < view.tiles.len() && !(job.stop)() {
-            let done = cast.len();
+        let mut done = 0;
+        while done < view.tiles.len() && !(job.stop)() {
             let end = view.tiles.len().min(done + self.batch.tiles());
             let batch = ViewJob { tiles: self.batch.dealt(&view.tiles[done..end]).into(), ..view.clone() };
             let started = Instant::now();
             self.pictures.views[view.picture].prepare(&context, &batch);
             let mut encoder = context.new_encoder();
             self.dispatch(&mut encoder, pipeline, key, job, &batch);
-            if job.counts {
-                self.pictures.views[view.picture].tally(&context, &mut encoder, done, end - done);
-            }
             context.run(encoder)?;
             self.batch.learn(end - done, started.elapsed());
-            cast.extend_from_slice(&batch.tiles);
+            done = end;
         }
-        Ok(cast)
+        Ok(done)
     }
 
     /// Notes the cast of one view.
@@ -264,7 +257,7 @@ impl GpuDevice {
         }
         if job.counts {
             for (_, view) in cast.iter().filter(|(_, view)| !view.tiles.is_empty()) {
-                self.pictures.views[view.picture].copy_tallies(context, &mut encoder, view.tiles.len());
+                self.pictures.views[view.picture].tally(context, &mut encoder, view);
             }
         }
         context.run(encoder)?;

@@ -8,7 +8,6 @@ use crate::device::{DeviceError, FinishJob};
 use crate::present::Finisher;
 use layout::present::{HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED};
 use layout::{PresentBlock, binding};
-use rayon::prelude::*;
 use shaders::compose::PresentKernel;
 use std::collections::HashMap;
 
@@ -59,22 +58,8 @@ impl Finishing {
         self.codes_back.copy(context, &mut encoder, &self.codes.buffer, 4 * pixels as u64);
         context.run(encoder)?;
         let packed: Vec<u32> = self.codes_back.read(context, pixels)?;
-        Ok(unpacked(&packed))
+        Ok(packed.into_iter().flat_map(|pixel| [0, 8, 16].map(|shift| (pixel >> shift) as u8)).collect())
     }
-}
-
-/// Pixels that one thread unpacks at a time.
-const UNPACKED: usize = 1 << 14;
-
-/// Three codes for each pixel, of which the lowest byte is red. On all cores: a display has tens of millions.
-fn unpacked(packed: &[u32]) -> Vec<u8> {
-    let mut codes = vec![0; 3 * packed.len()];
-    codes.par_chunks_mut(3 * UNPACKED).zip(packed.par_chunks(UNPACKED)).for_each(|(codes, packed)| {
-        for (codes, pixel) in codes.chunks_exact_mut(3).zip(packed) {
-            codes.copy_from_slice(&pixel.to_le_bytes()[..3]);
-        }
-    });
-    codes
 }
 
 /// What a finisher knows, on the device.

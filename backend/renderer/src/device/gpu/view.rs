@@ -19,10 +19,8 @@ pub(super) struct ViewBuffers {
     /// What is shown of them.
     pub(super) shown: Storage,
     pub(super) counts: Storage,
-    /// Those of the tiles of a batch, added up.
+    /// Those of a cast's tiles, added up.
     tallies: Storage,
-    /// Those of all batches, in the order of their casts.
-    all_tallies: Storage,
     tallies_back: Readback,
     /// Width and height of its picture, pixels.
     raster: [u32; 2],
@@ -38,7 +36,6 @@ impl ViewBuffers {
             shown: storage("shown pixels"),
             counts: storage("sample counts"),
             tallies: storage("sample counts of tiles"),
-            all_tallies: storage("sample counts of all tiles"),
             tallies_back: Readback::new(),
             raster: [0, 0],
         }
@@ -71,20 +68,13 @@ impl ViewBuffers {
         context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(&rays.block(&tiling)));
     }
 
-    /// Makes room for the tallies of so many tiles.
-    pub(super) fn prepare_tallies(&mut self, context: &Context, tiles: usize) {
-        self.tallies.reserve(context, 4 * tiles as u64);
-        self.all_tallies.reserve(context, 4 * tiles as u64);
-    }
-
-    /// Notes that the tiles of a batch, the first of them the `first`th of the cast, are added up behind what casts them.
-    pub(super) fn tally(
-        &self,
-        context: &Context,
-        encoder: &mut wgpu::CommandEncoder,
-        first: usize,
-        tiles: usize,
-    ) {
+    /// Notes that the counts of a cast's tiles are added up, and a copy of what comes of it.
+    pub(super) fn tally(&mut self, context: &Context, encoder: &mut wgpu::CommandEncoder, view: &ViewJob) {
+        // They may have been cast in several batches.
+        self.prepare(context, view);
+        let tiles = view.tiles.len() as u32;
+        let bytes = 4 * u64::from(tiles);
+        self.tallies.reserve(context, bytes);
         let pipeline = context.kernel(Kernel::Tally);
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -100,24 +90,12 @@ impl ViewBuffers {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bind_group, &[]);
-        pass.dispatch_workgroups((tiles as u32).div_ceil(TALLIED_TILES), 1, 1);
+        pass.dispatch_workgroups(tiles.div_ceil(TALLIED_TILES), 1, 1);
         drop(pass);
-        let [at, bytes] = [first, tiles].map(|tiles| 4 * tiles as u64);
-        encoder.copy_buffer_to_buffer(&self.tallies.buffer, 0, &self.all_tallies.buffer, at, bytes);
+        self.tallies_back.copy(context, encoder, &self.tallies.buffer, bytes);
     }
 
-    /// Notes a copy of the tallies of so many tiles.
-    pub(super) fn copy_tallies(
-        &mut self,
-        context: &Context,
-        encoder: &mut wgpu::CommandEncoder,
-        tiles: usize,
-    ) {
-        self.tallies_back.copy(context, encoder, &self.all_tallies.buffer, 4 * tiles as u64);
-    }
-
-    /// Adds what the view's cast found to `outcome`; `index` is the view's among those of the job, its tiles are in the order in
-    /// which they were cast.
+    /// Adds what the view's cast found to `outcome`; `index` is the view's among those of the job.
     pub(super) fn add_up(
         &self,
         context: &Context,
@@ -130,12 +108,12 @@ impl ViewBuffers {
             return Ok(());
         }
         let tallies: Vec<u32> = self.tallies_back.read(context, view.tiles.len())?;
-        outcome.samples += tallies.iter().map(|tally| u64::from(tally & !MISSING)).sum::<u64>();
-        let cast = view.tiles.iter().zip(&tallies);
-        let mut missing: Vec<u32> =
-            cast.filter(|(_, tally)| **tally & MISSING != 0).map(|(&tile, _)| tile).collect();
-        missing.sort_unstable();
-        outcome.missing_tiles[index].extend(missing);
+        for (&tile, tally) in view.tiles.iter().zip(tallies) {
+            outcome.samples += u64::from(tally & !MISSING);
+            if tally & MISSING != 0 {
+                outcome.missing_tiles[index].push(tile);
+            }
+        }
         Ok(())
     }
 }
