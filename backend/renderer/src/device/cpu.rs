@@ -5,8 +5,8 @@ use super::rows::cast_rows;
 use super::tiles::{TileFound, cast_tiles};
 use super::under_way::UnderWay;
 use super::{
-    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShortJob, ShowJob,
-    TaggedFeedback,
+    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShortJob, ShortView,
+    ShowJob, TaggedFeedback,
 };
 use crate::present::{Thresholds, ease, reconstruct};
 use bricks::BRICK_VOXELS;
@@ -137,7 +137,7 @@ impl CpuDevice {
         Ok(outcome)
     }
 
-    pub(super) fn cast_short(&mut self, job: &ShortJob) -> Result<Vec<[f32; 4]>, DeviceError> {
+    pub(super) fn cast_short(&mut self, job: &ShortJob) -> Result<Vec<Vec<[f32; 4]>>, DeviceError> {
         let unread = no_feedback(&self.held.nodes);
         let casting = Casting {
             scene: job.scene,
@@ -146,9 +146,12 @@ impl CpuDevice {
             needs: &job.needs,
             observer: Observer { feedback: &unread },
         };
-        let cast =
-            |short: &[ShortRay]| cast_short(&casting, job.rays, short).into_iter().map(|cast| cast.rgba);
-        Ok(job.short.par_chunks(SHORT_RAYS as usize).flat_map_iter(cast).collect())
+        let colours = |view: &ShortView| {
+            let cast =
+                |short: &[ShortRay]| cast_short(&casting, view.rays, short).into_iter().map(|cast| cast.rgba);
+            view.short.par_chunks(SHORT_RAYS as usize).flat_map_iter(cast).collect()
+        };
+        Ok(job.views.iter().map(colours).collect())
     }
 
     pub(super) fn clear_feedback(&mut self) {
@@ -171,7 +174,11 @@ impl CpuDevice {
         !self.tables_of_frames.is_empty()
     }
 
-    pub(super) fn show(&mut self, job: &ShowJob) -> Result<bool, DeviceError> {
+    pub(super) fn show(&mut self, jobs: &[ShowJob]) -> Result<Vec<bool>, DeviceError> {
+        Ok(jobs.iter().map(|job| self.show_one(job)).collect())
+    }
+
+    fn show_one(&mut self, job: &ShowJob) -> bool {
         let &ShowJob { picture, raster, known, has_before, most_change } = job;
         let cast = &self.pictures[picture];
         self.shown.resize_with(self.shown.len().max(picture + 1), Vec::new);
@@ -190,7 +197,7 @@ impl CpuDevice {
                 shown.extend_from_slice(cast);
             }
         }
-        Ok(is_behind)
+        is_behind
     }
 
     pub(super) fn picture(&mut self, picture: DevicePicture) -> Result<Cow<'_, [f32]>, DeviceError> {
@@ -201,7 +208,11 @@ impl CpuDevice {
         .into())
     }
 
-    pub(super) fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
+    pub(super) fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
+        jobs.iter().map(|job| self.codes_of(job)).collect()
+    }
+
+    fn codes_of(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
         let mut rgba = self.picture(job.picture)?;
         if !job.layers.is_empty() {
             job.layers.lay_into(rgba.to_mut());

@@ -102,24 +102,25 @@ impl Device {
         on_device!(self, device => device.cast(job))
     }
 
-    /// Casts short rays: the colour of each, premultiplied by its opacity, in their order. They tell nothing of what they need.
+    /// Casts short rays: the colour of each, premultiplied by its opacity, view by view in their order. They tell nothing of what
+    /// they need.
     ///
     /// # Errors
     /// The device stopped answering.
-    pub fn cast_short(&mut self, job: &ShortJob) -> Result<Vec<[f32; 4]>, DeviceError> {
+    pub fn cast_short(&mut self, job: &ShortJob) -> Result<Vec<Vec<[f32; 4]>>, DeviceError> {
         on_device!(self, device => device.cast_short(job))
     }
 
-    /// Makes what is shown of what was cast last into a picture (see [`CastJob::first_picture`]), and of what was shown of
-    /// it before. Whether any pixel is not yet as it was cast, because it may not change by so much.
+    /// Makes what is shown of what was cast last into some pictures (see [`CastJob::first_picture`]), and of what was shown of
+    /// them before. Whether any pixel of each is not yet as it was cast, because it may not change by so much.
     ///
     /// # Errors
     /// The device stopped answering.
     ///
     /// # Panics
-    /// Where nothing was cast into it yet.
-    pub fn show(&mut self, job: &ShowJob) -> Result<bool, DeviceError> {
-        on_device!(self, device => device.show(job))
+    /// Where nothing was cast into one yet.
+    pub fn show(&mut self, jobs: &[ShowJob]) -> Result<Vec<bool>, DeviceError> {
+        on_device!(self, device => device.show(jobs))
     }
 
     /// The colours of a picture: 4 numbers per pixel, rows from the top.
@@ -133,14 +134,14 @@ impl Device {
         on_device!(self, device => device.picture(picture))
     }
 
-    /// The codes of a picture: red, green and blue of each pixel, rows from the top.
+    /// The codes of some pictures: red, green and blue of each pixel, rows from the top.
     ///
     /// # Errors
     /// The device stopped answering.
     ///
     /// # Panics
-    /// Where there is none yet.
-    pub fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
-        on_device!(self, device => device.codes(job))
+    /// Where one is not there yet.
+    pub fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
+        on_device!(self, device => device.codes(jobs))
     }
 }

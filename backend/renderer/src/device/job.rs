@@ -114,17 +114,24 @@ pub struct CastJob<'a> {
     pub stop: StopAsked<'a>,
 }
 
-/// Some rays of one projector that end early, for marks that the volume may hide.
+/// Some rays of projectors that end early, for marks that the volume may hide.
 #[derive(Clone, Copy, Debug)]
 pub struct ShortJob<'a> {
     /// The scene, in f32.
     pub scene: &'a SceneNumbers<f32>,
-    /// The projector's rays, in f32.
-    pub rays: &'a ProjectorRays<f32>,
     /// What the scene needs of a kernel.
     pub needs: Needs,
-    /// The rays.
-    pub short: &'a [ShortRay],
+    /// Of these projectors.
+    pub views: &'a [ShortView<'a>],
+}
+
+/// Those of one projector.
+#[derive(Clone, Debug)]
+pub struct ShortView<'a> {
+    /// The projector's rays, in f32.
+    pub rays: &'a ProjectorRays<f32>,
+    /// The short ones.
+    pub short: Vec<ShortRay>,
 }
 
 /// What a cast casts of one view.

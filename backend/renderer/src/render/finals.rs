@@ -2,11 +2,13 @@
 
 use super::account::milliseconds;
 use super::engine::Engine;
+use super::refining::Refining;
 use super::work::Work;
-use crate::device::{DeviceError, DevicePicture, FinishJob, Patch, ShowJob};
-use crate::present::{Raster, resampled};
+use crate::device::{Device, DeviceError, DevicePicture, FinishJob, Patch, ShowJob};
+use crate::present::{Layers, Raster, resampled};
 use planes::RasterWarp;
 use protocol::{ProjectorImage, ScreenImage};
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// One of them.
@@ -31,85 +33,141 @@ enum Shown {
     Filled,
 }
 
+impl Final {
+    /// The picture, where the device has it as it is shown.
+    fn on_device(&self) -> Option<DevicePicture> {
+        match self.picture {
+            Shown::Device(picture) => self.warp.is_none().then_some(picture),
+            Shown::Filled => None,
+        }
+    }
+
+    /// Its linear colours, with what is laid over them.
+    fn rgba<'a>(
+        &self,
+        device: &'a mut Device,
+        refining: &'a Refining,
+        layers: &Layers,
+    ) -> Result<Cow<'a, [f32]>, DeviceError> {
+        let mut rgba = match self.picture {
+            Shown::Device(picture) => device.picture(picture)?,
+            Shown::Filled => refining.shown(self.view).into(),
+        };
+        if let Some(warp) = &self.warp {
+            rgba = resampled(&rgba, warp).into();
+        }
+        for &(pixel, colour) in &self.patch {
+            rgba.to_mut()[4 * pixel as usize..][..4].copy_from_slice(&colour);
+        }
+        if !layers.is_empty() {
+            layers.lay_into(rgba.to_mut());
+        }
+        Ok(rgba)
+    }
+}
+
 impl Engine {
-    /// Has the device make what is shown of those of a frame, and hands each over as `take` takes it.
+    /// Has the device make what is shown of those of a frame, and hands them over as `give` gives them.
     pub(super) fn hand_over<T>(
         &mut self,
         work: &mut Work,
         sink: &mut dyn FnMut(T),
-        take: impl Fn(&mut Self, &Work, &Final) -> Result<T, DeviceError>,
+        give: impl Fn(&mut Self, &Work, &[Final], &mut dyn FnMut(T)) -> Result<(), DeviceError>,
     ) -> Result<(), DeviceError> {
-        for projector in std::mem::take(&mut work.finals) {
-            let started = Instant::now();
-            let Some(view) = work.view_of(projector) else { continue };
+        let projectors = std::mem::take(&mut work.finals);
+        if projectors.is_empty() {
+            return Ok(());
+        }
+        let started = Instant::now();
+        let of_frame: Vec<(u32, usize)> = projectors
+            .into_iter()
+            .filter_map(|projector| Some((projector, work.view_of(projector)?)))
+            .collect();
+        let shown = self.show(work, &of_frame)?;
+        let mut finals = Vec::with_capacity(of_frame.len());
+        for ((projector, view), (picture, is_as_cast)) in of_frame.into_iter().zip(shown) {
             let (size, warp) = (work.setting.own_raster(view), work.setting.warp(view).copied());
-            let (picture, is_as_cast) = self.show(work, projector, view)?;
             let mended = work.mended.as_mut().filter(|_| is_as_cast);
             let patch = mended.map_or_else(Patch::default, |mended| std::mem::take(&mut mended[view]));
-            let taken = take(self, work, &Final { projector, view, size, picture, warp, patch })?;
-            work.account.stages.readback_ms += milliseconds(started);
-            sink(taken);
+            finals.push(Final { projector, view, size, picture, warp, patch });
+        }
+        give(self, work, &finals, sink)?;
+        work.account.stages.readback_ms += milliseconds(started);
+        Ok(())
+    }
+
+    /// What is shown of the pictures of some projectors' views: it depends on the frames before where there are many. And whether
+    /// that is all as it was cast, where all was.
+    fn show(&mut self, work: &Work, of: &[(u32, usize)]) -> Result<Vec<(Shown, bool)>, DeviceError> {
+        if work.refined.is_some() {
+            return Ok(vec![(Shown::Filled, true); of.len()]);
+        }
+        let pictures = of.iter().map(|&(_, view)| work.picture_of(view));
+        if !work.is_of_many() {
+            return Ok(pictures.map(|picture| (Shown::Device(DevicePicture::Cast(picture)), true)).collect());
+        }
+        let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
+        let jobs: Vec<ShowJob> = of
+            .iter()
+            .map(|&(projector, view)| ShowJob {
+                picture: work.picture_of(view),
+                raster: Raster::of(work.setting.rays[view].raster),
+                known: work.known,
+                has_before: easing.has_shown(projector),
+                most_change: if work.eases { easing.most_change(projector, now_s) } else { None },
+            })
+            .collect();
+        let behind = self.device.show(&jobs)?;
+        for (&(projector, _), &is_behind) in of.iter().zip(&behind) {
+            easing.show(projector, now_s, is_behind);
+        }
+        let shown =
+            |(picture, is_behind): (usize, bool)| (Shown::Device(DevicePicture::Shown(picture)), !is_behind);
+        Ok(pictures.zip(behind).map(shown).collect())
+    }
+
+    /// Hands over linear colours.
+    pub(super) fn colours(
+        &mut self,
+        work: &Work,
+        finals: &[Final],
+        sink: &mut dyn FnMut(ProjectorImage),
+    ) -> Result<(), DeviceError> {
+        let layers = self.layers(work, finals.iter().map(|of| of.view))?;
+        for (of, layers) in finals.iter().zip(&layers) {
+            let &Final { projector, size: [width, height], .. } = of;
+            let rgba = of.rgba(&mut self.device, &self.refining, layers)?.into_owned();
+            sink(ProjectorImage { projector, width, height, rgba });
         }
         Ok(())
     }
 
-    /// What is shown of the picture of a view: it depends on the frames before where there are many. And whether that is all as it
-    /// was cast, where all was.
-    fn show(&mut self, work: &Work, projector: u32, view: usize) -> Result<(Shown, bool), DeviceError> {
-        let picture = work.picture_of(view);
-        if work.refined.is_some() {
-            return Ok((Shown::Filled, true));
+    /// Hands over the codes that projectors show pictures with.
+    pub(super) fn codes(
+        &mut self,
+        work: &Work,
+        finals: &[Final],
+        sink: &mut dyn FnMut(ScreenImage),
+    ) -> Result<(), DeviceError> {
+        let layers = self.layers(work, finals.iter().map(|of| of.view))?;
+        let finishers = &self.finishers;
+        let jobs: Vec<FinishJob> = finals
+            .iter()
+            .zip(&layers)
+            .filter_map(|(of, layers)| {
+                let (raster, finisher) = (Raster::of(of.size), &finishers[of.view]);
+                Some(FinishJob { picture: of.on_device()?, raster, layers, view: of.view, finisher })
+            })
+            .collect();
+        let mut of_device = self.device.codes(&jobs)?.into_iter();
+        for (of, layers) in finals.iter().zip(&layers) {
+            let rgb = match of.on_device().and_then(|_| of_device.next()) {
+                Some(rgb) => rgb,
+                None => finishers[of.view].codes(&of.rgba(&mut self.device, &self.refining, layers)?),
+            };
+            let &Final { projector, size: [width, height], .. } = of;
+            sink(ScreenImage { projector, width, height, rgb });
         }
-        if !work.is_of_many() {
-            return Ok((Shown::Device(DevicePicture::Cast(picture)), true));
-        }
-        let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
-        let is_behind = self.device.show(&ShowJob {
-            picture,
-            raster: Raster::of(work.setting.rays[view].raster),
-            known: work.known,
-            has_before: easing.has_shown(projector),
-            most_change: if work.eases { easing.most_change(projector, now_s) } else { None },
-        })?;
-        easing.show(projector, now_s, is_behind);
-        Ok((Shown::Device(DevicePicture::Shown(picture)), !is_behind))
-    }
-
-    /// Its linear colours.
-    pub(super) fn colours(&mut self, work: &Work, of: &Final) -> Result<ProjectorImage, DeviceError> {
-        let &Final { projector, view, size: [width, height], picture, ref warp, ref patch } = of;
-        let shown = match picture {
-            Shown::Device(picture) => self.device.picture(picture)?,
-            Shown::Filled => self.refining.shown(view).into(),
-        };
-        let mut rgba = match warp {
-            Some(warp) => resampled(&shown, warp),
-            None => shown.into_owned(),
-        };
-        for &(pixel, colour) in patch {
-            rgba[4 * pixel as usize..][..4].copy_from_slice(&colour);
-        }
-        self.layers(work, view)?.lay_into(&mut rgba);
-        Ok(ProjectorImage { projector, width, height, rgba })
-    }
-
-    /// The codes that its projector shows it with.
-    pub(super) fn codes(&mut self, work: &Work, of: &Final) -> Result<ScreenImage, DeviceError> {
-        let &Final { projector, view, size: [width, height], picture, ref warp, .. } = of;
-        let rgb = match picture {
-            Shown::Device(picture) if warp.is_none() => {
-                let (raster, layers) = (Raster::of([width, height]), &self.layers(work, view)?);
-                let finisher = &self.finishers[view];
-                self.device.codes(&FinishJob { picture, raster, layers, view, finisher })?
-            }
-            Shown::Filled if work.frame.marks.is_empty() && warp.is_none() => {
-                self.finishers[view].codes(self.refining.shown(view))
-            }
-            Shown::Device(_) | Shown::Filled => {
-                let rgba = self.colours(work, of)?.rgba;
-                self.finishers[view].codes(&rgba)
-            }
-        };
-        Ok(ScreenImage { projector, width, height, rgb })
+        Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use super::engine::Engine;
 use super::work::Work;
-use crate::device::{DeviceError, ShortJob};
+use crate::device::{DeviceError, ShortJob, ShortView};
 use crate::present::Layers;
 use layout::present::Layer;
 use needs::Needs;
@@ -11,16 +11,24 @@ use protocol::Mark;
 use twin::ShortRay;
 
 impl Engine {
-    /// What the marks of a frame lay into the picture of a view.
-    pub(super) fn layers(&mut self, work: &Work, view: usize) -> Result<Layers, DeviceError> {
-        let mut layers = Layers::default();
-        let fragments = self.fragments(work, view);
-        let mut before = self.before(work, view, &fragments)?.into_iter();
-        for Fragment { pixel, paint, place } in fragments {
-            let before = place.and_then(|_| before.next()).unwrap_or_default();
-            layers.push(pixel, Layer { before, rgb: paint.rgb, opacity: paint.opacity });
-        }
-        Ok(layers)
+    /// What the marks of a frame lay into the pictures of some views.
+    pub(super) fn layers(
+        &mut self,
+        work: &Work,
+        views: impl Iterator<Item = usize> + Clone,
+    ) -> Result<Vec<Layers>, DeviceError> {
+        let fragments: Vec<Vec<Fragment>> = views.clone().map(|view| self.fragments(work, view)).collect();
+        let before = self.before(work, views.zip(&fragments))?;
+        let layers = fragments.into_iter().zip(before).map(|(fragments, before)| {
+            let mut layers = Layers::default();
+            let mut before = before.into_iter();
+            for Fragment { pixel, paint, place } in fragments {
+                let before = place.and_then(|_| before.next()).unwrap_or_default();
+                layers.push(pixel, Layer { before, rgb: paint.rgb, opacity: paint.opacity });
+            }
+            layers
+        });
+        Ok(layers.collect())
     }
 
     /// The pixels of a frame's marks in a view.
@@ -43,23 +51,26 @@ impl Engine {
         self.pen.fragments(&frame.marks.iter().map(through).collect::<Vec<_>>(), &seen)
     }
 
-    /// What the rays of those fragments that have a place meet before it, in their order.
-    fn before(
+    /// What the rays of those fragments that have a place meet before it, view by view in their order.
+    fn before<'a>(
         &mut self,
         work: &Work,
-        view: usize,
-        fragments: &[Fragment],
-    ) -> Result<Vec<[f32; 4]>, DeviceError> {
-        let short: Vec<ShortRay> = fragments.iter().filter_map(short_ray).collect();
-        if short.is_empty() {
-            return Ok(Vec::new());
-        }
+        fragments: impl Iterator<Item = (usize, &'a Vec<Fragment>)>,
+    ) -> Result<Vec<Vec<[f32; 4]>>, DeviceError> {
         let (setting, shelf) = (&work.setting, &self.shelf);
+        let views: Vec<ShortView> = fragments
+            .map(|(view, fragments)| ShortView {
+                rays: &setting.own_rays[view],
+                short: fragments.iter().filter_map(short_ray).collect(),
+            })
+            .collect();
+        if views.iter().all(|view| view.short.is_empty()) {
+            return Ok(vec![Vec::new(); views.len()]);
+        }
         self.device.cast_short(&ShortJob {
             scene: &setting.scene,
-            rays: &setting.own_rays[view],
             needs: Needs { blends: shelf.blends, spreads: shelf.spreads, ..setting.needs },
-            short: &short,
+            views: &views,
         })
     }
 }

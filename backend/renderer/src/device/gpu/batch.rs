@@ -1,11 +1,33 @@
 //! How many tiles of a cast are handed to the driver at a time.
 
 use std::num::NonZero;
+use std::ops::Range;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
 /// Tiles of the first batch: few, because nobody knows yet how long they take.
 const FIRST: usize = 256;
+
+/// Some neighbouring items of one of many lists.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Piece {
+    pub(super) list: usize,
+    pub(super) range: Range<usize>,
+}
+
+/// The next items of lists of such lengths, of which so many are done: at most so many, of as many lists as they take.
+pub(super) fn next_pieces(lengths: &[usize], done: &[usize], most: usize) -> Vec<Piece> {
+    let mut room = most;
+    let mut pieces = Vec::new();
+    for (list, (&length, &done)) in lengths.iter().zip(done).enumerate() {
+        let end = length.min(done + room);
+        if end > done {
+            pieces.push(Piece { list, range: done..end });
+            room -= end - done;
+        }
+    }
+    pieces
+}
 
 /// A number of tiles that take about as long as a batch may, learnt from batch to batch. Whoever asks a cast to leave off
 /// waits for no longer, and drivers give up on what takes seconds.
@@ -14,6 +36,8 @@ pub(super) struct BatchSize {
     tiles: usize,
     aim: Duration,
     most: usize,
+    /// Batches that the driver has at once.
+    at_once: usize,
     /// Threads of a driver in software.
     threads: usize,
 }
@@ -22,11 +46,12 @@ impl BatchSize {
     /// Before anything has been cast. On a driver in software batches take longer: it deals tiles out to its threads
     /// beforehand, which then wait for each other, so that small batches leave threads idle.
     pub fn new(is_software: bool) -> Self {
-        let (aim, most, threads) = match is_software {
-            true => (Duration::from_secs(1), 2048, available_parallelism().map_or(1, NonZero::get)),
-            false => (Duration::from_millis(8), 16_384, 1),
+        let (aim, most, at_once, threads) = match is_software {
+            true => (Duration::from_secs(1), 2048, 1, available_parallelism().map_or(1, NonZero::get)),
+            // A GPU would idle between two of them while the host hears of the first.
+            false => (Duration::from_millis(8), 1 << 17, 2, 1),
         };
-        Self { tiles: FIRST, aim, most, threads }
+        Self { tiles: FIRST, aim, most, at_once, threads }
     }
 
     /// A batch in the order in which it is handed over. A driver in software gives each thread one stretch of it: neighbours,
@@ -38,9 +63,14 @@ impl BatchSize {
             .collect()
     }
 
-    /// Tiles of the next batch.
-    pub fn tiles(&self) -> usize {
-        self.tiles
+    /// How many batches the driver has at once.
+    pub fn at_once(&self) -> usize {
+        self.at_once
+    }
+
+    /// The next batch of lists of so many tiles, of which so many are done.
+    pub fn next(&self, lengths: &[usize], done: &[usize]) -> Vec<Piece> {
+        next_pieces(lengths, done, self.tiles)
     }
 
     /// A batch of so many tiles took so long. Small ones, at the end of a cast, tell nothing.
@@ -62,7 +92,7 @@ mod tests {
     fn batches(size: &mut BatchSize, tiles: usize, each: Duration) -> Vec<(usize, Duration)> {
         let mut left = tiles;
         std::iter::from_fn(|| {
-            let batch = left.min(size.tiles());
+            let batch = left.min(size.tiles);
             left -= batch;
             let took = each * batch as u32;
             size.learn(batch, took);
@@ -75,7 +105,7 @@ mod tests {
     fn batches_grow_to_their_aim_and_no_further() {
         for (is_software, each, largest) in [
             (false, Duration::from_micros(10), 512),
-            (false, Duration::from_nanos(1), 16_384),
+            (false, Duration::from_nanos(1), 1 << 16),
             (true, Duration::from_micros(1), 2048),
             (true, Duration::from_millis(1), 512),
         ] {
@@ -104,9 +134,31 @@ mod tests {
     }
 
     #[test]
+    fn pieces_go_through_all_lists_in_their_order() {
+        let lengths = [5, 0, 3, 9];
+        for most in [1, 2, 4, 7, 100] {
+            let mut done = [0; 4];
+            loop {
+                let pieces = next_pieces(&lengths, &done, most);
+                let items: usize = pieces.iter().map(|piece| piece.range.len()).sum();
+                assert_eq!(items, most.min(17 - done.iter().sum::<usize>()));
+                if pieces.is_empty() {
+                    break;
+                }
+                for Piece { list, range } in pieces {
+                    assert_eq!(range.start, done[list]);
+                    assert!(done[..list] == lengths[..list]);
+                    done[list] = range.end;
+                }
+            }
+            assert_eq!(done, lengths);
+        }
+    }
+
+    #[test]
     fn one_tile_is_always_cast() {
         let mut size = BatchSize::new(false);
         assert!(batches(&mut size, 1 << 10, Duration::from_secs(1)).iter().all(|(tiles, _)| *tiles >= 1));
-        assert_eq!(size.tiles(), 1);
+        assert_eq!(size.tiles, 1);
     }
 }

@@ -124,14 +124,15 @@ impl Context {
     }
 
     /// Hands work to the device, behind what it has.
-    pub(super) fn submit(&self, encoder: wgpu::CommandEncoder) {
-        self.queue.submit([encoder.finish()]);
+    pub(super) fn submit(&self, encoder: wgpu::CommandEncoder) -> wgpu::SubmissionIndex {
+        self.queue.submit([encoder.finish()])
     }
 
-    /// Submits, and waits until it is done.
-    pub(super) fn run(&self, encoder: wgpu::CommandEncoder) -> Result<(), DeviceError> {
-        self.submit(encoder);
-        self.wait()
+    /// Waits for what was submitted, and for all before it.
+    pub(super) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
+        self.after_poll(
+            self.device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None }),
+        )
     }
 
     /// Looks whether the device has done anything; waits for nothing.

@@ -4,25 +4,20 @@ use super::atlas::Atlas;
 use super::batch::BatchSize;
 use super::context::Context;
 use super::feedback::FrameFeedback;
-use super::kernels::Kernel;
 use super::pictures::Pictures;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::short::ShortRays;
 use super::storage::{Storage, uniform};
-use crate::device::job::ViewJob;
-use crate::device::{
-    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShowJob, TaggedFeedback,
-};
+use crate::device::{DeviceError, DevicePicture, FeedbackTag, FinishJob, ShowJob, TaggedFeedback};
 use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
 use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
 use protocol::{DeviceInfo, FilterChoice};
-use shaders::compose::{Filter, KernelKey, KernelRays, Lookup};
+use shaders::compose::{Filter, Lookup};
 use std::borrow::Cow;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Workgroups along x of a dispatch: a tile each.
 pub(super) const GROUPS_ACROSS: u32 = 32768;
@@ -48,14 +43,14 @@ pub struct GpuDevice {
     pub(super) index: Storage,
     pub(super) materials: Storage,
     pub(super) table_cells: Storage,
-    pictures: Pictures,
+    pub(super) pictures: Pictures,
     pub(super) feedback: Storage,
-    frame_feedback: FrameFeedback,
-    feedback_back: Readback,
+    pub(super) frame_feedback: FrameFeedback,
+    pub(super) found_back: Readback,
     pub(super) short: ShortRays,
     /// Places of the index.
-    places: usize,
-    batch: BatchSize,
+    pub(super) places: usize,
+    pub(super) batch: BatchSize,
 }
 
 impl GpuDevice {
@@ -106,8 +101,8 @@ impl GpuDevice {
             pictures: Pictures::new(&context),
             feedback: storage("feedback"),
             frame_feedback: FrameFeedback::new(&context),
-            feedback_back: Readback::new(),
-            short: ShortRays::new(&context),
+            found_back: Readback::new(),
+            short: ShortRays::new(),
             places: 0,
             batch: BatchSize::new(context.is_software),
             context,
@@ -173,103 +168,6 @@ impl GpuDevice {
         self.materials.write_if_any(&self.context, &tables.materials);
     }
 
-    pub(in crate::device) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
-        let context = Arc::clone(&self.context);
-        let _turn = context.turn();
-        self.prepare(job);
-        let key = self.key(KernelRays::OfTiles, job.needs);
-        let pipeline = context.kernel(Kernel::Cast(key));
-        let mut encoder = context.new_encoder();
-        match job.gather {
-            Gather::Own => encoder.clear_buffer(&self.feedback.buffer, 0, None),
-            Gather::Frame => self.frame_feedback.clear_stale(&mut encoder),
-        }
-        context.submit(encoder);
-        let mut outcome = CastOutcome::nothing(job);
-        let mut cast = Vec::new();
-        for (index, view) in job.view_jobs() {
-            let done = self.cast_view(&pipeline, key, job, &view)?;
-            let (tiles, left) = view.tiles.split_at(done);
-            outcome.left[index] = left.to_vec();
-            cast.push((index, ViewJob { tiles: tiles.to_vec().into(), ..view.clone() }));
-        }
-        self.bring_back(job, &cast, outcome)
-    }
-
-    /// Casts the tiles of a view, batch by batch, until it is asked to leave off. How many it has cast.
-    fn cast_view(
-        &mut self,
-        pipeline: &wgpu::ComputePipeline,
-        key: KernelKey,
-        job: &CastJob,
-        view: &ViewJob,
-    ) -> Result<usize, DeviceError> {
-        let context = Arc::clone(&self.context);
-        let mut done = 0;
-        while done < view.tiles.len() && !(job.stop)() {
-            let end = view.tiles.len().min(done + self.batch.tiles());
-            let batch = ViewJob { tiles: self.batch.dealt(&view.tiles[done..end]).into(), ..view.clone() };
-            let started = Instant::now();
-            self.pictures.views[view.picture].prepare(&context, &batch);
-            let mut encoder = context.new_encoder();
-            self.dispatch(&mut encoder, pipeline, key, job, &batch);
-            context.run(encoder)?;
-            self.batch.learn(end - done, started.elapsed());
-            done = end;
-        }
-        Ok(done)
-    }
-
-    /// Notes the cast of one view.
-    fn dispatch(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        pipeline: &wgpu::ComputePipeline,
-        key: KernelKey,
-        job: &CastJob,
-        view: &ViewJob,
-    ) {
-        let feedback = match job.gather {
-            Gather::Own => &self.feedback,
-            Gather::Frame => self.frame_feedback.table(),
-        };
-        let bind_group = self.bind(pipeline, key, &self.pictures.views[view.picture], feedback);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
-        let tiles = view.tiles.len() as u32;
-        pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
-    }
-
-    /// Brings back what a cast found.
-    fn bring_back(
-        &mut self,
-        job: &CastJob,
-        cast: &[(usize, ViewJob)],
-        mut outcome: CastOutcome,
-    ) -> Result<CastOutcome, DeviceError> {
-        let context = &self.context;
-        let mut encoder = context.new_encoder();
-        let has_own = job.gather == Gather::Own;
-        if has_own {
-            let bytes = self.feedback.used_bytes;
-            self.feedback_back.copy(context, &mut encoder, &self.feedback.buffer, bytes);
-        }
-        if job.counts {
-            for (_, view) in cast.iter().filter(|(_, view)| !view.tiles.is_empty()) {
-                self.pictures.views[view.picture].tally(context, &mut encoder, view);
-            }
-        }
-        context.run(encoder)?;
-        for (index, view) in cast {
-            self.pictures.views[view.picture].add_up(context, job, (*index, view), &mut outcome)?;
-        }
-        if has_own {
-            outcome.feedback = self.feedback_back.read(context, self.places)?;
-        }
-        Ok(outcome)
-    }
-
     pub(in crate::device) fn clear_feedback(&mut self) {
         self.frame_feedback.clear();
     }
@@ -299,9 +197,9 @@ impl GpuDevice {
         self.frame_feedback.take(&context)
     }
 
-    pub(in crate::device) fn show(&mut self, job: &ShowJob) -> Result<bool, DeviceError> {
+    pub(in crate::device) fn show(&mut self, jobs: &[ShowJob]) -> Result<Vec<bool>, DeviceError> {
         let _turn = self.context.turn();
-        self.pictures.show(&self.context, job)
+        self.pictures.show(&self.context, jobs)
     }
 
     pub(in crate::device) fn picture(
@@ -312,16 +210,9 @@ impl GpuDevice {
         Ok(self.pictures.read(&self.context, picture)?.into())
     }
 
-    pub(in crate::device) fn codes(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
+    pub(in crate::device) fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
         let _turn = self.context.turn();
-        self.pictures.codes(&self.context, job)
-    }
-
-    /// Uploads what all views of a cast share, and makes room for their pictures.
-    fn prepare(&mut self, job: &CastJob) {
-        let Self { context, pictures, .. } = self;
-        pictures.make_room(context, job.first_picture + job.views.len());
-        self.upload_scene(job.scene, &job.needs);
+        self.pictures.codes(&self.context, jobs)
     }
 }
 

@@ -2,43 +2,41 @@
 
 use super::context::Context;
 use super::present::PresentPass;
-use super::readback::Readback;
 use super::storage::Storage;
-use crate::device::{DeviceError, FinishJob};
+use crate::device::FinishJob;
 use crate::present::Finisher;
 use layout::present::{HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED};
 use layout::{PresentBlock, binding};
 use shaders::compose::PresentKernel;
 use std::collections::HashMap;
 
-/// The kernel for it, and the tables of each view.
+/// The kernel for it, the tables of each view, and the codes of the picture at which it is.
 #[derive(Debug)]
 pub(super) struct Finishing {
     pass: PresentPass,
     views: HashMap<usize, Tables>,
     codes: Storage,
-    codes_back: Readback,
 }
 
 impl Finishing {
     pub(super) fn new(context: &Context) -> Self {
         Self {
-            pass: PresentPass::new(context, PresentKernel::Finish),
+            pass: PresentPass::new(PresentKernel::Finish),
             views: HashMap::new(),
             codes: Storage::new(context, "codes"),
-            codes_back: Readback::new(),
         }
     }
 
-    /// The codes of a picture: three to a pixel.
-    pub(super) fn codes(
+    /// Notes the codes of a picture, the `place`th of a submission: what will hold a word for each pixel, until the next is
+    /// made.
+    pub(super) fn note(
         &mut self,
-        context: &Context,
+        (context, encoder): (&Context, &mut wgpu::CommandEncoder),
+        place: usize,
         picture: &Storage,
         job: &FinishJob,
-    ) -> Result<Vec<u8>, DeviceError> {
-        let pixels = job.raster.width * job.raster.height;
-        self.codes.reserve(context, 4 * pixels as u64);
+    ) -> &wgpu::Buffer {
+        self.codes.reserve(context, code_bytes(job));
         let tables = self.views.entry(job.view).or_insert_with(|| Tables::new(context, job.finisher));
         let block = PresentBlock {
             raster: [job.raster.width as u32, job.raster.height as u32, 0, 0],
@@ -53,13 +51,19 @@ impl Finishing {
             (binding::CURVES, &tables.curves),
             (binding::CODES, &self.codes),
         ];
-        self.pass.run(context, &block, picture, &others);
-        let mut encoder = context.new_encoder();
-        self.codes_back.copy(context, &mut encoder, &self.codes.buffer, 4 * pixels as u64);
-        context.run(encoder)?;
-        let packed: Vec<u32> = self.codes_back.read(context, pixels)?;
-        Ok(packed.into_iter().flat_map(|pixel| [0, 8, 16].map(|shift| (pixel >> shift) as u8)).collect())
+        self.pass.note((context, encoder), place, &block, picture, &others);
+        &self.codes.buffer
     }
+}
+
+/// Bytes of a picture's codes on the device: a word for each pixel.
+pub(super) fn code_bytes(job: &FinishJob) -> u64 {
+    4 * (job.raster.width * job.raster.height) as u64
+}
+
+/// Red, green and blue of each pixel of them.
+pub(super) fn unpacked(words: &[u8]) -> Vec<u8> {
+    words.chunks_exact(4).flat_map(|word| [word[0], word[1], word[2]]).collect()
 }
 
 /// What a finisher knows, on the device.

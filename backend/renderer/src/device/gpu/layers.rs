@@ -8,35 +8,49 @@ use layout::present::MARKED_ACROSS;
 use layout::{PresentBlock, binding};
 use shaders::compose::PresentKernel;
 
-/// The kernel for it, what it reads, and the picture that comes of it.
+/// The kernel for it, what it reads of each picture, and the one that comes of it.
 #[derive(Debug)]
 pub(super) struct Laying {
     pass: PresentPass,
+    marks: Vec<Marks>,
+    marked: Storage,
+}
+
+/// Those of one picture.
+#[derive(Debug)]
+struct Marks {
     pixels: Storage,
     layers: Storage,
-    marked: Storage,
+}
+
+impl Marks {
+    fn new(context: &Context) -> Self {
+        let storage = |label| Storage::new(context, label);
+        Self { pixels: storage("pixels with marks"), layers: storage("layers of marks") }
+    }
 }
 
 impl Laying {
     pub(super) fn new(context: &Context) -> Self {
-        let storage = |label| Storage::new(context, label);
-        Self {
-            pass: PresentPass::new(context, PresentKernel::Layers),
-            pixels: storage("pixels with marks"),
-            layers: storage("layers of marks"),
-            marked: storage("picture with marks"),
-        }
+        let marked = Storage::new(context, "picture with marks");
+        Self { pass: PresentPass::new(PresentKernel::Layers), marks: Vec::new(), marked }
     }
 
-    /// A copy of a picture with its marks.
-    pub(super) fn lay(&mut self, context: &Context, picture: &Storage, job: &FinishJob) -> &Storage {
+    /// Notes a copy of a picture with its marks, the `place`th of a submission. The next takes its room.
+    pub(super) fn note(
+        &mut self,
+        (context, encoder): (&Context, &mut wgpu::CommandEncoder),
+        place: usize,
+        picture: &Storage,
+        job: &FinishJob,
+    ) -> &Storage {
         let bytes = 16 * (job.raster.width * job.raster.height) as u64;
         self.marked.reserve(context, bytes);
-        self.pixels.write(context, job.layers.pixels());
-        self.layers.write(context, job.layers.layers());
-        let mut encoder = context.new_encoder();
+        self.marks.resize_with(self.marks.len().max(place + 1), || Marks::new(context));
+        let Marks { pixels, layers } = &mut self.marks[place];
+        pixels.write(context, job.layers.pixels());
+        layers.write(context, job.layers.layers());
         encoder.copy_buffer_to_buffer(&picture.buffer, 0, &self.marked.buffer, 0, bytes);
-        context.submit(encoder);
         let count = job.layers.pixels().len() as u32;
         let block = PresentBlock {
             raster: [MARKED_ACROSS, count.div_ceil(MARKED_ACROSS), 0, 0],
@@ -44,11 +58,11 @@ impl Laying {
             ..PresentBlock::default()
         };
         let others = [
-            (binding::MARKED_PIXELS, &self.pixels),
-            (binding::LAYERS, &self.layers),
+            (binding::MARKED_PIXELS, &*pixels),
+            (binding::LAYERS, &*layers),
             (binding::MARKED, &self.marked),
         ];
-        self.pass.run(context, &block, picture, &others);
+        self.pass.note((context, encoder), place, &block, picture, &others);
         &self.marked
     }
 }

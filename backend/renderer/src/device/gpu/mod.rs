@@ -5,6 +5,7 @@ mod atlas;
 mod batch;
 mod bind;
 mod cache_file;
+mod cast;
 mod cast_short;
 mod context;
 mod device;

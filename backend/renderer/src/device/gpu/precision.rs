@@ -47,9 +47,10 @@ pub(super) fn filter_error(
         pass.dispatch_workgroups(POINTS / 64, 1, 1);
     }
     let mut readback = Readback::new();
-    readback.copy(context, &mut encoder, &found, u64::from(POINTS) * 4);
-    context.run(encoder)?;
-    let samples: Vec<f32> = readback.read(context, POINTS as usize)?;
+    readback.begin(context, found.size());
+    readback.copy(&mut encoder, &found, found.size());
+    context.submit(encoder);
+    let samples: Vec<f32> = readback.items(context)?;
     let error = |(i, sample): (usize, &f32)| (sample - (i as f32 + 0.5) / POINTS as f32).abs();
     Ok(samples.iter().enumerate().map(error).fold(0.0, f32::max))
 }

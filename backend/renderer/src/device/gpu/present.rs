@@ -6,32 +6,35 @@ use super::storage::{Storage, uniform};
 use layout::{PresentBlock, TILE_EDGE, binding};
 use shaders::compose::PresentKernel;
 
-/// One pass over a picture: a kernel and its uniform block.
+/// A pass over pictures: a kernel, and a uniform block for each time that it is noted in one submission.
 #[derive(Debug)]
 pub(super) struct PresentPass {
     kernel: PresentKernel,
-    block: wgpu::Buffer,
+    blocks: Vec<wgpu::Buffer>,
 }
 
 impl PresentPass {
-    pub(super) fn new(context: &Context, kernel: PresentKernel) -> Self {
-        Self { kernel, block: uniform::<PresentBlock>(context, "present") }
+    pub(super) fn new(kernel: PresentKernel) -> Self {
+        Self { kernel, blocks: Vec::new() }
     }
 
-    /// Hands it to the device: reads `picture`, and reads and writes the other buffers, each under its binding.
-    pub(super) fn run(
-        &self,
-        context: &Context,
+    /// Notes it for the `place`th picture of a submission: it reads `picture`, and reads and writes the other buffers, each under
+    /// its binding.
+    pub(super) fn note(
+        &mut self,
+        (context, encoder): (&Context, &mut wgpu::CommandEncoder),
+        place: usize,
         block: &PresentBlock,
         picture: &Storage,
         others: &[(u32, &Storage)],
     ) {
         let pipeline = context.kernel(Kernel::Present(self.kernel));
-        context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(block));
-        let mut entries = vec![wgpu::BindGroupEntry {
-            binding: binding::PRESENT,
-            resource: self.block.as_entire_binding(),
-        }];
+        let blocks = self.blocks.len().max(place + 1);
+        self.blocks.resize_with(blocks, || uniform::<PresentBlock>(context, "present"));
+        let uniform = &self.blocks[place];
+        context.queue.write_buffer(uniform, 0, bytemuck::bytes_of(block));
+        let mut entries =
+            vec![wgpu::BindGroupEntry { binding: binding::PRESENT, resource: uniform.as_entire_binding() }];
         let buffers = [(binding::PICTURE, picture)].into_iter().chain(others.iter().copied());
         entries.extend(
             buffers.map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() }),
@@ -41,14 +44,10 @@ impl PresentPass {
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        let mut encoder = context.new_encoder();
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &bind_group, &[]);
-            let [width, height, ..] = block.raster.map(|along| along.div_ceil(TILE_EDGE));
-            pass.dispatch_workgroups(width, height, 1);
-        }
-        context.submit(encoder);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bind_group, &[]);
+        let [width, height, ..] = block.raster.map(|along| along.div_ceil(TILE_EDGE));
+        pass.dispatch_workgroups(width, height, 1);
     }
 }

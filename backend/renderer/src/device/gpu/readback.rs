@@ -4,25 +4,21 @@ use super::context::Context;
 use crate::device::DeviceError;
 use bytemuck::Pod;
 
-/// A host-visible buffer that grows to what is asked of it.
+/// A host-visible buffer that grows to what is asked of it: what is copied there in one submission lies in a row.
 #[derive(Debug)]
 pub(super) struct Readback {
     buffer: Option<wgpu::Buffer>,
+    used_bytes: u64,
 }
 
 impl Readback {
     pub(super) fn new() -> Self {
-        Self { buffer: None }
+        Self { buffer: None, used_bytes: 0 }
     }
 
-    /// Notes a copy of the first `bytes` of `from`; read it once the encoder has run.
-    pub(super) fn copy(
-        &mut self,
-        context: &Context,
-        encoder: &mut wgpu::CommandEncoder,
-        from: &wgpu::Buffer,
-        bytes: u64,
-    ) {
+    /// Makes room for copies of so many bytes in all; what was there is gone.
+    pub(super) fn begin(&mut self, context: &Context, bytes: u64) {
+        self.used_bytes = 0;
         if self.buffer.as_ref().is_none_or(|buffer| buffer.size() < bytes) {
             self.buffer = Some(context.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("readback"),
@@ -31,14 +27,20 @@ impl Readback {
                 mapped_at_creation: false,
             }));
         }
-        let to = self.buffer.as_ref().expect("the buffer was just made");
-        encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
     }
 
-    /// The first `count` items of what was copied.
-    pub(super) fn read<T: Pod>(&self, context: &Context, count: usize) -> Result<Vec<T>, DeviceError> {
-        let buffer = self.buffer.as_ref().expect("a copy precedes every read");
-        let slice = buffer.slice(..(count * size_of::<T>()) as u64);
+    /// Notes a copy of the first `bytes` of `from`, behind those that were noted.
+    pub(super) fn copy(&mut self, encoder: &mut wgpu::CommandEncoder, from: &wgpu::Buffer, bytes: u64) {
+        encoder.copy_buffer_to_buffer(from, 0, self.buffer(), self.used_bytes, bytes);
+        self.used_bytes += bytes;
+    }
+
+    /// Waits for the copies, which have been submitted, and hands over their bytes.
+    pub(super) fn read<T>(&self, context: &Context, take: impl FnOnce(&[u8]) -> T) -> Result<T, DeviceError> {
+        if self.used_bytes == 0 {
+            return Ok(take(&[]));
+        }
+        let slice = self.buffer().slice(..self.used_bytes);
         let (tell, told) = std::sync::mpsc::channel();
         slice.map_async(wgpu::MapMode::Read, move |outcome| {
             // The receiver waits below; a closed channel means it has already given up.
@@ -48,11 +50,17 @@ impl Readback {
         let failed =
             |why: String| DeviceError(format!("{} does not return its results: {why}", context.name));
         told.recv().map_err(|e| failed(e.to_string()))?.map_err(|e| failed(e.to_string()))?;
-        let items = {
-            let mapped = slice.get_mapped_range().map_err(|e| failed(e.to_string()))?;
-            bytemuck::pod_collect_to_vec(&mapped)
-        };
-        buffer.unmap();
-        Ok(items)
+        let taken = take(&slice.get_mapped_range().map_err(|e| failed(e.to_string()))?);
+        self.buffer().unmap();
+        Ok(taken)
+    }
+
+    /// The same, as items.
+    pub(super) fn items<T: Pod>(&self, context: &Context) -> Result<Vec<T>, DeviceError> {
+        self.read(context, bytemuck::pod_collect_to_vec)
+    }
+
+    fn buffer(&self) -> &wgpu::Buffer {
+        self.buffer.as_ref().expect("room is made before every copy")
     }
 }

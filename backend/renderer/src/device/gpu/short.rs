@@ -1,18 +1,17 @@
 //! What short rays read and write: a list of them, each with a colour of its own, beside the pictures.
 
-use super::context::Context;
 use super::readback::Readback;
 use super::view::ViewBuffers;
 
-/// Their buffers.
+/// Their buffers, a set for each view.
 #[derive(Debug)]
 pub(super) struct ShortRays {
-    pub(super) buffers: ViewBuffers,
+    pub(super) buffers: Vec<ViewBuffers>,
     pub(super) colours_back: Readback,
 }
 
 impl ShortRays {
-    pub(super) fn new(context: &Context) -> Self {
-        Self { buffers: ViewBuffers::new(context), colours_back: Readback::new() }
+    pub(super) fn new() -> Self {
+        Self { buffers: Vec::new(), colours_back: Readback::new() }
     }
 }

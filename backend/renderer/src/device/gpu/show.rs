@@ -19,29 +19,45 @@ pub(super) struct Showing {
     reconstruct: [PresentPass; MOST_PASSES],
     whole: [Storage; MOST_PASSES],
     ease: PresentPass,
-    behind: Storage,
     behind_back: Readback,
 }
 
 impl Showing {
     pub(super) fn new(context: &Context) -> Self {
-        let pass = |kernel| PresentPass::new(context, kernel);
         Self {
-            reconstruct: [(); MOST_PASSES].map(|()| pass(PresentKernel::Reconstruct)),
+            reconstruct: [(); MOST_PASSES].map(|()| PresentPass::new(PresentKernel::Reconstruct)),
             whole: [(); MOST_PASSES].map(|()| Storage::new(context, "picture without gaps")),
-            ease: pass(PresentKernel::Ease),
-            behind: Storage::new(context, "whether a picture is behind"),
+            ease: PresentPass::new(PresentKernel::Ease),
             behind_back: Readback::new(),
         }
     }
 
-    /// Makes what is shown of a view's pixels. Whether any of it is behind them.
+    /// Makes what is shown of the pixels of each view. Whether any of it is behind them.
     pub(super) fn show(
         &mut self,
         context: &Context,
+        views: &mut [ViewBuffers],
+        jobs: &[ShowJob],
+    ) -> Result<Vec<bool>, DeviceError> {
+        let mut encoder = context.new_encoder();
+        self.behind_back.begin(context, 4 * jobs.len() as u64);
+        for (place, job) in jobs.iter().enumerate() {
+            self.note((context, &mut encoder), place, &mut views[job.picture], job);
+        }
+        context.submit(encoder);
+        // Whether any picture is behind is waited for only where one can be.
+        let behind: Vec<u32> = self.behind_back.items(context)?;
+        let mut behind = behind.into_iter();
+        Ok(jobs.iter().map(|job| eases(job) && behind.next() != Some(0)).collect())
+    }
+
+    fn note(
+        &mut self,
+        (context, encoder): (&Context, &mut wgpu::CommandEncoder),
+        place: usize,
         view: &mut ViewBuffers,
         job: &ShowJob,
-    ) -> Result<bool, DeviceError> {
+    ) {
         let bytes = 16 * view.pixel_count() as u64;
         view.shown.reserve(context, bytes);
         let mut whole = None;
@@ -50,25 +66,23 @@ impl Showing {
             let (done, rest) = self.whole.split_at(i);
             let picture = done.last().unwrap_or(&view.pixels);
             let others = [(binding::BEFORE, &view.shown), (binding::WHOLE, &rest[0])];
-            self.reconstruct[i].run(context, &reconstruction(job, &pass), picture, &others);
+            let block = reconstruction(job, &pass);
+            self.reconstruct[i].note((context, &mut *encoder), place, &block, picture, &others);
             whole = Some(i);
         }
         let picture = whole.map_or(&view.pixels, |i| &self.whole[i]);
-        let eases = job.has_before && job.most_change.is_some();
-        if eases {
-            self.behind.write(context, &[0_u32; 16]);
+        encoder.clear_buffer(&view.behind.buffer, 0, None);
+        let others = [(binding::SHOWN, &view.shown), (binding::BEHIND, &view.behind)];
+        self.ease.note((context, &mut *encoder), place, &easing(job), picture, &others);
+        if eases(job) {
+            self.behind_back.copy(encoder, &view.behind.buffer, 4);
         }
-        let others = [(binding::SHOWN, &view.shown), (binding::BEHIND, &self.behind)];
-        self.ease.run(context, &easing(job, eases), picture, &others);
-        if eases { self.is_behind(context) } else { Ok(false) }
     }
+}
 
-    fn is_behind(&mut self, context: &Context) -> Result<bool, DeviceError> {
-        let mut encoder = context.new_encoder();
-        self.behind_back.copy(context, &mut encoder, &self.behind.buffer, 4);
-        context.run(encoder)?;
-        Ok(self.behind_back.read::<u32>(context, 1)? != [0])
-    }
+/// Whether a picture may fall behind what was cast.
+fn eases(job: &ShowJob) -> bool {
+    job.has_before && job.most_change.is_some()
 }
 
 fn reconstruction(job: &ShowJob, pass: &Pass) -> PresentBlock {
@@ -89,11 +103,11 @@ fn reconstruction(job: &ShowJob, pass: &Pass) -> PresentBlock {
     }
 }
 
-fn easing(job: &ShowJob, eases: bool) -> PresentBlock {
+fn easing(job: &ShowJob) -> PresentBlock {
     PresentBlock {
         raster: [job.raster.width as u32, job.raster.height as u32, 0, 0],
         numbers: [0.0, 0.0, job.most_change.unwrap_or_default(), 0.0],
-        stages: [eases.into(), 0, 0, 0],
+        stages: [eases(job).into(), 0, 0, 0],
         ..PresentBlock::default()
     }
 }

@@ -2,11 +2,9 @@
 
 use super::context::Context;
 use super::kernels::Kernel;
-use super::readback::Readback;
 use super::storage::{Storage, uniform};
-use crate::device::job::{CastOutcome, ViewJob};
-use crate::device::{CastJob, DeviceError};
-use layout::{MISSING, TALLIED_TILES, ViewBlock, binding};
+use crate::device::job::ViewJob;
+use layout::{TALLIED_TILES, ViewBlock, binding};
 use twin::{Lattice, ProjectorRays, ShortRay, Tiling};
 
 /// The buffers of one view.
@@ -18,10 +16,11 @@ pub(super) struct ViewBuffers {
     pub(super) pixels: Storage,
     /// What is shown of them.
     pub(super) shown: Storage,
+    /// Whether any of that is behind them.
+    pub(super) behind: Storage,
     pub(super) counts: Storage,
     /// Those of a cast's tiles, added up.
     tallies: Storage,
-    tallies_back: Readback,
     /// Width and height of its picture, pixels.
     raster: [u32; 2],
 }
@@ -34,9 +33,9 @@ impl ViewBuffers {
             tiles: storage("tiles"),
             pixels: storage("pixels"),
             shown: storage("shown pixels"),
+            behind: storage("whether a picture is behind"),
             counts: storage("sample counts"),
             tallies: storage("sample counts of tiles"),
-            tallies_back: Readback::new(),
             raster: [0, 0],
         }
     }
@@ -68,13 +67,17 @@ impl ViewBuffers {
         context.queue.write_buffer(&self.block, 0, bytemuck::bytes_of(&rays.block(&tiling)));
     }
 
-    /// Notes that the counts of a cast's tiles are added up, and a copy of what comes of it.
-    pub(super) fn tally(&mut self, context: &Context, encoder: &mut wgpu::CommandEncoder, view: &ViewJob) {
+    /// Notes that the counts of a cast's tiles are added up. What will hold a word for each.
+    pub(super) fn tally(
+        &mut self,
+        context: &Context,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &ViewJob,
+    ) -> &wgpu::Buffer {
         // They may have been cast in several batches.
         self.prepare(context, view);
         let tiles = view.tiles.len() as u32;
-        let bytes = 4 * u64::from(tiles);
-        self.tallies.reserve(context, bytes);
+        self.tallies.reserve(context, 4 * u64::from(tiles));
         let pipeline = context.kernel(Kernel::Tally);
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -92,28 +95,6 @@ impl ViewBuffers {
         pass.set_bind_group(0, &bind_group, &[]);
         pass.dispatch_workgroups(tiles.div_ceil(TALLIED_TILES), 1, 1);
         drop(pass);
-        self.tallies_back.copy(context, encoder, &self.tallies.buffer, bytes);
-    }
-
-    /// Adds what the view's cast found to `outcome`; `index` is the view's among those of the job.
-    pub(super) fn add_up(
-        &self,
-        context: &Context,
-        job: &CastJob,
-        (index, view): (usize, &ViewJob),
-        outcome: &mut CastOutcome,
-    ) -> Result<(), DeviceError> {
-        outcome.rays += view.ray_count();
-        if !job.counts || view.tiles.is_empty() {
-            return Ok(());
-        }
-        let tallies: Vec<u32> = self.tallies_back.read(context, view.tiles.len())?;
-        for (&tile, tally) in view.tiles.iter().zip(tallies) {
-            outcome.samples += u64::from(tally & !MISSING);
-            if tally & MISSING != 0 {
-                outcome.missing_tiles[index].push(tile);
-            }
-        }
-        Ok(())
+        &self.tallies.buffer
     }
 }
