@@ -7,3 +7,12 @@ pub fn peak_mib() -> f64 {
     line.and_then(|rest| rest.trim().trim_end_matches(" kB").parse::<f64>().ok())
         .map_or(f64::NAN, |k| k / 1024.0)
 }
+
+/// Lets [`peak_mib`] count from now on.
+///
+/// # Errors
+/// The system does not offer it.
+pub fn forget_peak() -> std::io::Result<()> {
+    // See proc(5): 5 resets the "high water mark".
+    std::fs::write("/proc/self/clear_refs", "5")
+}

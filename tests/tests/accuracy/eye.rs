@@ -14,6 +14,7 @@ use lightloom_tests::compare::lod_rule;
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::made_once::MadeOnce;
 use lightloom_tests::picture_difference::ImageDifference;
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{self, TestScene, frame, optics};
 use protocol::{DeviceChoice, FrameState, ProjectorImage};
 use rayon::prelude::*;
@@ -136,8 +137,8 @@ fn row(name: &str, x: f64, difference: &ImageDifference) {
     );
 }
 
-/// Prints the eyes' table, and gives the PSNR at each; every eye has its canary.
-fn table(display: &Display, scene: &TestScene, name: &str) -> Vec<f64> {
+/// Prints the eyes' table, and gives what each is off by; every eye has its canary.
+fn table(display: &Display, scene: &TestScene, name: &str) -> Vec<ImageDifference> {
     let images = pictures(display, scene);
     let eyes = EYES.iter().map(|&x| {
         let truth = direct(display, scene, eye_at(display, x));
@@ -145,12 +146,15 @@ fn table(display: &Display, scene: &TestScene, name: &str) -> Vec<f64> {
         let shifted = apart(&seen(display, &images, eye_at(display, x - SHIFT_M * x.signum())), &truth);
         row(name, x, &right);
         row("    an eye 0.2 m aside", x - SHIFT_M * x.signum(), &shifted);
-        (right.psnr_db, shifted.psnr_db)
+        assert!(right.psnr_db > shifted.psnr_db + CLEARLY_DB, "{name}: a wrong place for an eye passes");
+        right
     });
-    let all: Vec<(f64, f64)> = eyes.collect();
-    let is_told_apart = |&(right, shifted): &(f64, f64)| right > shifted + CLEARLY_DB;
-    assert!(all.iter().all(is_told_apart), "{name}: a wrong place for an eye passes");
-    all.into_iter().map(|(right, _)| right).collect()
+    eyes.collect()
+}
+
+/// The PSNR of each.
+fn decibels(found: &[ImageDifference]) -> Vec<f64> {
+    found.iter().map(|difference| difference.psnr_db).collect()
 }
 
 #[test]
@@ -159,7 +163,7 @@ fn an_eye_sees_the_perspective_picture_on_the_screen_and_a_blurred_one_off_it() 
     let display = holo72_small();
     let mut before = vec![f64::INFINITY; EYES.len()];
     for z in [0.0, 0.05, 0.1, 0.2, 0.3] {
-        let found = table(&display, &sheet(&display, z), &format!("sheet at {z:.2} m"));
+        let found = decibels(&table(&display, &sheet(&display, z), &format!("sheet at {z:.2} m")));
         let falls = found.iter().zip(&before).all(|(now, before)| now < before);
         assert!(falls, "z = {z} m: {found:?} dB, nearer to the screen {before:?} dB");
         before = found;
@@ -171,7 +175,7 @@ fn eyes_see_shells_and_the_cranium() {
     let _turn = draw::turn();
     let display = holo72_small();
     for scene in [Some(scenes::shells(&display)), scenes::cranium(&display)].into_iter().flatten() {
-        let found = table(&display, &scene, scene.name);
+        let found = decibels(&table(&display, &scene, scene.name));
         assert!(found.iter().all(|&psnr| psnr > LEAST_DB), "{}: {found:?} dB", scene.name);
     }
 }
@@ -233,14 +237,27 @@ fn on_a_beam_an_eye_sees_one_projector_and_no_blur() {
     }
 }
 
-/// Minutes on two cores: `cargo test --release -p lightloom-tests --test accuracy eye:: -- --ignored --nocapture`.
+/// Half an hour on two cores: `LIGHTLOOM_RESULTS=1 cargo test --release -p lightloom-tests --test accuracy -- eye:: --ignored`.
 #[test]
 #[ignore = "72 pictures of 800 × 600 for each scene"]
 fn the_table_at_full_size() {
     let _turn = draw::turn();
     let display = Display::load("holo72").unwrap();
-    table(&display, &sheet(&display, 0.0), "sheet at 0.00 m");
-    for scene in [Some(scenes::shells(&display)), scenes::cranium(&display)].into_iter().flatten() {
-        table(&display, &scene, scene.name);
+    let mut results = Results::new(Program::Tests("accuracy"), "accuracy", "eyes");
+    results.line(format!("| scene | eyes at x, m | {} |", EYES.map(|x| x.to_string()).join(" | ")));
+    results.line(format!("| --- | --- |{}", " ---: |".repeat(EYES.len())));
+    let sheet = sheet(&display, 0.0);
+    for scene in
+        [Some(sheet), Some(scenes::shells(&display)), scenes::cranium(&display)].into_iter().flatten()
+    {
+        let found = table(&display, &scene, scene.name);
+        for (what, cell) in [
+            ("PSNR, dB", (|eye| format!("{:.1}", eye.psnr_db)) as fn(&ImageDifference) -> String),
+            ("RMS / largest of 255", |eye| format!("{:.3} / {:.2}", 255.0 * eye.rms, 255.0 * eye.max)),
+        ] {
+            let cells: Vec<String> = found.iter().map(cell).collect();
+            results.line(format!("| {} | {what} | {} |", scene.name, cells.join(" | ")));
+        }
     }
+    results.finish().unwrap();
 }
