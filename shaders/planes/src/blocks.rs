@@ -68,6 +68,13 @@ impl Blocks {
         self.trim();
     }
 
+    /// Keeps the members of `other`, each moved by every number from `least` to `most`.
+    pub(crate) fn keep_moved(&mut self, other: &Self, [least, most]: [i64; 2]) {
+        for (index, word) in self.words.iter_mut().enumerate() {
+            *word &= (least..=most).fold(0, |all, by| all | other.moved_word(index, by));
+        }
+    }
+
     /// Takes out the members of `other`, each moved by every number from `least` to `most`.
     pub(crate) fn subtract_moved(&mut self, other: &Self, [least, most]: [i64; 2]) {
         for by in least..=most {
@@ -134,6 +141,12 @@ mod tests {
         all.subtract_moved(&of(70, &[0, 68]), [1, 1]);
         all.intersect(&of(70, &[0, 1, 68, 69]));
         assert_eq!(all, of(70, &[0, 68]));
+        all.keep_moved(&of(90, &[2, 4, 70]), [-3, -2]);
+        assert_eq!(all, of(70, &[0, 68]));
+        all.insert(3);
+        all.keep_moved(&of(90, &[2, 4, 70]), [-2, -1]);
+        assert_eq!(all, of(70, &[0, 3, 68]));
+        all.remove(3);
         all.remove(0);
         assert!(!all.is_empty() && all.contains(68));
         all.remove(68);

@@ -57,7 +57,7 @@ impl Classing<'_> {
                 let is_sure = bend * self.thickness <= SURE * self.tolerance;
                 slab.errors[cell * across + block] = 0.0;
                 slab.is_sure[cell * across + block] = is_sure;
-                slab.any[block] = true;
+                slab.shown.insert(block);
             }
         }
     }

@@ -74,11 +74,13 @@ pub(crate) fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
     let t = (x * splat(simd, -std::f32::consts::LOG2_E)).max(splat(simd, -126.0));
     let whole = (t + splat(simd, 0.5)).floor();
     let y = (t - whole) * splat(simd, std::f32::consts::LN_2);
-    // |y| ≤ 0.35: what the series leaves out is below 1e-8.
-    let mut sum = splat(simd, 1.0 / 5040.0);
-    for factor in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-        sum = sum * y + splat(simd, factor);
-    }
+    // |y| ≤ 0.35: what the series leaves out is below 1e-8. Pairs of terms do not wait for each other.
+    let square = y * y;
+    let low = splat(simd, 1.0) + y + (splat(simd, 0.5) + y * splat(simd, 1.0 / 6.0)) * square;
+    let high = splat(simd, 1.0 / 24.0)
+        + y * splat(simd, 1.0 / 120.0)
+        + (splat(simd, 1.0 / 720.0) + y * splat(simd, 1.0 / 5040.0)) * square;
+    let sum = low + high * (square * square);
     let exponent: i32x8<S> = whole.to_int();
     let scale: f32x8<S> = ((exponent + i32x8::splat(simd, 127)) << 23).bitcast();
     sum * scale
@@ -88,12 +90,12 @@ pub(crate) fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
 #[inline(always)]
 pub(crate) fn attenuation_mean<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
     let one = splat(simd, 1.0);
-    // The next term is x⁶/5040.
-    let mut series = splat(simd, 1.0 / 720.0);
-    for factor in [1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5] {
-        series = splat(simd, factor) - x * series;
-    }
-    let series = one - x * series;
+    // The next term is x⁶/5040. Pairs of terms do not wait for each other.
+    let square = x * x;
+    let first = one - x * splat(simd, 0.5);
+    let second = splat(simd, 1.0 / 6.0) - x * splat(simd, 1.0 / 24.0);
+    let third = splat(simd, 1.0 / 120.0) - x * splat(simd, 1.0 / 720.0);
+    let series = first + square * (second + square * third);
     let is_small = x.simd_lt(splat(simd, 0.25));
     if is_small.all_true() {
         return series;

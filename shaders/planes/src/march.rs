@@ -227,6 +227,8 @@ impl March<'_> {
             }
             for (view, state) in views.iter_mut().enumerate() {
                 if pixels_of(state, reaches[view], &need[spacing], closer, pixels) {
+                    let [least, most] = slab.reach(fan, view);
+                    pixels.keep_moved(&slab.shown, [-most, -least]);
                     let sweep = Sweep {
                         fan,
                         slab,

@@ -51,8 +51,8 @@ pub struct Slab {
     pub(crate) errors: Vec<f32>,
     /// Likewise, whether those between columns are known to be small.
     pub(crate) is_sure: Vec<bool>,
-    /// Of each block, whether anything shows in the slab.
-    pub(crate) any: Vec<bool>,
+    /// Blocks that show anything.
+    pub(crate) shown: Blocks,
     /// Whether part of it lies outside the volume.
     pub(crate) is_outer: bool,
 }
@@ -135,8 +135,7 @@ impl Slab {
         self.errors.resize(cells * across, EMPTY);
         self.is_sure.clear();
         self.is_sure.resize(cells * across, false);
-        self.any.clear();
-        self.any.resize(across, false);
+        self.shown.clear(across);
     }
 
     /// The blocks that the first block of a view's pixels meets, counted from the slab's first: the least and the most. Its

@@ -100,33 +100,18 @@ impl<S: Simd> Met<'_, S> {
 }
 
 impl Sweep<'_> {
-    /// Adds what the slab shows to some blocks of a view's row.
+    /// Adds what the slab shows to some blocks of a view's row, which all meet something.
     #[inline(always)]
     pub(crate) fn add<S: Simd>(&self, simd: S, view: &mut ViewRow, pixels: &Blocks, places: &mut Places) {
-        let Self { fan, slab, .. } = *self;
-        let reach = slab.reach(fan, self.view);
-        let last = slab.blocks_across() as i64 - 1;
-        let termination = self.steep.casting.scene.termination;
-        let mut is_placed = false;
+        if pixels.is_empty() {
+            return;
+        }
+        places.find(self.slab, self.fan, self.view);
         for block in pixels.iter() {
-            let touched = [reach[0] + block as i64, reach[1] + block as i64];
-            if touched[1] < 0 || touched[0] > last {
-                continue;
-            }
-            let touched = touched.map(|block| block.clamp(0, last) as usize);
-            if !slab.any[touched[0]..=touched[1]].contains(&true) {
-                continue;
-            }
-            if !is_placed {
-                places.find(slab, fan, self.view);
-                is_placed = true;
-            }
-            let at = block * LANES;
             let is_closed = if self.is_by_pixel {
                 self.add_pixels(simd, view, places, block)
             } else {
-                self.add_block(simd, view, places, block);
-                view.rgba[3][at..at + LANES].iter().all(|&alpha| 1.0 - alpha < termination)
+                self.add_block(simd, view, places, block)
             };
             if is_closed {
                 view.open.remove(block);
@@ -134,8 +119,9 @@ impl Sweep<'_> {
         }
     }
 
+    /// Whether none of its pixels sees any farther.
     #[inline(always)]
-    fn add_block<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &Places, block: usize) {
+    fn add_block<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &Places, block: usize) -> bool {
         let slab = self.slab;
         let at = block * LANES;
         let mut rgb = each!(c of 3 => load(simd, &view.rgba[c], at));
@@ -202,6 +188,7 @@ impl Sweep<'_> {
             value.store_slice(&mut view.rgba[c][at..at + LANES]);
         }
         alpha.store_slice(&mut view.rgba[3][at..at + LANES]);
+        (one - alpha).simd_lt(splat(simd, self.steep.casting.scene.termination)).all_true()
     }
 
     /// Adds a cell that is too steep for means. What its back looks up, and the cell behind, if that was looked up.
