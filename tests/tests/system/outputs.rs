@@ -100,9 +100,10 @@ fn outputs_that_change_and_windows_that_close_are_followed() {
     (0..4).for_each(shows);
     server.xrandr(&["--output", "DUMMY3", "--mode", "640x400", "--pos", "640x480"]);
     server.xrandr(&["--output", "DUMMY0", "--mode", "640x400", "--pos", "0x0"]);
-    // What the windows of the old sizes show is right as well.
-    server.wait_for("two windows less high", |server| {
-        windows(server).iter().filter(|&&window| height(server, window) == Some(400)).count() == 2
+    // What the windows of the old sizes show is right as well; they go when the new ones are there.
+    server.wait_for("two windows less high in place of two others", |server| {
+        let seen = windows(server);
+        seen.len() == 4 && seen.iter().filter(|&&window| height(server, window) == Some(400)).count() == 2
     });
     (0..4).for_each(shows);
     let first = windows(&server)[0];
