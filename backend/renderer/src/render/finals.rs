@@ -102,9 +102,9 @@ impl Engine {
         if work.refined.is_some() {
             return Ok(vec![(Shown::Filled, true); of.len()]);
         }
-        let pictures = of.iter().map(|&(_, view)| work.picture_of(view));
         if !work.is_of_many() {
-            return Ok(pictures.map(|picture| (Shown::Device(DevicePicture::Cast(picture)), true)).collect());
+            let cast = |&(_, view): &(u32, usize)| DevicePicture::Cast(work.picture_of(view));
+            return Ok(of.iter().map(|of| (Shown::Device(cast(of)), true)).collect());
         }
         let (easing, now_s) = (&mut self.easing, self.live.now_s(&work.frame));
         let jobs: Vec<ShowJob> = of
@@ -121,9 +121,10 @@ impl Engine {
         for (&(projector, _), &is_behind) in of.iter().zip(&behind) {
             easing.show(projector, now_s, is_behind);
         }
-        let shown =
-            |(picture, is_behind): (usize, bool)| (Shown::Device(DevicePicture::Shown(picture)), !is_behind);
-        Ok(pictures.zip(behind).map(shown).collect())
+        let shown = |(job, is_behind): (&ShowJob, bool)| {
+            (Shown::Device(DevicePicture::Shown(job.picture)), !is_behind)
+        };
+        Ok(jobs.iter().zip(behind).map(shown).collect())
     }
 
     /// Hands over linear colours.

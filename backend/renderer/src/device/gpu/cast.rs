@@ -2,8 +2,9 @@
 //! is done.
 
 use super::batch::Piece;
-use super::device::{GROUPS_ACROSS, GpuDevice};
+use super::device::GpuDevice;
 use super::kernels::Kernel;
+use super::pass::{in_rows, note_pass};
 use crate::device::job::ViewJob;
 use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
 use layout::{FeedbackEntry, MISSING};
@@ -95,11 +96,7 @@ impl GpuDevice {
             Gather::Frame => self.frame_feedback.table(),
         };
         let bind_group = self.bind(pipeline, key, &self.pictures.views[view.picture], feedback);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
-        let tiles = view.tiles.len() as u32;
-        pass.dispatch_workgroups(tiles.min(GROUPS_ACROSS), tiles.div_ceil(GROUPS_ACROSS), 1);
+        note_pass(encoder, pipeline, &bind_group, in_rows(view.tiles.len() as u32));
     }
 
     /// Brings back what a cast found: feedback, and a tally of each tile, view by view.

@@ -1,8 +1,9 @@
 //! Short rays on the GPU.
 
 use super::batch::{Piece, next_pieces};
-use super::device::{GROUPS_ACROSS, GpuDevice};
+use super::device::GpuDevice;
 use super::kernels::Kernel;
+use super::pass::{in_rows, note_pass};
 use super::short::ShortRays;
 use super::view::ViewBuffers;
 use crate::device::{DeviceError, ShortJob};
@@ -53,12 +54,8 @@ impl GpuDevice {
             let buffers = &self.short.buffers[place];
             // What they meet is noted where nobody looks: the whole rays of their pixels have told it.
             let bind_group = self.bind(&pipeline, key, buffers, &self.feedback);
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &bind_group, &[]);
             let groups = (short.len() as u32).div_ceil(SHORT_RAYS);
-            pass.dispatch_workgroups(groups.min(GROUPS_ACROSS), groups.div_ceil(GROUPS_ACROSS), 1);
-            drop(pass);
+            note_pass(&mut encoder, &pipeline, &bind_group, in_rows(groups));
             let ShortRays { buffers, colours_back } = &mut self.short;
             colours_back.copy(&mut encoder, &buffers[place].pixels.buffer, 16 * short.len() as u64);
         }

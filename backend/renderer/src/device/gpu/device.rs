@@ -19,9 +19,6 @@ use shaders::compose::{Filter, Lookup};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Workgroups along x of a dispatch: a tile each.
-pub(super) const GROUPS_ACROSS: u32 = 32768;
-
 /// A device with its brick cache.
 #[derive(Debug)]
 pub struct GpuDevice {

@@ -13,6 +13,7 @@ mod feedback;
 mod finish;
 mod kernels;
 mod layers;
+mod pass;
 mod pictures;
 mod pipeline_cache;
 mod precision;

@@ -3,6 +3,7 @@
 use super::atlas::Atlas;
 use super::context::Context;
 use super::kernels::Kernel;
+use super::pass::note_pass;
 use super::readback::Readback;
 use crate::device::DeviceError;
 use bricks::{BRICK_EDGE, BRICK_VOXELS};
@@ -40,12 +41,7 @@ pub(super) fn filter_error(
         ],
     });
     let mut encoder = context.new_encoder();
-    {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
-        pass.dispatch_workgroups(POINTS / 64, 1, 1);
-    }
+    note_pass(&mut encoder, &pipeline, &bind_group, [POINTS / 64, 1]);
     let mut readback = Readback::new();
     readback.begin(context, found.size());
     readback.copy(&mut encoder, &found, found.size());

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::kernels::Kernel;
+use super::pass::note_pass;
 use super::storage::{Storage, uniform};
 use layout::{PresentBlock, TILE_EDGE, binding};
 use shaders::compose::PresentKernel;
@@ -44,10 +45,7 @@ impl PresentPass {
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
         let [width, height, ..] = block.raster.map(|along| along.div_ceil(TILE_EDGE));
-        pass.dispatch_workgroups(width, height, 1);
+        note_pass(encoder, &pipeline, &bind_group, [width, height]);
     }
 }

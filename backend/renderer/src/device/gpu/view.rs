@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::kernels::Kernel;
+use super::pass::note_pass;
 use super::storage::{Storage, uniform};
 use crate::device::job::ViewJob;
 use layout::{TALLIED_TILES, ViewBlock, binding};
@@ -90,11 +91,7 @@ impl ViewBuffers {
                 entry(binding::TALLIES, self.tallies.binding()),
             ],
         });
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
-        pass.dispatch_workgroups(tiles.div_ceil(TALLIED_TILES), 1, 1);
-        drop(pass);
+        note_pass(encoder, &pipeline, &bind_group, [tiles.div_ceil(TALLIED_TILES), 1]);
         &self.tallies.buffer
     }
 }
