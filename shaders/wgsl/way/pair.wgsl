@@ -1,9 +1,10 @@
 // A pair of steps of a bent ray, with a turn in its middle.
 
-// Pairs over which the index changes by more than this are halved, as are those that turn a ray too coarsely, at most
-// MOST_HALVINGS times.
-const LARGE_CHANGE: f32 = 0.004;
-const MOST_HALVINGS: u32 = 4u;
+// Pairs over which the index changes by more than this, squared and per unit of the tolerance, are halved, as are those that
+// turn a ray too coarsely, at most MOST_HALVINGS times, to a thousandth of a voxel. What the middle of a pair errs where the
+// index changes along it falls with the square of that change.
+const LARGE_CHANGE_SQUARED: f32 = 0.16;
+const MOST_HALVINGS: u32 = 8u;
 // Steps by which a surface on a pair is found: a bend of the scalar's profile leaves less than rounding after so many.
 const SURFACE_STEPS: u32 = 8u;
 // A surface is met this share of a step ahead at least, so that the way goes on.
@@ -89,7 +90,8 @@ fn lay(walk: ptr<function, Walk>, brick: Brick, longest: f32) -> Laid {
     let index = index_at(side, laid.s0);
     var force = vec3<f32>(0.0);
     for (var left = MOST_HALVINGS; ; left--) {
-        if left == 0u || abs(index_at(side, laid.s2) - index) <= LARGE_CHANGE {
+        let change = index_at(side, laid.s2) - index;
+        if left == 0u || change * change <= LARGE_CHANGE_SQUARED * scene.quality.w {
             laid.turn = NOTHING;
             force = vec3<f32>(0.0);
             if bends(side, laid.s0, laid.s2) {

@@ -14,8 +14,8 @@ const PAIRS: f64 = 20.0;
 const MOST_OF_CONDITION: f64 = 4.0;
 /// A code.
 const CODE: f64 = 1.0 / 255.0;
-/// How much shorter steps are where it is asked whether they were too long.
-const SHORTER: f64 = 4.0;
+/// How much shorter steps are where it is asked whether they were too long: by the second, if the first is not enough.
+const SHORTER: [f64; 2] = [4.0, 16.0];
 /// Share of the pixels that may be off their limit, whatever the steps: a table has 1023 cells, and where extinction jumps or
 /// bends within one of them, a pixel whose scalars stay in that cell shows what lies beyond.
 const WRONG: f64 = 0.002;
@@ -39,7 +39,8 @@ pub struct Verdict {
     pub pixels: usize,
     /// Beyond what quality promises, within what rounding does to them.
     pub ill: usize,
-    /// Beyond both, but not where steps are a quarter as long: something lay unseen between two samples.
+    /// Beyond both, but not where steps are a quarter or a sixteenth as long: something lay unseen between two samples, or
+    /// bent light grazed a surface.
     pub unseen: usize,
     /// Beyond both at all steps.
     pub wrong: usize,
@@ -105,12 +106,14 @@ impl<'a> Judge<'a> {
         let errors: Vec<f64> = (0..self.pixels()).map(|i| self.error(images, i)).collect();
         let beyond: Vec<usize> = (0..errors.len()).filter(|&i| errors[i] > self.promise()).collect();
         let off: Vec<usize> = beyond.par_iter().copied().filter(|&i| errors[i] > self.limit(i)).collect();
-        let wrong = if off.is_empty() {
-            0
-        } else {
-            let closer = again(closer(&self.quality));
-            off.iter().filter(|&&i| self.error(&closer, i) > self.limit(i)).count()
-        };
+        let mut wrong = off.clone();
+        for shorter in SHORTER {
+            if !wrong.is_empty() {
+                let closer = again(closer(&self.quality, shorter));
+                wrong.retain(|&i| self.error(&closer, i) > self.limit(i));
+            }
+        }
+        let wrong = wrong.len();
         Verdict {
             pixels: errors.len(),
             ill: beyond.len() - off.len(),
@@ -148,12 +151,13 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Quality by which a second-order error is a sixteenth.
-fn closer(quality: &Quality) -> Quality {
+/// Quality by which a second-order error falls with the square of `shorter`.
+fn closer(quality: &Quality, shorter: f64) -> Quality {
+    let square = shorter * shorter;
     Quality {
-        step_voxels: (quality.step_voxels / SHORTER).max(Quality::STEPS_VOXELS.0),
-        tolerance: (quality.tolerance / (SHORTER * SHORTER)).max(Quality::LEAST_TOLERANCE),
-        termination: quality.termination / (SHORTER * SHORTER),
+        step_voxels: (quality.step_voxels / shorter).max(Quality::STEPS_VOXELS.0),
+        tolerance: (quality.tolerance / square).max(Quality::LEAST_TOLERANCE),
+        termination: quality.termination / square,
         ..*quality
     }
 }

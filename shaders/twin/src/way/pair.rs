@@ -13,8 +13,8 @@ use crate::{Casting, Real, vector::Vec3};
 use layout::NodeRecord;
 
 /// See `wgsl/way/pair.wgsl` for these four.
-const LARGE_CHANGE: f64 = 0.004;
-const MOST_HALVINGS: u32 = 4;
+const LARGE_CHANGE_SQUARED: f64 = 0.16;
+const MOST_HALVINGS: u32 = 8;
 const SURFACE_STEPS: u32 = 8;
 const LEAST_STEP: f64 = 0.01;
 
@@ -113,9 +113,9 @@ impl<F: Real> Walk<F> {
         let mut s1 = brick.scalar_at::<K>(casting, &ray, t0 + step);
         self.cast.samples += 3;
         for left in (0..=MOST_HALVINGS).rev() {
-            let is_large =
-                (side.index_at(tables, s2) - side.index_at(tables, s0)).abs() > F::of(LARGE_CHANGE);
-            if left == 0 || !is_large {
+            let change = side.index_at(tables, s2) - side.index_at(tables, s0);
+            let most = F::of(LARGE_CHANGE_SQUARED) * casting.scene.tolerance;
+            if left == 0 || change * change <= most {
                 let bends = side.bends(tables, s0, s2);
                 let gradient = bends.then(|| Gradients::new::<K>(casting, brick, &ray, t0 + step).at);
                 let force = gradient.map_or(Vec3::ZERO, |g| g * side.slope(tables, s0, s2));
