@@ -82,11 +82,12 @@ struct Step {
     length: f32,
 }
 
-// Adds one step, cut into parts.
-fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, parts: f32) -> Accumulated {
+// Adds one step, cut into parts, as far as anything can be seen. Yields the number of samples taken.
+fn add_parts(accumulated: ptr<function, Accumulated>, brick: Brick, ray: Ray, step: Step, parts: f32) -> u32 {
     let part = step.length / parts;
     let thickness = scene.quality.z * part;
-    var front = front_of_step;
+    var front = *accumulated;
+    var samples = 0u;
     var alone = vec4<f32>(0.0);
     var from_s = step.s0;
     var from_located = locate(from_s);
@@ -95,6 +96,7 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
         var to_s = step.s1;
         if j < parts {
             to_s = scalar_at(brick, ray, t);
+            samples += 1u;
         }
         let to_located = locate(to_s);
         let middle = t - 0.5 * part;
@@ -111,6 +113,9 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
                 alone += light * (1.0 - alone.w);
             } else {
                 front = composite(front, light, sample);
+                if still_to_come(front) < scene.quality.y {
+                    break;
+                }
             }
         }
         from_s = to_s;
@@ -119,13 +124,14 @@ fn add_parts(front_of_step: Accumulated, brick: Brick, ray: Ray, step: Step, par
     if ONCE_PER_STEP {
         front = composite(front, alone, step.whole);
     }
-    return front;
+    *accumulated = front;
+    return samples;
 }
 
 // Adds a pair of steps that meets nothing but scalars within `range`, each step standing for a spread: the first along one straight path, the second along
-// another, which is the same where light is not bent. Yields the number of parts that each was cut into.
+// another, which is the same where light is not bent. Yields the number of samples taken between those given.
 fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
-    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>, spreads: vec2<f32>) -> f32 {
+    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>, spreads: vec2<f32>) -> u32 {
     let thickness = scene.quality.z * step;
     var pair = pair_of(s0, s1, s2, range, spreads);
     let middle = t0 + step;
@@ -151,8 +157,9 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
         *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
         *front = add_whole(*front, pair.second, thickness, light, next_ray, t1 + 0.5 * step);
     } else {
-        *front = add_parts(*front, brick, ray, Step(pair.first, s0, s1, t0, step), parts);
-        *front = add_parts(*front, next_brick, next_ray, Step(pair.second, s1, s2, t1, step), parts);
+        var samples = add_parts(front, brick, ray, Step(pair.first, s0, s1, t0, step), parts);
+        samples += add_parts(front, next_brick, next_ray, Step(pair.second, s1, s2, t1, step), parts);
+        return samples;
     }
-    return parts;
+    return 0u;
 }

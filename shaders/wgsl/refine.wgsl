@@ -2,6 +2,8 @@
 
 // A step is split into this many parts at most.
 const MOST_PARTS: f32 = 16.0;
+// The same for a pair whose parts are opaque: light comes from the first few of them.
+const MOST_DEEP_PARTS: f32 = 1024.0;
 // Steps grow to this many voxels at most.
 const LONGEST_STEP: f32 = 1.0;
 // Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
@@ -67,6 +69,8 @@ fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>, spreads: vec2<f32>) -> P
 // Three things cause errors. Where the scalar bends, `both` differs from the mean of the two steps, and something between
 // the samples may have been missed. Where colours differ, light taken as if it came from anywhere in a step is off by up
 // to the product of both depths; so is whatever varies with the place. The first falls with the square of the parts.
+// Where a part is opaque, it shows the colours of all its length in place of those in front: that falls with the parts
+// alone, until they are no deeper than one.
 fn parts_of_step(pair: Pair, thickness: f32, visible: f32, spread: f32) -> f32 {
     let first = pair.first.k;
     let second = pair.second.k;
@@ -77,7 +81,12 @@ fn parts_of_step(pair: Pair, thickness: f32, visible: f32, spread: f32) -> f32 {
     let order = abs(first.xyz * second.w - second.xyz * first.w) * order_scale;
     let uneven = first.w * second.w * order_scale * (SHADE_SPREAD + spread);
     let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, uneven)));
-    return clamp(ceil(sqrt(worst * visible / scene.quality.w)), 1.0, MOST_PARTS);
+    let errors = worst * visible / scene.quality.w;
+    let parts = clamp(ceil(sqrt(errors)), 1.0, MOST_PARTS);
+    if depth <= parts {
+        return parts;
+    }
+    return max(min(ceil(min(2.0 * errors, depth)), MOST_DEEP_PARTS), parts);
 }
 
 // The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the larger

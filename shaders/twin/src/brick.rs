@@ -160,7 +160,7 @@ fn add_whole<F: Real, K: Kernel>(
     K::Composite::composite(casting, front, light, sample)
 }
 
-/// Adds one step, split into parts.
+/// Adds one step, split into parts, as far as anything can be seen. Returns what was gathered, and the number of samples taken.
 #[inline(always)]
 fn add_parts<F: Real, K: Kernel, W: Along<F>>(
     casting: &Casting<F>,
@@ -168,7 +168,7 @@ fn add_parts<F: Real, K: Kernel, W: Along<F>>(
     front: Accumulated<F>,
     step: &Step<F, W>,
     parts: F,
-) -> Accumulated<F> {
+) -> (Accumulated<F>, u32) {
     if K::IS_FULL {
         add_parts_apart::<F, K, W>(casting, chain, front, step, parts)
     } else {
@@ -184,7 +184,7 @@ fn add_parts_apart<F: Real, K: Kernel, W: Along<F>>(
     front: Accumulated<F>,
     step: &Step<F, W>,
     parts: F,
-) -> Accumulated<F> {
+) -> (Accumulated<F>, u32) {
     add_parts_here::<F, K, W>(casting, chain, front, step, parts)
 }
 
@@ -195,7 +195,7 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
     mut front: Accumulated<F>,
     step: &Step<F, W>,
     parts: F,
-) -> Accumulated<F> {
+) -> (Accumulated<F>, u32) {
     let (way, ray) = (&step.way, step.way.ray());
     let part = step.length / parts;
     let thickness = casting.scene.extinction_per_metre * part;
@@ -204,9 +204,14 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
     let (mut from, end) = step.scalars;
     let mut from_located = locate(casting.tables, from);
     let count = parts.to_index();
+    let mut samples = 0;
     for j in 1..=count {
         let t = step.t0 + F::of_u32(j) * part;
-        let to = if j < count { way.scalar_at::<K>(casting, t) } else { end };
+        let mut to = end;
+        if j < count {
+            to = way.scalar_at::<K>(casting, t);
+            samples += 1;
+        }
         let to_located = locate(casting.tables, to);
         let middle = t - half * part;
         let spread = way.spread_at::<K>(casting, middle);
@@ -218,10 +223,10 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
             if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
                 gradients = way.gradients_at::<K>(casting, middle);
             }
-            let mut samples = [plain];
+            let mut enhanced = [plain];
             let segment = Segment { ray, t: middle, length: part, scalars: (from, to) };
-            chain.enhance::<K, 1>(casting, &mut samples, [segment], &gradients);
-            let [sample] = samples;
+            chain.enhance::<K, 1>(casting, &mut enhanced, [segment], &gradients);
+            let [sample] = enhanced;
             let light = if sample.k[3] > F::ZERO {
                 let material = material_between::<F, K>(casting, from, to);
                 K::Shade::lighting(casting, &gradients, ray, material)
@@ -234,25 +239,27 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
                 alone = alone.then(light);
             } else {
                 front = K::Composite::composite(casting, front, light, &sample);
+                if K::Composite::still_to_come(casting, front) < casting.scene.termination {
+                    break;
+                }
             }
         }
         (from, from_located) = (to, to_located);
     }
     if K::Composite::ONCE_PER_STEP {
-        K::Composite::composite(casting, front, alone, &step.whole)
-    } else {
-        front
+        front = K::Composite::composite(casting, front, alone, &step.whole);
     }
+    (front, samples)
 }
 
-/// Adds a pair of steps. Returns what was gathered, and the number of parts that each step was split into.
+/// Adds a pair of steps. Returns what was gathered, and the number of samples taken between those given.
 #[inline(always)]
 pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     casting: &Casting<F>,
     chain: &Chain<F>,
     front: Accumulated<F>,
     steps: &PairOfSteps<F, W>,
-) -> (Accumulated<F>, F) {
+) -> (Accumulated<F>, u32) {
     let scene = casting.scene;
     let PairOfSteps { first, second, t: [t0, t1], length, scalars: [s0, s1, s2], range, spreads } = *steps;
     let thickness = scene.extinction_per_metre * length;
@@ -285,9 +292,10 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
         .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
     if parts > F::ONE {
         let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };
-        let front = add_parts::<F, K, W>(casting, chain, front, &step, parts);
+        let (front, near) = add_parts::<F, K, W>(casting, chain, front, &step, parts);
         let step = Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length };
-        return (add_parts::<F, K, W>(casting, chain, front, &step, parts), parts);
+        let (front, far) = add_parts::<F, K, W>(casting, chain, front, &step, parts);
+        return (front, near + far);
     }
     // The light in the middle of the pair serves both steps.
     let mut light = Lighting::NONE;
@@ -299,5 +307,5 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
         light = K::Shade::lighting(casting, &gradients, first.ray(), material);
     }
     let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray(), t0 + half));
-    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray(), t1 + half)), parts)
+    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray(), t1 + half)), 0)
 }

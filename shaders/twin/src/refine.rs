@@ -12,6 +12,8 @@ use super::traverse::voxel_edge;
 use super::{Casting, Real, ray::Ray};
 use layout::NodeRecord;
 
+/// The same for a pair whose parts are opaque: light comes from the first few of them.
+const MOST_DEEP_PARTS: f64 = 1024.0;
 /// Steps grow to this many voxels at most.
 const LONGEST_STEP: f64 = 1.0;
 
@@ -107,7 +109,12 @@ pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: 
     let uneven = first[3] * second[3] * spread;
     let worst_order = order[0].most(order[1]).most(order[2].most(uneven)) * order_scale;
     let worst = (bend[0].most(bend[1]).most(bend[2].most(bend[3])) * bend_scale).most(worst_order);
-    (worst * visible / tolerance).sqrt().ceil().most(F::ONE).least(F::of(MOST_PARTS))
+    let errors = worst * visible / tolerance;
+    let parts = errors.sqrt().ceil().most(F::ONE).least(F::of(MOST_PARTS));
+    if depth <= parts {
+        return parts;
+    }
+    (two * errors).least(depth).ceil().least(F::of(MOST_DEEP_PARTS)).most(parts)
 }
 
 /// The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the

@@ -63,10 +63,10 @@ fn take_pair(walk: ptr<function, Walk>, node: NodeRecord, brick: Brick, longest:
         return Taken(false, is_turned);
     }
     var front = (*walk).front;
-    let parts = add_pair(&front, brick, ray, t0, next_brick, (*walk).bent.ray, t1, step, laid.s0, laid.s1, s2, range,
+    let between = add_pair(&front, brick, ray, t0, next_brick, (*walk).bent.ray, t1, step, laid.s0, laid.s1, s2, range,
         spreads);
     (*walk).front = front;
-    (*walk).count += 2u * u32(parts - 1.0);
+    (*walk).count += between;
     return Taken(still_to_come(front) < scene.quality.y, is_turned);
 }
 

@@ -50,8 +50,7 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         if is_vacant_around(range, max(spreads.x, spreads.y)) {
             continue;
         }
-        let parts = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
-        marched.samples += 2u * u32(parts - 1.0);
+        marched.samples += add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
         if still_to_come(front) < scene.quality.y {
             marched.is_done = true;
             break;

@@ -94,9 +94,9 @@ impl<F: Real> Walk<F> {
             range,
             spreads,
         };
-        let (added, parts) = add_pair::<F, K, _>(casting, &self.chain, self.front, &steps);
+        let (added, between) = add_pair::<F, K, _>(casting, &self.chain, self.front, &steps);
         self.front = added;
-        self.cast.samples += 2 * (parts.to_index() - 1);
+        self.cast.samples += between;
         let is_last = K::Composite::still_to_come(casting, self.front) < casting.scene.termination;
         Taken { is_last, is_turned }
     }

@@ -78,9 +78,9 @@ fn march<F: Real, K: Kernel>(
             range,
             spreads,
         };
-        let (added, parts) = add_pair::<F, K, _>(casting, chain, front, &steps);
+        let (added, between) = add_pair::<F, K, _>(casting, chain, front, &steps);
         front = added;
-        marched.samples += 2 * (parts.to_index() - 1);
+        marched.samples += between;
         if K::Composite::still_to_come(casting, front) < casting.scene.termination {
             marched.is_done = true;
             break;
