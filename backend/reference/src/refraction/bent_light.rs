@@ -66,8 +66,7 @@ impl BentLight<'_> {
             let error = fine.light.error_estimate + 2.0 * per_metre * fine.deviation_m;
             let reached = fine.is_followed && error <= tolerance;
             seen = Radiance { error_estimate: error, reached, ..fine.light };
-            // A closer way takes no fewer steps.
-            if reached || !fine.is_followed || next_m <= LEAST_DEVIATION_VOXELS * voxel_m {
+            if reached || next_m <= LEAST_DEVIATION_VOXELS * voxel_m {
                 break;
             }
             let wanted_m = WAY_SHARE * tolerance / per_metre;

@@ -25,8 +25,8 @@ const ROUNDING: f64 = 1e-14;
 const LEAVING_VOXELS: f64 = 1e-9;
 /// Light that meets a surface so often without leaving it is not known to pass.
 const MOST_MEETINGS: u32 = 8;
-/// Steps at most; light that needs more is scattered so much that nobody knows its way.
-const MOST_STEPS: u32 = 100_000;
+/// Steps at most.
+const MOST_STEPS: u32 = 4_000_000;
 
 /// Takes a chord: a straight path and its length in metres. Breaks when it has seen enough.
 pub type Take<'t> = &'t mut dyn FnMut(Ray, f64) -> Result<ControlFlow<()>, BrickError>;
