@@ -103,7 +103,7 @@ fn add_parts(accumulated: ptr<function, Accumulated>, brick: Brick, ray: Ray, st
         let plain = sample_over(from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
         if !is_clear(plain.k.w) {
             var gradients = NO_GRADIENTS;
-            if plain.k.w > 0.0 && (SHADES || (CHAIN_NEEDS_GRADIENT && chain_spread(middle) > 0.0)) {
+            if plain.k.w > 0.0 && (SHADES || chain_looks(middle)) {
                 gradients = gradients_at(brick, ray, middle);
             }
             let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
@@ -135,27 +135,35 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
     let thickness = scene.quality.z * step;
     var pair = pair_of(s0, s1, s2, range, spreads);
     let middle = t0 + step;
+    // Each step is seen by its own gradient: so the pair tells how much what is made of it varies.
+    var near = NO_GRADIENTS;
+    var far = NO_GRADIENTS;
     var gradients = NO_GRADIENTS;
-    // Only enhancers whose samples vary with the gradient look at it.
-    let spread = chain_spread(middle);
-    let enhancers_look = CHAIN_NEEDS_GRADIENT && spread > 0.0;
+    let enhancers_look = chain_looks(middle);
     if enhancers_look && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
-        gradients = gradients_at(brick, ray, middle);
+        near = gradients_at(brick, ray, t0 + 0.5 * step);
+        far = gradients_at(next_brick, next_ray, t1 + 0.5 * step);
+        gradients = gradients_halfway(near, far);
     }
-    pair.first = enhance(pair.first, ray, t0 + 0.5 * step, step, s0, s1, gradients);
-    pair.second = enhance(pair.second, next_ray, t1 + 0.5 * step, step, s1, s2, gradients);
+    pair.first = enhance(pair.first, ray, t0 + 0.5 * step, step, s0, s1, near);
+    pair.second = enhance(pair.second, next_ray, t1 + 0.5 * step, step, s1, s2, far);
     pair.both = enhance(pair.both, ray, middle, 2.0 * step, s0, s2, gradients);
     pair.reach = enhance(pair.reach, ray, middle, 2.0 * step, range.x, range.y, gradients);
     let visible = still_to_come(*front);
-    let parts = max(parts_of_step(pair, thickness, visible, spread), parts_of_rise(*front, pair.reach));
+    let parts = max(parts_of_step(pair, thickness, visible), parts_of_rise(*front, pair.reach));
     if parts == 1.0 {
-        // The light in the middle of the pair serves both steps.
+        // The light in the middle of the pair serves both steps, unless the gradient is known in the middle of each.
         if SHADES && !enhancers_look && max(pair.first.k.w, pair.second.k.w) > 0.0 {
-            gradients = gradients_at(brick, ray, middle);
+            near = gradients_at(brick, ray, middle);
         }
-        let light = lighting(gradients, ray, material_of_pair(s0, s1, s2));
+        let material = material_of_pair(s0, s1, s2);
+        let light = lighting(near, ray, material);
+        var light_beyond = light;
+        if enhancers_look {
+            light_beyond = lighting(far, ray, material);
+        }
         *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
-        *front = add_whole(*front, pair.second, thickness, light, next_ray, t1 + 0.5 * step);
+        *front = add_whole(*front, pair.second, thickness, light_beyond, next_ray, t1 + 0.5 * step);
     } else {
         var samples = add_parts(front, brick, ray, Step(pair.first, s0, s1, t0, step), parts);
         samples += add_parts(front, next_brick, next_ray, Step(pair.second, s1, s2, t1, step), parts);

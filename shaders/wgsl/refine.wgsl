@@ -64,22 +64,26 @@ fn pair_of(s0: f32, s1: f32, s2: f32, reach: vec2<f32>, spreads: vec2<f32>) -> P
         sample_over(locate(reach.x), locate(reach.y), reach.x, reach.y, max(spreads.x, spreads.y)));
 }
 
-// Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
-// `spread` how much enhancers make samples vary within a step.
+// (τ c, τ) of a sample with its brightness, as no light falls on it.
+fn emitted(sample: Sample) -> vec4<f32> {
+    return vec4<f32>(sample.k.xyz * sample.brightness, sample.k.w);
+}
+
+// Parts of each step of a pair, where a step has `thickness` and `visible` is the opacity that may still be added.
 // Three things cause errors. Where the scalar bends, `both` differs from the mean of the two steps, and something between
 // the samples may have been missed. Where colours differ, light taken as if it came from anywhere in a step is off by up
 // to the product of both depths; so is whatever varies with the place. The first falls with the square of the parts.
 // Where a part is opaque, it shows the colours of all its length in place of those in front: that falls with the parts
 // alone, until they are no deeper than one.
-fn parts_of_step(pair: Pair, thickness: f32, visible: f32, spread: f32) -> f32 {
-    let first = pair.first.k;
-    let second = pair.second.k;
-    let both = pair.both.k;
+fn parts_of_step(pair: Pair, thickness: f32, visible: f32) -> f32 {
+    let first = emitted(pair.first);
+    let second = emitted(pair.second);
+    let both = emitted(pair.both);
     let depth = (first.w + second.w) * thickness;
     let order_scale = thickness * thickness / (1.0 + depth * depth);
-    let bend = max(abs(first + second - 2.0 * both), abs(pair.reach.k - both) * UNSEEN);
+    let bend = max(abs(first + second - 2.0 * both), abs(emitted(pair.reach) - both) * UNSEEN);
     let order = abs(first.xyz * second.w - second.xyz * first.w) * order_scale;
-    let uneven = first.w * second.w * order_scale * (SHADE_SPREAD + spread);
+    let uneven = first.w * second.w * order_scale * SHADE_SPREAD;
     let worst = max(largest(bend) * (thickness / (1.0 + depth)), largest(vec4<f32>(order, uneven)));
     let errors = worst * visible / scene.quality.w;
     let parts = clamp(ceil(sqrt(errors)), 1.0, MOST_PARTS);

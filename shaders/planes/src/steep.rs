@@ -6,8 +6,9 @@ use crate::rough::Roughness;
 use crate::slab::LANES;
 use twin::Casting;
 use twin::gradient::LEAST_SQUARE;
+use twin::refine::parts_by_errors;
 
-/// Parts of half a cell, at most.
+/// Parts of half a cell, at most, unless they are opaque.
 const MOST_PARTS: f32 = 32.0;
 
 /// The bound of the fine table's error is this many times what it comes to: few scalars lie beside a kink.
@@ -115,6 +116,9 @@ impl Steep<'_> {
             };
             let light = lights[usize::from(2 * j > count)];
             composite(simd, pixels, mean_between(simd, &from, &to, part), thickness, light);
+            if self.are_closed(simd, pixels[3]) {
+                break;
+            }
             from = to;
         }
         Some(back)
@@ -159,6 +163,9 @@ impl Steep<'_> {
             let ends = [s0 + part * splat(simd, j as f32), s0 + part * splat(simd, (j + 1) as f32)];
             let light = lights[usize::from(2 * j >= count)];
             composite(simd, pixels, self.fine.mean_around(simd, ends, spread), thickness, light);
+            if self.are_closed(simd, pixels[3]) {
+                break;
+            }
         }
     }
 
@@ -202,7 +209,18 @@ impl Steep<'_> {
         let order = order[0].max(order[1]).max(order[2]);
         let depth = (a[3] + b[3]) * thickness;
         let worst = order * thickness * thickness * (one - alpha) / (one + depth * depth);
-        (largest(worst) / self.tolerance).sqrt().ceil().clamp(1.0, MOST_PARTS)
+        let (errors, depths) = ((worst / splat(simd, self.tolerance)).to_array(), depth.to_array());
+        if largest(worst) <= self.tolerance {
+            return 1.0;
+        }
+        (0..LANES).map(|lane| parts_by_errors(errors[lane], depths[lane], MOST_PARTS)).fold(1.0, f32::max)
+    }
+
+    /// Whether what follows adds nothing to any of eight pixels.
+    #[inline(always)]
+    pub(crate) fn are_closed<S: Simd>(&self, simd: S, alpha: f32x8<S>) -> bool {
+        let visible = splat(simd, 1.0) - alpha;
+        visible.simd_lt(splat(simd, self.casting.scene.termination)).all_true()
     }
 
     /// The light on each half of a cell, where any falls.

@@ -188,7 +188,7 @@ impl Sweep<'_> {
             value.store_slice(&mut view.rgba[c][at..at + LANES]);
         }
         alpha.store_slice(&mut view.rgba[3][at..at + LANES]);
-        (one - alpha).simd_lt(splat(simd, self.steep.casting.scene.termination)).all_true()
+        self.steep.are_closed(simd, alpha)
     }
 
     /// Adds a cell that is too steep for means. What its back looks up, and the cell behind, if that was looked up.

@@ -4,11 +4,12 @@ use crate::classify::mean;
 use twin::Casting;
 use twin::gradient::Gradients;
 use twin::ray::{Ray, far};
+use twin::refine::parts_by_errors;
 use twin::shade::{Lighting, Phong, Shade};
 use twin::tables::{attenuation_mean, is_vacant_around, locate};
 use twin::vector::Vec3;
 
-/// Parts of a cell, at most.
+/// Parts of half a cell, at most, unless they are opaque.
 const MOST_PARTS: f32 = 64.0;
 
 /// What a ray meets between two depths.
@@ -43,7 +44,7 @@ pub(crate) fn add(casting: &Casting<f32>, rgba: &mut [f32; 4], met: &Met, direct
     let depth = (a[3] + b[3]) * half;
     let order = (0..3).map(|c| (a[c] * b[3] - b[c] * a[3]).abs()).fold(0.0, f32::max);
     let worst = order * half * half / (1.0 + depth * depth) * visible;
-    let parts = (worst / casting.scene.tolerance).sqrt().ceil().clamp(1.0, MOST_PARTS);
+    let parts = parts_by_errors(worst / casting.scene.tolerance, depth, MOST_PARTS);
     if parts <= 1.0 {
         composite(rgba, a, half, &light);
         composite(rgba, b, half, &light);
@@ -57,6 +58,9 @@ pub(crate) fn add(casting: &Casting<f32>, rgba: &mut [f32; 4], met: &Met, direct
         let to = (s, locate(tables, s));
         let k = mean(casting, [&from.1, &to.1], (from.0, s), met.spread);
         composite(rgba, k, met.thickness * share, &light);
+        if 1.0 - rgba[3] < casting.scene.termination {
+            return;
+        }
         from = to;
     }
 }

@@ -44,12 +44,12 @@ fn glue(chain: &Chain) -> String {
     let each = |line: &dyn Fn(usize, &str) -> String| {
         links.iter().enumerate().fold(String::new(), |text, (i, name)| text + "    " + &line(i, name) + "\n")
     };
-    let spread = |(i, kind): (usize, EnhancerKind)| {
+    let look = |(i, kind): (usize, EnhancerKind)| {
         let name = kind.stem();
-        kind.needs_gradient().then(|| format!("{name}_spread(links[{i}], chain.link{i}.breaks, t)"))
+        kind.needs_gradient().then(|| format!("{name}_looks(chain.link{i}.breaks, t)"))
     };
-    let spreads: Vec<String> =
-        std::iter::once("0.0".to_owned()).chain(chain.kinds().enumerate().filter_map(spread)).collect();
+    let looks: Vec<String> =
+        std::iter::once("false".to_owned()).chain(chain.kinds().enumerate().filter_map(look)).collect();
     let mut text = String::new();
     write!(
         text,
@@ -61,10 +61,8 @@ struct Chain {{
 
 var<private> chain: Chain;
 
-const CHAIN_NEEDS_GRADIENT: bool = {needs_gradient};
-
-fn chain_spread(t: f32) -> f32 {{
-    return {spreads};
+fn chain_looks(t: f32) -> bool {{
+    return {looks};
 }}
 
 fn start_chain(ray: Ray) {{
@@ -87,8 +85,7 @@ fn enhance(plain: Sample, ray: Ray, t: f32, length: f32, s0: f32, s1: f32, gradi
 }}
 ",
         members = each(&|i, _| format!("link{i}: LinkState,")),
-        needs_gradient = chain.needs_gradient(),
-        spreads = spreads.join(" + "),
+        looks = looks.join(" || "),
         start = each(&|i, name| format!("chain.link{i}.weights = {name}_start(links[{i}], chain.view);")),
         follow = each(&|i, name| format!(
             "chain.link{i}.breaks = {name}_breaks(links[{i}], chain.link{i}.weights, ray);"

@@ -219,13 +219,14 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
         let plain = sample_over::<F, K::Composite>(casting, located, (from, to), spread);
         if !K::Composite::is_clear(plain.k[3]) {
             let mut gradients = Gradients::NONE;
-            let enhancers_look = chain.spread::<K>(casting, middle) > F::ZERO;
-            if plain.k[3] > F::ZERO && (K::Shade::reads_gradients(casting.needs) || enhancers_look) {
+            let are_read = K::Shade::reads_gradients(casting.needs) || chain.looks::<K>(casting, middle);
+            if plain.k[3] > F::ZERO && are_read {
                 gradients = way.gradients_at::<K>(casting, middle);
             }
             let mut enhanced = [plain];
-            let segment = Segment { ray, t: middle, length: part, scalars: (from, to) };
-            chain.enhance::<K, 1>(casting, &mut enhanced, [segment], &gradients);
+            let gradient = gradients.at;
+            let segment = Segment { ray, t: middle, length: part, scalars: (from, to), gradient };
+            chain.enhance::<K, 1>(casting, &mut enhanced, [segment]);
             let [sample] = enhanced;
             let light = if sample.k[3] > F::ZERO {
                 let material = material_between::<F, K>(casting, from, to);
@@ -265,29 +266,36 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     let thickness = scene.extinction_per_metre * length;
     let mut pair = Pair::new::<K::Composite>(casting, [s0, s1, s2], range, spreads);
     let middle = t0 + length;
-    let mut gradients = Gradients::NONE;
-    // Only enhancers whose samples vary with the gradient look at it.
-    let chain_spread = chain.spread::<K>(casting, middle);
-    let enhancers_look = chain_spread > F::ZERO;
-    if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
-        gradients = first.gradients_at::<K>(casting, middle);
-    }
     let half = F::of(0.5) * length;
+    let mut own = [Gradients::NONE; 2];
+    let enhancers_look = chain.looks::<K>(casting, middle);
     if K::ENHANCES {
+        // Each step is seen by its own gradient: so the pair tells how much what is made of it varies.
+        let mut gradients = Gradients::NONE;
+        if enhancers_look && pair.reach.k[3].most(pair.both.k[3]) > F::ZERO {
+            own = [first.gradients_at::<K>(casting, t0 + half), second.gradients_at::<K>(casting, t1 + half)];
+            gradients = own[0].halfway(&own[1]);
+        }
         let both = F::of(2.0) * length;
-        let segment = |ray, t, length, scalars| Segment { ray, t, length, scalars };
+        let segment = |ray, t, length, scalars, gradients: &Gradients<F>| Segment {
+            ray,
+            t,
+            length,
+            scalars,
+            gradient: gradients.at,
+        };
         let segments = [
-            segment(first.ray(), t0 + half, length, (s0, s1)),
-            segment(second.ray(), t1 + half, length, (s1, s2)),
-            segment(first.ray(), middle, both, (s0, s2)),
-            segment(first.ray(), middle, both, range),
+            segment(first.ray(), t0 + half, length, (s0, s1), &own[0]),
+            segment(second.ray(), t1 + half, length, (s1, s2), &own[1]),
+            segment(first.ray(), middle, both, (s0, s2), &gradients),
+            segment(first.ray(), middle, both, range, &gradients),
         ];
         let mut samples = [pair.first, pair.second, pair.both, pair.reach];
-        chain.enhance::<K, 4>(casting, &mut samples, segments, &gradients);
+        chain.enhance::<K, 4>(casting, &mut samples, segments);
         [pair.first, pair.second, pair.both, pair.reach] = samples;
     }
     let visible = K::Composite::still_to_come(casting, front);
-    let spread = F::of(K::Shade::spread(casting.needs)) + chain_spread;
+    let spread = F::of(K::Shade::spread(casting.needs));
     let parts = parts_of_step(&pair, thickness, visible, spread, scene.tolerance)
         .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
     if parts > F::ONE {
@@ -297,15 +305,18 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
         let (front, far) = add_parts::<F, K, W>(casting, chain, front, &step, parts);
         return (front, near + far);
     }
-    // The light in the middle of the pair serves both steps.
-    let mut light = Lighting::NONE;
+    // The light in the middle of the pair serves both steps, unless the gradient is known in the middle of each.
+    let mut lights = [Lighting::NONE; 2];
     if K::Shade::reads_gradients(casting.needs) && pair.first.k[3].most(pair.second.k[3]) > F::ZERO {
-        if !enhancers_look {
-            gradients = first.gradients_at::<K>(casting, middle);
-        }
         let material = material_of_pair::<F, K>(casting, [s0, s1, s2]);
-        light = K::Shade::lighting(casting, &gradients, first.ray(), material);
+        let light = |gradients: &Gradients<F>| K::Shade::lighting(casting, gradients, first.ray(), material);
+        lights = if enhancers_look {
+            own.each_ref().map(light)
+        } else {
+            [light(&first.gradients_at::<K>(casting, middle)); 2]
+        };
     }
-    let front = add_whole::<F, K>(casting, front, &pair.first, thickness, light, (first.ray(), t0 + half));
-    (add_whole::<F, K>(casting, front, &pair.second, thickness, light, (second.ray(), t1 + half)), 0)
+    let front =
+        add_whole::<F, K>(casting, front, &pair.first, thickness, lights[0], (first.ray(), t0 + half));
+    (add_whole::<F, K>(casting, front, &pair.second, thickness, lights[1], (second.ray(), t1 + half)), 0)
 }

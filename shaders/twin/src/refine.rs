@@ -93,10 +93,11 @@ impl<F: Real> Pair<F> {
 }
 
 /// Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
-/// `spread` how much shading and enhancers vary within a step; see the WGSL for what errs how.
+/// `spread` how much shading varies within a step; see the WGSL for what errs how.
 #[inline(always)]
 pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: F, tolerance: F) -> F {
-    let [first, second, both, reach] = [&pair.first.k, &pair.second.k, &pair.both.k, &pair.reach.k];
+    let Pair { first, second, both, reach } = pair;
+    let [first, second, both, reach] = [first, second, both, reach].map(Sample::emitted);
     let depth = (first[3] + second[3]) * thickness;
     let bend_scale = thickness / (F::ONE + depth);
     let order_scale = thickness * thickness / (F::ONE + depth * depth);
@@ -109,12 +110,17 @@ pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: 
     let uneven = first[3] * second[3] * spread;
     let worst_order = order[0].most(order[1]).most(order[2].most(uneven)) * order_scale;
     let worst = (bend[0].most(bend[1]).most(bend[2].most(bend[3])) * bend_scale).most(worst_order);
-    let errors = worst * visible / tolerance;
-    let parts = errors.sqrt().ceil().most(F::ONE).least(F::of(MOST_PARTS));
+    parts_by_errors(worst * visible / tolerance, depth, F::of(MOST_PARTS))
+}
+
+/// Parts of a step that errs by so many times what it may, and is so deep with another: `most`, or more if each is opaque.
+#[inline(always)]
+pub fn parts_by_errors<F: Real>(errors: F, depth: F, most: F) -> F {
+    let parts = errors.sqrt().ceil().most(F::ONE).least(most);
     if depth <= parts {
         return parts;
     }
-    (two * errors).least(depth).ceil().least(F::of(MOST_DEEP_PARTS)).most(parts)
+    (F::of(2.0) * errors).least(depth).ceil().least(F::of(MOST_DEEP_PARTS)).most(parts)
 }
 
 /// The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the

@@ -1,9 +1,7 @@
 // No enhancers.
 
-const CHAIN_NEEDS_GRADIENT: bool = false;
-
-fn chain_spread(t: f32) -> f32 {
-    return 0.0;
+fn chain_looks(t: f32) -> bool {
+    return false;
 }
 
 fn start_chain(ray: Ray) {}

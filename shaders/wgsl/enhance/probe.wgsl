@@ -1,9 +1,9 @@
 // Context-preserving probe (LFD eq. 4 and 5).
 // a: centre, radius; b: axis, strength; c: limits of the alignment, largest gradient; d: limits of the edges.
 
-// Inside the sphere the factors vary with the gradient, from sample to sample.
-fn probe_spread(link: Link, breaks: vec3<f32>, t: f32) -> f32 {
-    return select(0.0, 0.1 * link.b.w, t > breaks.x && t < breaks.z);
+// Whether it looks at the gradient around t: inside the sphere.
+fn probe_looks(breaks: vec3<f32>, t: f32) -> bool {
+    return t > breaks.x && t < breaks.z;
 }
 
 // x: ω_a.

@@ -6,6 +6,10 @@ struct Gradients {
 
 const NO_GRADIENTS: Gradients = Gradients(vec3<f32>(0.0));
 
+fn gradients_halfway(a: Gradients, b: Gradients) -> Gradients {
+    return Gradients((a.at + b.at) * 0.5);
+}
+
 fn gradients_at(brick: Brick, ray: Ray, t: f32) -> Gradients {
     let f = fraction_at(brick, ray, t);
     if f <= 0.0 {

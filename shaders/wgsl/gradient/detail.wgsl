@@ -8,6 +8,10 @@ struct Gradients {
 
 const NO_GRADIENTS: Gradients = Gradients(vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0));
 
+fn gradients_halfway(a: Gradients, b: Gradients) -> Gradients {
+    return Gradients((a.at + b.at) * 0.5, (a.coarse + b.coarse) * 0.5, (a.coarsest + b.coarsest) * 0.5);
+}
+
 fn gradients_at(brick: Brick, ray: Ray, t: f32) -> Gradients {
     let f = fraction_at(brick, ray, t);
     let own = gradient_in(brick.own, t);

@@ -31,8 +31,6 @@ const STRIDE: u32 = 4;
 const KEPT: Limits = Limits::of_255(0.15, 1.5, 4.0);
 /// The same where light bends: it turns in the middle of each pair, and on outlines it goes one way or the other.
 const KEPT_WHERE_LIGHT_BENDS: Limits = Limits::of_255(0.4, 9.0, 12.0);
-/// The same where a probe fades what it holds by the gradient: its law has kinks within steps.
-const KEPT_IN_A_PROBE: Limits = Limits::of_255(0.4, 6.0, 20.0);
 /// f32 against f64, and kernel against twin: as in the comparisons of these without blending.
 const ROUNDING: Limits = Limits::of_255(0.005, 0.05, 1.5);
 /// f64, in numbers of order one.
@@ -41,7 +39,6 @@ const F64: f64 = 1e-9;
 fn kept(scene: &TestScene) -> Limits {
     match scene.name {
         "refraction" => KEPT_WHERE_LIGHT_BENDS,
-        "a probe" => KEPT_IN_A_PROBE,
         _ => KEPT,
     }
 }

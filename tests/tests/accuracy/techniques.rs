@@ -27,12 +27,10 @@ const SAME_TO_ROUNDING_OF_EIGHT: Limits = Limits::of_255(0.0057, 0.05, 1.0);
 const SAME_BUT_BENT: Limits = Limits::of_255(0.05, 0.2, 8.0);
 /// What default quality keeps on every scene without techniques.
 const KEPT: Limits = Limits::of_255(0.15, 1.5, 4.0);
-/// A probe in real data: it scales extinction by the fourth power of an angle that noise turns from voxel to voxel.
-const KEPT_IN_A_PROBE: Limits = Limits::of_255(0.5, 6.0, 20.0);
 /// Bent light in real data, in whole pictures: of some thousand rays one grazes a surface and goes the other way.
 const KEPT_BENT_IN_WHOLE_PICTURES: Limits = Limits::of_255(0.15, 3.0, 12.0);
-/// MImDA over a chain, in whole pictures: importance rises where a step is still too long for it to be seen.
-const KEPT_CHAINED_IN_WHOLE_PICTURES: Limits = Limits::of_255(0.15, 2.5, 4.0);
+/// MImDA over a chain, in real data or whole pictures: importance rises where a step is still too long for it to be seen.
+const KEPT_CHAINED: Limits = Limits::of_255(0.2, 2.5, 4.0);
 
 /// For the reference, which takes a part of the pixels.
 fn test_display() -> Display {
@@ -105,12 +103,10 @@ fn limits_of(base: &TestScene, scene: &TestScene) -> Limits {
     let optics = &scene.frame.optics;
     let has_probe = optics.enhancers.iter().any(|link| matches!(link, Enhancer::Probe(_)));
     let is_real = base.name != "bumps";
-    if has_probe && is_real {
-        KEPT_IN_A_PROBE
-    } else if scenes::full_size() && is_bent(scene) && is_real {
+    if scenes::full_size() && is_bent(scene) && is_real {
         KEPT_BENT_IN_WHOLE_PICTURES
-    } else if scenes::full_size() && has_probe && optics.mimda.is_some() {
-        KEPT_CHAINED_IN_WHOLE_PICTURES
+    } else if (is_real || scenes::full_size()) && has_probe && optics.mimda.is_some() {
+        KEPT_CHAINED
     } else {
         KEPT
     }
@@ -378,7 +374,7 @@ fn the_longest_chain_tells_the_same_picture() {
     for picture in &pictures {
         let errors = compare::errors(&picture.images, &truth);
         println!("eight links: {errors}");
-        assert!(KEPT_IN_A_PROBE.hold(&errors), "{errors}");
+        assert!(KEPT_CHAINED.hold(&errors), "{errors}");
         let apart = errors_between(&picture.images, &pictures[0].images);
         assert!(SAME_TO_ROUNDING_OF_EIGHT.hold(&apart), "{apart}");
     }

@@ -18,6 +18,10 @@ const FIRST_DEVIATION_VOXELS: f64 = 0.1;
 const SECOND_TRY: f64 = 0.25;
 /// The closest of all tries, finest voxels.
 const LEAST_DEVIATION_VOXELS: f64 = 1e-11;
+/// Light moves by this share of what it moved by before, or less, when its way is laid closer again; else that was in vain.
+const LEAST_GAIN: f64 = 0.5;
+/// Tries in vain, one after the other, after which light is taken for scattered: it moves however close its way is laid.
+const MOST_IN_VAIN: u32 = 2;
 /// Share of the tolerance that the light of a way is known to.
 const LIGHT_SHARE: f64 = 0.25;
 /// Share of the tolerance that the way's deviation is meant to make.
@@ -28,7 +32,8 @@ const WAY_SHARE: f64 = 0.2;
 /// Its way is laid as chords that lie within a deviation δ of it, and light is gathered along them. What light misses by
 /// that is proportional to δ, so two ways of different δ show how much: with R the light and δ' < δ, it is about
 /// |R − R'| δ' / (δ − δ'). The estimate doubles it. δ falls until the estimate and the light's own error stay within the
-/// tolerance.
+/// tolerance, or until two ways in turn could not be followed, or light
+/// proves to be scattered.
 pub struct BentLight<'a> {
     /// The scene.
     pub view: &'a View<'a>,
@@ -60,18 +65,23 @@ impl BentLight<'_> {
         let mut coarse = self.lay(&start, within_m, first_m)?;
         let mut next_m = SECOND_TRY * first_m;
         let mut seen = coarse.light;
+        let (mut moved_before, mut in_vain) = (f64::INFINITY, 0);
         for _ in 1..MOST_TRIES {
             let fine = self.lay(&start, within_m, next_m)?;
-            let per_metre = distance(&fine.light, &coarse.light) / (coarse.deviation_m - fine.deviation_m);
+            let moved = distance(&fine.light, &coarse.light);
+            let per_metre = moved / (coarse.deviation_m - fine.deviation_m);
             let error = fine.light.error_estimate + 2.0 * per_metre * fine.deviation_m;
             let reached = fine.is_followed && error <= tolerance;
             seen = Radiance { error_estimate: error, reached, ..fine.light };
-            if reached || next_m <= LEAST_DEVIATION_VOXELS * voxel_m {
+            let is_lost = !coarse.is_followed && !fine.is_followed;
+            let has_gained = moved <= tolerance.max(LEAST_GAIN * moved_before);
+            in_vain = if has_gained { 0 } else { in_vain + 1 };
+            if reached || is_lost || in_vain >= MOST_IN_VAIN || next_m <= LEAST_DEVIATION_VOXELS * voxel_m {
                 break;
             }
             let wanted_m = WAY_SHARE * tolerance / per_metre;
             next_m = wanted_m.clamp(0.01 * next_m, SECOND_TRY * next_m).max(LEAST_DEVIATION_VOXELS * voxel_m);
-            coarse = fine;
+            (coarse, moved_before) = (fine, moved);
         }
         Ok(seen)
     }

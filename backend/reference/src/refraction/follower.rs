@@ -26,7 +26,9 @@ const LEAVING_VOXELS: f64 = 1e-9;
 /// Light that meets a surface so often without leaving it is not known to pass.
 const MOST_MEETINGS: u32 = 8;
 /// Steps at most.
-const MOST_STEPS: u32 = 4_000_000;
+const MOST_STEPS: f64 = 4_000_000.0;
+/// Tried per step that is needed: some are too long, others end at surfaces.
+const STEPS_PER_STEP: f64 = 4.0;
 
 /// Takes a chord: a straight path and its length in metres. Breaks when it has seen enough.
 pub type Take<'t> = &'t mut dyn FnMut(Ray, f64) -> Result<ControlFlow<()>, BrickError>;
@@ -49,6 +51,16 @@ pub struct Limits {
     pub diagonal_m: f64,
     /// How far the chords may lie from the way, metres.
     pub deviation_m: f64,
+}
+
+impl Limits {
+    /// Enough for light that turns by a radian in every voxel of its way: arcs of angle α and radius r bulge by r α² / 8.
+    fn most_steps(&self) -> u32 {
+        let Self { voxel_m, diagonal_m, deviation_m } = *self;
+        let shortest_m = (8.0 * voxel_m * deviation_m).sqrt().min(LONGEST_STEP_VOXELS * voxel_m);
+        let steps = STEPS_PER_STEP * LONGEST_WAY_DIAGONALS * diagonal_m / shortest_m;
+        steps.min(MOST_STEPS).ceil() as u32
+    }
 }
 
 /// Light on its way.
@@ -92,7 +104,7 @@ impl<'a> Follower<'a> {
     /// Shows `take` one chord after the other, until the light leaves the volume, has gone too far, or `take` breaks.
     pub fn follow(mut self, take: Take) -> Result<End, BrickError> {
         let mut left_m = LONGEST_WAY_DIAGONALS * self.limits.diagonal_m;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..self.limits.most_steps() {
             if left_m <= 0.0 {
                 return self.finish(End::Followed, take);
             }

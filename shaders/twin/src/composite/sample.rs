@@ -18,6 +18,13 @@ pub struct Sample<F> {
 }
 
 impl<F: Real> Sample<F> {
+    /// Mean (τ c, τ) with its brightness, as no light falls on it.
+    #[inline(always)]
+    pub fn emitted(&self) -> [F; 4] {
+        let [r, g, b, extinction] = self.k;
+        [r * self.brightness, g * self.brightness, b * self.brightness, extinction]
+    }
+
     /// Of a mean (τ c, τ), where nothing looks at importance.
     #[inline(always)]
     pub(super) fn plain(k: [F; 4]) -> Self {

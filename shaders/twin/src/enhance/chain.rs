@@ -3,7 +3,6 @@
 use super::hooks::{self, LinkState, Place};
 use crate::composite::Sample;
 use crate::features::Features;
-use crate::gradient::Gradients;
 use crate::ray::{Ray, far};
 use crate::{Casting, Real, vector::Vec3};
 use optics::MOST_ENHANCERS;
@@ -19,6 +18,8 @@ pub struct Segment<'a, F> {
     pub length: F,
     /// The scalars at its ends.
     pub scalars: (F, F),
+    /// In its middle, per finest voxel, display frame; only where [`Chain::looks`] there.
+    pub gradient: Vec3<F>,
 }
 
 /// The chain of one ray.
@@ -79,16 +80,11 @@ impl<F: Real> Chain<F> {
         K::ENHANCES && casting.needs.chain.kinds().enumerate().any(acts)
     }
 
-    /// How much the links make samples around t vary within a step; 0 if none looks at gradients.
+    /// Whether any link looks at the gradient around t.
     #[inline(always)]
-    pub fn spread<K: Features>(&self, casting: &Casting<F>, t: F) -> F {
-        let mut sum = F::ZERO;
-        if K::ENHANCES && self.looks_at_gradients {
-            for (i, kind) in casting.needs.chain.kinds().enumerate() {
-                sum = sum + hooks::spread(kind, &casting.scene.links[i], &self.links[i], t);
-            }
-        }
-        sum
+    pub fn looks<K: Features>(&self, casting: &Casting<F>, t: F) -> bool {
+        let looks = |(i, kind)| hooks::looks(kind, &self.links[i], t);
+        K::ENHANCES && self.looks_at_gradients && casting.needs.chain.kinds().enumerate().any(looks)
     }
 
     /// Segments of a ray, or of the rays before and beyond a turn, after all links.
@@ -98,15 +94,14 @@ impl<F: Real> Chain<F> {
         casting: &Casting<F>,
         samples: &mut [Sample<F>; N],
         segments: [Segment<F>; N],
-        gradients: &Gradients<F>,
     ) {
         if !K::ENHANCES || casting.needs.chain.is_empty() {
             return;
         }
         if K::IS_FULL {
-            self.enhance_apart::<K>(casting, samples, &segments, gradients);
+            self.enhance_apart::<K>(casting, samples, &segments);
         } else {
-            self.enhance_here::<K>(casting, samples, &segments, gradients);
+            self.enhance_here::<K>(casting, samples, &segments);
         }
     }
 
@@ -117,9 +112,8 @@ impl<F: Real> Chain<F> {
         casting: &Casting<F>,
         samples: &mut [Sample<F>],
         segments: &[Segment<F>],
-        gradients: &Gradients<F>,
     ) {
-        self.enhance_here::<K>(casting, samples, segments, gradients);
+        self.enhance_here::<K>(casting, samples, segments);
     }
 
     /// Link by link, so that each finds its constants once.
@@ -129,12 +123,11 @@ impl<F: Real> Chain<F> {
         casting: &Casting<F>,
         samples: &mut [Sample<F>],
         segments: &[Segment<F>],
-        gradients: &Gradients<F>,
     ) {
         let place = |segment: &Segment<F>| Place {
             point: segment.ray.point_in_display(segment.t),
             reach: segment.ray.direction_in_display * (F::of(0.5) * segment.length),
-            gradient: gradients.at,
+            gradient: segment.gradient,
             scalars: segment.scalars,
             view: self.view,
             has_importance: K::READS_IMPORTANCE,

@@ -55,11 +55,10 @@ pub(super) trait Hooks {
         true
     }
 
-    /// How much it makes samples around t vary within a step, for the estimate of a step's error; 0 where it does not look
-    /// at gradients.
+    /// Whether it looks at the gradient around t.
     #[inline(always)]
-    fn spread<F: Real>(_: &Constants<F>, _: &LinkState<F>, _t: F) -> F {
-        F::ZERO
+    fn looks<F: Real>(_: &LinkState<F>, _t: F) -> bool {
+        false
     }
 
     /// What it makes of a sample.
@@ -105,13 +104,8 @@ macro_rules! dispatch {
         }
 
         #[inline(always)]
-        pub(super) fn spread<F: Real>(
-            kind: EnhancerKind,
-            link: &Constants<F>,
-            state: &LinkState<F>,
-            t: F,
-        ) -> F {
-            match kind { $(EnhancerKind::$name => optics::$name::spread(link, state, t),)+ }
+        pub(super) fn looks<F: Real>(kind: EnhancerKind, state: &LinkState<F>, t: F) -> bool {
+            match kind { $(EnhancerKind::$name => optics::$name::looks(state, t),)+ }
         }
 
         /// All samples in turn; what an enhancer does not look at of a place is not worked out.

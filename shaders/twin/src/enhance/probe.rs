@@ -26,10 +26,10 @@ impl Hooks for Probe {
         [aligned, F::ZERO, F::ZERO, F::ZERO]
     }
 
-    /// Inside the sphere the factors vary with the gradient, from sample to sample.
+    /// Inside the sphere.
     #[inline(always)]
-    fn spread<F: Real>(link: &Constants<F>, state: &LinkState<F>, t: F) -> F {
-        if is_inside(state, t) { F::of(0.1) * link[1][3] } else { F::ZERO }
+    fn looks<F: Real>(state: &LinkState<F>, t: F) -> bool {
+        is_inside(state, t)
     }
 
     /// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.

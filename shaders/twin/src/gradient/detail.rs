@@ -29,6 +29,17 @@ impl<F: Real> Gradients<F> {
         Self { at: gradient_in(casting, &brick.own, t), ..Self::NONE }
     }
 
+    /// Half-way to another.
+    #[inline(always)]
+    pub fn halfway(&self, other: &Self) -> Self {
+        let between = |a: Vec3<F>, b: Vec3<F>| (a + b) * F::of(0.5);
+        Self {
+            at: between(self.at, other.at),
+            coarse: between(self.coarse, other.coarse),
+            coarsest: between(self.coarsest, other.coarsest),
+        }
+    }
+
     /// Not inlined: it is called from many places.
     #[inline(never)]
     fn over_levels(casting: &Casting<F>, brick: &Brick<F>, ray: &Ray<F>, t: F) -> Self {
