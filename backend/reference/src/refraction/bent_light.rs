@@ -32,8 +32,7 @@ const WAY_SHARE: f64 = 0.2;
 /// Its way is laid as chords that lie within a deviation δ of it, and light is gathered along them. What light misses by
 /// that is proportional to δ, so two ways of different δ show how much: with R the light and δ' < δ, it is about
 /// |R − R'| δ' / (δ − δ'). The estimate doubles it. δ falls until the estimate and the light's own error stay within the
-/// tolerance, or until two ways in turn could not be followed, or light
-/// proves to be scattered.
+/// tolerance, until two ways in turn could not be followed, or until light proves to be scattered.
 pub struct BentLight<'a> {
     /// The scene.
     pub view: &'a View<'a>,
