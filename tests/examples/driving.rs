@@ -59,8 +59,8 @@ fn main() -> Result<(), String> {
     let fixed = ["--device", &device, "--json", "--for", &seconds.to_string()].map(str::to_owned);
     let part = if device == "cpu" { "rates" } else { "rates on a GPU" };
     let mut results = Results::new(Program::Study("driving"), "driving", part);
-    results.line("| display | scene | options | rays by | frames a second | from a frame to the next, ms | from input to screen, ms |");
-    results.line("| --- | --- | --- | --- | ---: | ---: | ---: |");
+    results.line("| display | scene | options | rays by | frames a second | from a frame to the next, ms | from input to screen, ms | to draw a frame, ms: all, casting, bringing back |");
+    results.line("| --- | --- | --- | --- | ---: | ---: | ---: | ---: |");
     // A GPU draws no row planes yet.
     let shows = SHOWS.iter().filter(|(.., options)| device == "cpu" || !options.contains(&"planes"));
     for (display, scene, options) in shows {
@@ -73,12 +73,17 @@ fn main() -> Result<(), String> {
         results.drawn_by(report["backends"][0]["adapter"].as_str().unwrap_or_default());
         let caster =
             report["casters"][0].as_str().unwrap_or_default().split([':', ',']).next().unwrap_or_default();
+        let (drawing, spent) = (&beat["backends"][0]["drawing_ms"], &report["stages"][0]);
+        let each = |stage: &str| number(&spent[stage]) / number(&drawing["count"]);
         results.line(format!(
-            "| {display} | {scene} | `{}` | {caster} | {:.1} | {} | {} |",
+            "| {display} | {scene} | `{}` | {caster} | {:.1} | {} | {} | {:.1}, {:.1}, {:.1} |",
             options.join(" "),
             1e3 / number(&beat["interval_ms"]["p50"]),
             quantiles(&beat["interval_ms"]),
             quantiles(&beat["input_to_shown_ms"]),
+            number(&drawing["p50"]),
+            each("cast_ms"),
+            each("readback_ms"),
         ));
     }
     results.finish()?;

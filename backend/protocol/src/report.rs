@@ -55,6 +55,20 @@ pub struct Stages {
     pub readback_ms: f64,
 }
 
+impl std::ops::Add for Stages {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            refine_ms: self.refine_ms + other.refine_ms,
+            load_ms: self.load_ms + other.load_ms,
+            upload_ms: self.upload_ms + other.upload_ms,
+            cast_ms: self.cast_ms + other.cast_ms,
+            readback_ms: self.readback_ms + other.readback_ms,
+        }
+    }
+}
+
 /// What a live frame did to the working set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Upkeep {

@@ -118,9 +118,9 @@ impl DriveReport {
             (
                 "rays were cast for",
                 self.played
-                    .cast_ms
+                    .stages
                     .iter()
-                    .map(|ms| format!("{:.1} s", ms / 1e3))
+                    .map(|stages| format!("{:.1} s", stages.cast_ms / 1e3))
                     .collect::<Vec<_>>()
                     .join(", "),
             ),

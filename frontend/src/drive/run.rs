@@ -8,7 +8,7 @@ use super::{
 use crate::FrontendError;
 use crate::report::plot::strip_of_control;
 use crate::staging::Theatre;
-use protocol::Refinement;
+use protocol::{Refinement, Stages};
 use serde::Serialize;
 use std::time::Duration;
 use transport::beat::{Drive, Happening};
@@ -59,8 +59,8 @@ pub struct Played {
     /// The same over time, as a strip.
     #[serde(skip)]
     pub strip: String,
-    /// Milliseconds in which each back-end cast rays.
-    pub cast_ms: Vec<f64>,
+    /// What each back-end spent on all that it drew.
+    pub stages: Vec<Stages>,
     /// What became of back-ends that were lost, sentence by sentence; the latest of many.
     pub troubles: Vec<String>,
     /// Whether the last frame of each back-end was complete, or why not.
@@ -91,7 +91,7 @@ struct Show<'a, 'b> {
     measures: Measures,
     trial: Option<Trial>,
     control: Option<Controlled>,
-    cast_ms: Vec<f64>,
+    stages: Vec<Stages>,
     lost: Vec<u64>,
     troubles: Vec<String>,
     /// Of each back-end's latest frame.
@@ -120,7 +120,7 @@ pub fn run<'a, 'b>(
         measures: Measures::default(),
         trial: plan.trial.clone(),
         control: plan.control.clone(),
-        cast_ms: vec![0.0; backends],
+        stages: vec![Stages::default(); backends],
         lost: vec![0; backends],
         troubles: Vec::new(),
         latest: vec![Default::default(); backends],
@@ -167,7 +167,7 @@ pub fn run<'a, 'b>(
             .as_ref()
             .map(|control| strip_of_control("Frame control", &control.ticks()).svg())
             .unwrap_or_default(),
-        cast_ms: show.cast_ms,
+        stages: show.stages,
         troubles: show.troubles,
         shortfall: show.latest.into_iter().map(|latest| latest.1).filter(|why| !why.is_empty()).collect(),
         casters,
@@ -245,7 +245,7 @@ impl Show<'_, '_> {
             Happening::Screen { backend, image } => self.screens.take(backend, image),
             Happening::Drawn { backend, report } => {
                 self.measures.drawn(backend, report.frame, report.total_ms);
-                self.cast_ms[backend] += report.stages.cast_ms;
+                self.stages[backend] = self.stages[backend] + report.stages;
                 // Of a part of a picture: as if it were a quarter.
                 let units = self.control.as_ref().map(|control| control.units_of(report.frame));
                 let of_quarter = match units {

@@ -100,7 +100,7 @@ impl Totals {
         self.bytes_loaded += report.bytes_loaded;
         self.working_set_union += report.working_set_union;
         self.working_set_sum = self.working_set_sum.zip(report.working_set_sum).map(|(a, b)| a + b);
-        self.stages = stages_sum(self.stages, report.stages);
+        self.stages = self.stages + report.stages;
         let caster = report.caster.to_string();
         if !self.casters.contains(&caster) {
             self.casters.push(caster);
@@ -116,16 +116,6 @@ impl Totals {
             self.shortfall.push(format!("back-end {}: {}", report.backend, report.shortfall));
         }
         self
-    }
-}
-
-fn stages_sum(a: Stages, b: Stages) -> Stages {
-    Stages {
-        refine_ms: a.refine_ms + b.refine_ms,
-        load_ms: a.load_ms + b.load_ms,
-        upload_ms: a.upload_ms + b.upload_ms,
-        cast_ms: a.cast_ms + b.cast_ms,
-        readback_ms: a.readback_ms + b.readback_ms,
     }
 }
 

@@ -29,14 +29,16 @@ pub(super) struct LiveFrame {
     is_still: bool,
     /// Casts that follow.
     casts: VecDeque<Pending>,
+    /// Whether all is cast: what is shown of it is made and brought back before the report, which says how long it took.
+    has_ended: bool,
 }
 
 impl LiveFrame {
     pub(super) fn new(upload_bytes: u64, fade_s: f64) -> Self {
-        Self { upload_bytes, fade_s, upkeep: None, is_still: false, casts: VecDeque::new() }
+        Self { upload_bytes, fade_s, upkeep: None, is_still: false, casts: VecDeque::new(), has_ended: false }
     }
 
-    /// What comes when all that was pending has been cast: first the working set, then the report.
+    /// What comes when all that was pending has been cast: first the working set, then what is shown, then the report.
     pub(super) fn next(
         &mut self,
         work: &mut Work,
@@ -50,7 +52,11 @@ impl LiveFrame {
             if work.begin_mending() {
                 return Ok(None);
             }
-            return self.end(work, engine, upkeep).map(Some);
+            if !std::mem::replace(&mut self.has_ended, true) {
+                self.end(work, engine)?;
+                return Ok(None);
+            }
+            return Ok(Some(self.report(work, engine, upkeep)));
         }
         engine.take_feedback()?;
         if let Some(refinement) = work.frame.refinement {
@@ -129,7 +135,7 @@ impl LiveFrame {
         Ok(Upkeep { cancelled, update_ms, ..engine.upkeep() })
     }
 
-    fn end(&self, work: &mut Work, engine: &mut Engine, upkeep: Upkeep) -> Result<FrameReport, RenderError> {
+    fn end(&self, work: &mut Work, engine: &mut Engine) -> Result<(), RenderError> {
         let time_s = engine.live.now_s(&work.frame);
         let frame = Some(Box::new(FrameState { time_s, ..work.frame.clone() }));
         let configuration = work.frame.refinement.map(|refinement| refinement.configuration);
@@ -144,9 +150,8 @@ impl LiveFrame {
         work.account.done = work.account.total;
         work.finals.extend(&work.setting.projectors);
         work.eases = self.is_still && self.fade_s > 0.0 && work.frame.quality.blended;
-        let report = self.report(work, engine, upkeep);
         engine.live.last = Some(as_seen(&work.frame));
-        Ok(report)
+        Ok(())
     }
 
     fn report(&self, work: &mut Work, engine: &mut Engine, upkeep: Upkeep) -> FrameReport {
