@@ -55,7 +55,7 @@ fn bindings_have_the_numbers_of_the_table_and_no_others() {
             module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some(name)).unwrap();
         found.binding.unwrap().binding
     };
-    assert_eq!((number("scene"), number("projector")), (binding::SCENE, binding::VIEW));
+    assert_eq!((number("scene"), number("views")), (binding::SCENE, binding::VIEWS));
     assert_eq!((number("nodes"), number("feedback")), (binding::NODES, binding::FEEDBACK));
 }
 

@@ -70,11 +70,15 @@ struct FeedbackEntry {
     rays: atomic<u32>,
 }
 
+// The view that an invocation is at.
+var<private> projector: ViewBlock;
+
 @group(0) @binding(BINDING_SCENE) var<uniform> scene: SceneBlock;
-@group(0) @binding(BINDING_VIEW) var<uniform> projector: ViewBlock;
+@group(0) @binding(BINDING_VIEWS) var<storage, read> views: array<ViewBlock>;
 @group(0) @binding(BINDING_NODES) var<storage, read> nodes: array<NodeRecord>;
 @group(0) @binding(BINDING_OPTICS) var<storage, read> optics_table: array<TableEntry>;
-@group(0) @binding(BINDING_TILES) var<storage, read> tiles: array<u32>;
+// How many there are, then the words of each.
+@group(0) @binding(BINDING_LISTED) var<storage, read> listed: array<u32>;
 @group(0) @binding(BINDING_PIXELS) var<storage, read_write> pixels: array<vec4<f32>>;
 @group(0) @binding(BINDING_COUNTS) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(BINDING_FEEDBACK) var<storage, read_write> feedback: array<FeedbackEntry>;

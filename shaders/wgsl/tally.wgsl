@@ -4,12 +4,14 @@
 
 // One tile per invocation: the samples of its rays, with MISSING where any of them met a node that is too coarse.
 @compute @workgroup_size(TALLIED_TILES, 1, 1)
-fn tally_tile(@builtin(global_invocation_id) place: vec3<u32>) {
-    let listed = place.x;
-    if listed >= projector.raster.w {
+fn tally_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_id) local: vec3<u32>) {
+    let place = (group.x + group.y * groups.x) * TALLIED_TILES + local.x;
+    if place >= listed[0] {
         return;
     }
-    let tile = tiles[listed];
+    projector = views[listed[1u + 2u * place]];
+    let tile = listed[2u + 2u * place];
     let across = projector.raster.z;
     let corner = vec2<u32>(tile % across, tile / across) * TILE_EDGE;
     var samples = 0u;
@@ -18,10 +20,10 @@ fn tally_tile(@builtin(global_invocation_id) place: vec3<u32>) {
         let in_tiles = corner + vec2<u32>(i % TILE_EDGE, i / TILE_EDGE);
         let pixel = in_tiles * projector.lattice.xy + projector.lattice.zw;
         if pixel.x < projector.raster.x && pixel.y < projector.raster.y {
-            let count = counts[pixel.y * projector.raster.x + pixel.x];
+            let count = counts[projector.raster.w + pixel.y * projector.raster.x + pixel.x];
             samples += count & ~MISSING;
             missing |= count & MISSING;
         }
     }
-    tallies[listed] = samples | missing;
+    tallies[place] = samples | missing;
 }

@@ -12,8 +12,8 @@ macro_rules! bindings {
 bindings! {
     /// The uniform [`SceneBlock`](crate::SceneBlock).
     SCENE = 0;
-    /// The uniform [`ViewBlock`](crate::ViewBlock).
-    VIEW = 1;
+    /// The [`ViewBlock`](crate::ViewBlock)s.
+    VIEWS = 1;
     /// The uniform array of [`Link`](crate::Link)s.
     LINKS = 2;
     /// The [`NodeRecord`](crate::NodeRecord)s, root first.
@@ -36,11 +36,11 @@ bindings! {
     INDEX = 11;
     /// The [`TableEntry`](crate::TableEntry)s of the materials.
     MATERIALS = 12;
-    /// The numbers of the tiles to cast.
-    TILES = 13;
-    /// The colours, pixel by pixel.
+    /// What to cast: how many, then view and number of each tile, or view, pixel and end of each short ray.
+    LISTED = 13;
+    /// The colours of all views, pixel by pixel.
     PIXELS = 14;
-    /// The samples taken, pixel by pixel.
+    /// The samples taken, pixel by pixel of all views.
     COUNTS = 15;
     /// The [`FeedbackEntry`](crate::FeedbackEntry)s, node by node.
     FEEDBACK = 16;

@@ -60,19 +60,19 @@ pub struct Tiling {
     pub lattice: Lattice,
     /// Tiles along x.
     pub across: u32,
-    /// Tiles to cast.
-    pub tiles: u32,
+    /// Where the first pixel of the view's picture lies among those of all.
+    pub first_pixel: u32,
 }
 
 impl ProjectorRays<f32> {
-    /// The uniform block of this view.
+    /// The block of this view.
     pub fn block(&self, tiling: &Tiling) -> ViewBlock {
         let column = |v: Vec3<f32>| [v.0[0], v.0[1], v.0[2], 0.0];
         let Lattice { step: [step_x, step_y], first: [first_x, first_y] } = tiling.lattice;
         ViewBlock {
             screen_from_pixel: self.screen_from_pixel.map(column),
             beam: self.beam,
-            raster: [self.raster[0], self.raster[1], tiling.across, tiling.tiles],
+            raster: [self.raster[0], self.raster[1], tiling.across, tiling.first_pixel],
             lattice: [step_x, step_y, first_x, first_y],
         }
     }

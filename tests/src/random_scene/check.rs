@@ -1,4 +1,4 @@
-//! A random scene drawn by every device: light in every pixel, the same light by all, and near the truth.
+//! A random scene drawn by every device and caster: light in every pixel, the same light by all, and near the truth.
 
 use super::RandomScene;
 use super::difference::{Difference, Limit, difference};
@@ -9,7 +9,7 @@ use crate::remembered::Remembered;
 use bricks::BrickSource;
 use display_config::Display;
 use optics::Quality;
-use protocol::{DeviceChoice, FrameState, ProjectorImage};
+use protocol::{Caster, CasterChoice, FrameState, ProjectorImage};
 use std::sync::Arc;
 
 /// One projector from the side and one near the middle.
@@ -30,8 +30,10 @@ pub struct Found {
     pub rounding: Option<Difference>,
     /// Pixels whose truth is known, and those of which it is not.
     pub truth: Option<[usize; 2]>,
-    /// Every device against the truth.
-    pub verdicts: Vec<Verdict>,
+    /// Rays by every device against the truth.
+    pub by_rays: Vec<Verdict>,
+    /// Row planes against the truth, where they draw the scene.
+    pub by_planes: Option<Verdict>,
     /// Of some pixels that show anything, those of which a fault of a code would be seen, and all.
     pub sharp: [usize; 2],
     /// Pixels that show anything.
@@ -59,22 +61,29 @@ pub fn display() -> Display {
     Display::load("desk8").expect("a preset").with_rasters(RASTER[0], RASTER[1])
 }
 
-/// Draws a scene on every device there is, and compares.
+/// Row planes where they can draw a scene, rays elsewhere.
+const PLANES_OR_RAYS: With = With { caster: CasterChoice::Auto, ..With::PLANES };
+
+/// Draws a scene in every way there is, and compares.
 pub fn check(display: &Display, scene: &RandomScene) -> Found {
     let source: Arc<dyn BrickSource> = Arc::new(Remembered::new(scene.volume.source()));
-    let frame = scene.frame(display);
+    let frame = FrameState { welcomes_planes: true, ..scene.frame(display) };
     let mut found = Found::default();
-    let mut all: Vec<(DeviceChoice, Vec<ProjectorImage>)> = Vec::new();
-    for device in draw::devices() {
-        let drawn = draw::draw(display, &frame, &source, &PROJECTORS, With::device(device));
-        if !drawn.report.complete {
-            found.wrong.push(format!("{device:?}: {}", drawn.report.shortfall));
+    let mut all: Vec<(With, Vec<ProjectorImage>)> = Vec::new();
+    for with in draw::devices().into_iter().map(With::device).chain([PLANES_OR_RAYS]) {
+        let drawn = draw::draw(display, &frame, &source, &PROJECTORS, with);
+        if with.caster == CasterChoice::Auto && !matches!(drawn.report.caster, Caster::Planes { .. }) {
+            continue;
         }
-        found.wrong.extend(what_is_no_light(&drawn.images).map(|what| format!("{device:?}: {what}")));
-        all.push((device, drawn.images));
+        if !drawn.report.complete {
+            found.wrong.push(format!("{}: {}", name(with), drawn.report.shortfall));
+        }
+        found.wrong.extend(what_is_no_light(&drawn.images).map(|what| format!("{}: {what}", name(with))));
+        all.push((with, drawn.images));
     }
+    let by_rays: Vec<_> = all.iter().filter(|(with, _)| with.caster == CasterChoice::Rays).collect();
     // Where rays are bent much, those that differ by rounding part.
-    if let [(_, twin), (_, kernel)] = &all[..]
+    if let [(_, twin), (_, kernel)] = &by_rays[..]
         && scene.is_gentle
     {
         found.compare_kernel(scene, kernel, twin);
@@ -85,19 +94,27 @@ pub fn check(display: &Display, scene: &RandomScene) -> Found {
         let judge = Judge::new(&truth, 1.0 / brightest(scene), &scene.quality);
         found.truth = Some(truth.known());
         found.sharp = judge.sharp(SHARP_STRIDE);
-        for (device, images) in all {
+        for (with, images) in all {
             let again = |quality: Quality| {
                 let frame = FrameState { quality, ..frame.clone() };
-                draw::draw(display, &frame, &source, &PROJECTORS, With::device(device)).images
+                draw::draw(display, &frame, &source, &PROJECTORS, with).images
             };
             let verdict = judge.judge(&images, again);
             if !verdict.holds() {
-                found.wrong.push(format!("{device:?} is off the truth: {verdict}"));
+                found.wrong.push(format!("{} off the truth: {verdict}", name(with)));
             }
-            found.verdicts.push(verdict);
+            match with.caster {
+                CasterChoice::Rays => found.by_rays.push(verdict),
+                _ => found.by_planes = Some(verdict),
+            }
         }
     }
     found
+}
+
+fn name(with: With) -> String {
+    let caster = if with.caster == CasterChoice::Rays { "rays" } else { "row planes" };
+    format!("{caster} by {:?}", with.device)
 }
 
 impl Found {

@@ -6,9 +6,6 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Times that a case that fails is made simpler, and drawn again.
-const SIMPLER: usize = 60;
-
 /// After so many cases a run says how far it is.
 const TOLD: u64 = 50;
 
@@ -32,6 +29,8 @@ pub struct Plan {
     pub cases: u64,
     /// The features they may have.
     pub wanted: Wanted,
+    /// Times that a case that fails is made simpler, and drawn again.
+    pub tries: usize,
 }
 
 /// What came of them.
@@ -51,6 +50,8 @@ pub struct Summary {
     pub sharp: [usize; 2],
     /// All devices' pixels together.
     pub verdict: Verdict,
+    /// Pixels of row planes together.
+    pub by_planes: Verdict,
     /// The scene whose kernel and twin differ most, of all and of those with nothing steep.
     pub rounding: [Option<Worst<Difference>>; 2],
     /// The scene with most pixels off the truth.
@@ -79,7 +80,8 @@ pub fn run(plan: &Plan) -> Summary {
         let scene = tree.current();
         let found = drawn(&display, &scene);
         if !found.wrong.is_empty() {
-            let simplest = simplest(&display, &mut tree);
+            println!("case {case} fails: {}", found.wrong.join("; "));
+            let simplest = simplest(&display, &mut tree, plan.tries);
             summary.failed.push(told(plan, case, &found, simplest.as_ref()));
         }
         summary.add(case, scene, &found);
@@ -112,10 +114,11 @@ fn drawn(display: &display_config::Display, scene: &RandomScene) -> Found {
 fn simplest(
     display: &display_config::Display,
     tree: &mut impl ValueTree<Value = RandomScene>,
+    tries: usize,
 ) -> Option<RandomScene> {
     let mut simplest = None;
     let mut fails = true;
-    for _ in 0..SIMPLER {
+    for _ in 0..tries {
         let has_more = if fails { tree.simplify() } else { tree.complicate() };
         if !has_more {
             break;
@@ -154,8 +157,9 @@ impl Summary {
         {
             *worst = Some(Worst { case, difference, scene: scene.clone() });
         }
-        for &verdict in &found.verdicts {
-            self.verdict = self.verdict.and(&verdict);
+        found.by_rays.iter().for_each(|verdict| self.verdict = self.verdict.and(verdict));
+        found.by_planes.iter().for_each(|verdict| self.by_planes = self.by_planes.and(verdict));
+        for &verdict in found.by_rays.iter().chain(&found.by_planes) {
             if self.truth.as_ref().is_none_or(|worst| worst.difference.off() < verdict.off()) {
                 self.truth = Some(Worst { case, difference: verdict, scene: scene.clone() });
             }
@@ -165,7 +169,8 @@ impl Summary {
     /// What too many scenes have for the comparison to mean anything, a sentence each.
     pub fn shortcomings(&self) -> Vec<&'static str> {
         let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
-        let Self { cases, lit, known: [known, unknown], sharp: [sharp, asked], verdict, .. } = *self;
+        let Self { cases, lit, known: [known, unknown], sharp: [sharp, asked], .. } = *self;
+        let verdict = self.verdict.and(&self.by_planes);
         let all = [
             (4 * lit < 3 * cases, "too few show anything"),
             (share(unknown, known + unknown) > UNKNOWN, "too many pixels have no truth"),
@@ -179,7 +184,7 @@ impl Summary {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { cases, lit, compared, tame, failed, known: [known, unknown], sharp, verdict, .. } = self;
+        let Self { cases, lit, compared, tame, failed, known: [known, unknown], sharp, .. } = self;
         let fails = failed.len();
         writeln!(
             f,
@@ -187,7 +192,8 @@ impl fmt::Display for Summary {
         )?;
         writeln!(f, "truth known of {known} pixels, unknown of {unknown}")?;
         writeln!(f, "of {} lit pixels a fault of a code would be seen in {}", sharp[1], sharp[0])?;
-        writeln!(f, "all devices: {verdict}")?;
+        writeln!(f, "rays, all devices: {}", self.verdict)?;
+        writeln!(f, "row planes: {}", self.by_planes)?;
         for (worst, of) in self.rounding.iter().zip(["steep", "tame"]) {
             if let Some(Worst { case, difference, .. }) = worst {
                 writeln!(f, "kernel and twin, worst of the {of} scenes: case {case}: {difference}")?;

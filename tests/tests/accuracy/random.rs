@@ -1,8 +1,8 @@
 //! Random scenes: light in every pixel, the same by kernel and twin, and near the truth.
 //!
 //! `LIGHTLOOM_RANDOM_CASES=2000 LIGHTLOOM_RANDOM_SEED=1 cargo test --release -p lightloom-tests --test accuracy random:: --
-//! --nocapture` draws as many as one has time for, and prints the worst; LIGHTLOOM_RANDOM_FIRST=n begins with case n. With
-//! `LIGHTLOOM_RESULTS=1` the summary is kept as well.
+//! --nocapture` draws as many as one has time for, and prints the worst; LIGHTLOOM_RANDOM_FIRST=n begins with case n, and
+//! LIGHTLOOM_RANDOM_TRIES=0 leaves those that fail as they are. With `LIGHTLOOM_RESULTS=1` the summary is kept as well.
 
 use lightloom_tests::draw;
 use lightloom_tests::random_scene::{Plan, Wanted, run};
@@ -11,6 +11,8 @@ use lightloom_tests::results::{Program, Results};
 /// A minute on two cores.
 const CASES: u64 = 40;
 const SEED: u64 = 20_100_607;
+/// Times that a case that fails is made simpler, and drawn again.
+const TRIES: u64 = 60;
 
 fn number(variable: &str, default: u64) -> u64 {
     std::env::var(variable).map_or(default, |text| text.parse().expect("the variable is a whole number"))
@@ -24,6 +26,7 @@ fn random_scenes_are_light_by_every_device_and_near_the_truth() {
         first: number("LIGHTLOOM_RANDOM_FIRST", 0),
         cases: number("LIGHTLOOM_RANDOM_CASES", CASES),
         wanted: Wanted::ALL,
+        tries: number("LIGHTLOOM_RANDOM_TRIES", TRIES) as usize,
     };
     println!("{plan:?}");
     let summary = run(&plan);

@@ -95,7 +95,7 @@ impl Renderer {
     }
 
     /// Goes on with the frame until `stop` asks to leave off, a picture has become final, or the frame is done. `stop` is
-    /// asked before each tile; on a GPU before each batch of tiles, which takes some milliseconds, on a driver in software up
+    /// asked before each tile; on a GPU before each batch of tiles, which takes some tens of milliseconds, on a driver in software up
     /// to two seconds.
     ///
     /// # Errors

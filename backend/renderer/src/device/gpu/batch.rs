@@ -7,6 +7,8 @@ use std::time::Duration;
 
 /// Tiles of the first batch: few, because nobody knows yet how long they take.
 const FIRST: usize = 256;
+/// What a batch takes at most, whatever else it would be good for: a driver's watchdog waits for some seconds.
+const LONGEST: Duration = Duration::from_millis(500);
 
 /// Some neighbouring items of one of many lists.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +37,8 @@ pub(super) fn next_pieces(lengths: &[usize], done: &[usize], most: usize) -> Vec
 pub(super) struct BatchSize {
     tiles: usize,
     aim: Duration,
+    /// Of fewer tiles a GPU takes as long as its longest rays take, which smaller batches do not make shorter.
+    few: usize,
     most: usize,
     /// Batches that the driver has at once.
     at_once: usize,
@@ -46,17 +50,18 @@ impl BatchSize {
     /// Before anything has been cast. On a driver in software batches take longer: it deals tiles out to its threads
     /// beforehand, which then wait for each other, so that small batches leave threads idle.
     pub fn new(is_software: bool) -> Self {
-        let (aim, most, at_once, threads) = match is_software {
-            true => (Duration::from_secs(1), 2048, 1, available_parallelism().map_or(1, NonZero::get)),
-            // A GPU would idle between two of them while the host hears of the first.
-            false => (Duration::from_millis(8), 1 << 17, 2, 1),
-        };
-        Self { tiles: FIRST, aim, most, at_once, threads }
+        let tiles = FIRST;
+        if is_software {
+            let threads = available_parallelism().map_or(1, NonZero::get);
+            return Self { tiles, aim: Duration::from_secs(1), few: 1, most: 2048, at_once: 1, threads };
+        }
+        // A GPU would idle between two of them while the host hears of the first.
+        Self { tiles, aim: Duration::from_millis(30), few: 1 << 13, most: 1 << 20, at_once: 2, threads: 1 }
     }
 
     /// A batch in the order in which it is handed over. A driver in software gives each thread one stretch of it: neighbours,
     /// which take about as long as each other, go to different ones.
-    pub fn dealt(&self, tiles: &[u32]) -> Vec<u32> {
+    pub fn dealt<T: Copy>(&self, tiles: &[T]) -> Vec<T> {
         (0..self.threads)
             .flat_map(|thread| tiles.iter().skip(thread).step_by(self.threads))
             .copied()
@@ -68,17 +73,23 @@ impl BatchSize {
         self.at_once
     }
 
-    /// The next batch of lists of so many tiles, of which so many are done.
+    /// The next batch of lists of so many tiles, of which so many are done. What would be left for a small last one goes with
+    /// it: the longest rays of a batch take as long however few there are.
     pub fn next(&self, lengths: &[usize], done: &[usize]) -> Vec<Piece> {
-        next_pieces(lengths, done, self.tiles)
+        let left: usize = lengths.iter().zip(done).map(|(length, done)| length - done).sum();
+        let tiles = if 2 * left < 3 * self.tiles { left } else { self.tiles };
+        next_pieces(lengths, done, tiles)
     }
 
     /// A batch of so many tiles took so long. Small ones, at the end of a cast, tell nothing.
     pub fn learn(&mut self, tiles: usize, took: Duration) {
-        if took > 2 * self.aim {
+        let is_too_long = took > 2 * self.aim && (self.tiles > self.few || took > LONGEST);
+        let aim = if self.tiles < self.few { self.aim.max(LONGEST / 2) } else { self.aim };
+        if is_too_long {
             let share = self.aim.as_secs_f64() / took.as_secs_f64();
-            self.tiles = ((tiles as f64 * share) as usize).clamp(1, self.tiles);
-        } else if tiles == self.tiles && 2 * took < self.aim {
+            let least = if took > LONGEST { 1 } else { self.few };
+            self.tiles = ((tiles as f64 * share) as usize).clamp(least.min(self.tiles), self.tiles);
+        } else if tiles >= self.tiles && 2 * took < aim {
             self.tiles = (2 * tiles).min(self.most);
         }
     }
@@ -104,7 +115,8 @@ mod tests {
     #[test]
     fn batches_grow_to_their_aim_and_no_further() {
         for (is_software, each, largest) in [
-            (false, Duration::from_micros(10), 512),
+            (false, Duration::from_micros(10), 1 << 13),
+            (false, Duration::from_micros(50), 4096),
             (false, Duration::from_nanos(1), 1 << 16),
             (true, Duration::from_micros(1), 2048),
             (true, Duration::from_millis(1), 512),

@@ -1,8 +1,8 @@
 //! What kernels that cast are given.
 
+use super::arena::Arena;
 use super::device::GpuDevice;
 use super::storage::Storage;
-use super::view::ViewBuffers;
 use layout::binding;
 use needs::{Needs, Way};
 use shaders::compose::{Filter, KernelKey, KernelRays};
@@ -23,20 +23,21 @@ impl GpuDevice {
         }
     }
 
-    /// All that a kernel reads and writes: of a view, what it has of its own.
+    /// All that a kernel reads and writes: of an arena, what is listed there.
     pub(super) fn bind(
         &self,
         pipeline: &wgpu::ComputePipeline,
         key: KernelKey,
-        view: &ViewBuffers,
+        arena: &Arena,
         feedback: &Storage,
     ) -> wgpu::BindGroup {
         let buffers = [
             (binding::NODES, &self.nodes),
             (binding::OPTICS, &self.optics),
-            (binding::TILES, &view.tiles),
-            (binding::PIXELS, &view.pixels),
-            (binding::COUNTS, &view.counts),
+            (binding::VIEWS, &arena.views),
+            (binding::LISTED, &arena.listed),
+            (binding::PIXELS, &arena.pixels),
+            (binding::COUNTS, &arena.counts),
             (binding::FEEDBACK, feedback),
             (binding::TABLE_CELLS, &self.table_cells),
             (binding::CELLS, &self.cells),
@@ -45,9 +46,8 @@ impl GpuDevice {
             .into_iter()
             .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
             .collect();
-        for (binding, block) in [(binding::SCENE, &self.scene), (binding::VIEW, &view.block)] {
-            entries.push(wgpu::BindGroupEntry { binding, resource: block.as_entire_binding() });
-        }
+        let scene = self.scene.as_entire_binding();
+        entries.push(wgpu::BindGroupEntry { binding: binding::SCENE, resource: scene });
         let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
         entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
         if let Some(deviations) = self.deviations.as_ref().filter(|_| key.needs.spreads) {

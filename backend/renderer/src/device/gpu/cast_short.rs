@@ -1,15 +1,15 @@
 //! Short rays on the GPU.
 
+use super::arena::COLOUR_BYTES;
 use super::batch::{Piece, next_pieces};
 use super::device::GpuDevice;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
-use super::short::ShortRays;
-use super::view::ViewBuffers;
 use crate::device::{DeviceError, ShortJob};
-use layout::SHORT_RAYS;
+use layout::{SHORT_RAYS, ViewBlock};
 use shaders::compose::KernelRays;
 use std::sync::Arc;
+use twin::{Lattice, Tiling};
 
 /// Rays that are handed to the driver at a time: what they take must not be too long for it.
 const AT_A_TIME: usize = 1 << 14;
@@ -43,23 +43,24 @@ impl GpuDevice {
         let context = Arc::clone(&self.context);
         let key = self.key(KernelRays::Short, job.needs);
         let pipeline = context.kernel(Kernel::Cast(key));
-        let ShortRays { buffers, colours_back } = &mut self.short;
-        buffers.resize_with(buffers.len().max(pieces.len()), || ViewBuffers::new(&context));
-        colours_back.begin(&context, 16 * pieces.iter().map(|piece| piece.range.len() as u64).sum::<u64>());
+        let of_pieces = || pieces.iter().map(|piece| (&job.views[piece.list], piece.range.clone()));
+        let tiling = Tiling { lattice: Lattice::ALL, across: 1, first_pixel: 0 };
+        let views: Vec<ViewBlock> = of_pieces().map(|(view, _)| view.rays.block(&tiling)).collect();
+        let listed: Vec<[u32; 3]> = (0..)
+            .zip(of_pieces())
+            .flat_map(|(place, (view, range))| view.short[range].iter().map(move |ray| (place, ray.words())))
+            .map(|(place, [pixel, end])| [place, pixel, end])
+            .collect();
+        let count = listed.len() as u64;
+        self.short.grow(&context, count);
+        self.short.list(&context, &views, &listed);
+        self.short_back.begin(&context, COLOUR_BYTES * count);
         let mut encoder = context.new_encoder();
-        for (place, Piece { list, range }) in pieces.iter().enumerate() {
-            let view = &job.views[*list];
-            let short = &view.short[range.clone()];
-            self.short.buffers[place].prepare_short(&context, view.rays, short);
-            let buffers = &self.short.buffers[place];
-            // What they meet is noted where nobody looks: the whole rays of their pixels have told it.
-            let bind_group = self.bind(&pipeline, key, buffers, &self.feedback);
-            let groups = (short.len() as u32).div_ceil(SHORT_RAYS);
-            note_pass(&mut encoder, &pipeline, &bind_group, in_rows(groups));
-            let ShortRays { buffers, colours_back } = &mut self.short;
-            colours_back.copy(&mut encoder, &buffers[place].pixels.buffer, 16 * short.len() as u64);
-        }
+        // What they meet is noted where nobody looks: the whole rays of their pixels have told it.
+        let bind_group = self.bind(&pipeline, key, &self.short, &self.feedback);
+        note_pass(&mut encoder, &pipeline, &bind_group, in_rows((count as u32).div_ceil(SHORT_RAYS)));
+        self.short_back.copy(&mut encoder, &self.short.pixels.stretch(0, COLOUR_BYTES * count));
         context.submit(encoder);
-        self.short.colours_back.items(&context)
+        self.short_back.items(&context)
     }
 }

@@ -27,7 +27,9 @@ pub(in crate::device) struct Context {
 }
 
 /// Storage buffers of the kernel that uses everything.
-const MOST_STORAGE_BUFFERS: u32 = 12;
+const MOST_STORAGE_BUFFERS: u32 = 13;
+/// Bytes of a buffer of pictures, at most, where the device would bind more at a time.
+const MOST_BOUND_BYTES: u64 = 1 << 30;
 
 type Opened = Result<Arc<Context>, DeviceError>;
 
@@ -96,6 +98,12 @@ impl Context {
     pub(in crate::device) fn brick_bytes(&self) -> u64 {
         let sample = if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 };
         sample * bricks::BRICK_VOXELS as u64
+    }
+
+    /// Bytes of a buffer that a kernel may be given.
+    pub(super) fn most_bound_bytes(&self) -> u64 {
+        let limits = self.device.limits();
+        MOST_BOUND_BYTES.min(limits.max_buffer_size).min(limits.max_storage_buffer_binding_size)
     }
 
     /// A kernel, compiled by whichever device first asks for it.

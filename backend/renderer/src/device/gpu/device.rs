@@ -1,5 +1,6 @@
 //! A back-end's share of the GPU: its atlas and buffers.
 
+use super::arena::Arena;
 use super::atlas::Atlas;
 use super::batch::BatchSize;
 use super::context::Context;
@@ -7,7 +8,6 @@ use super::feedback::FrameFeedback;
 use super::pictures::Pictures;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
-use super::short::ShortRays;
 use super::storage::{Storage, uniform};
 use crate::device::{DeviceError, DevicePicture, FeedbackTag, FinishJob, ShowJob, TaggedFeedback};
 use bricks::BRICK_VOXELS;
@@ -44,7 +44,9 @@ pub struct GpuDevice {
     pub(super) feedback: Storage,
     pub(super) frame_feedback: FrameFeedback,
     pub(super) found_back: Readback,
-    pub(super) short: ShortRays,
+    /// Short rays, each with a colour of its own beside the pictures, and the way of these to the host.
+    pub(super) short: Arena,
+    pub(super) short_back: Readback,
     /// Places of the index.
     pub(super) places: usize,
     pub(super) batch: BatchSize,
@@ -99,7 +101,8 @@ impl GpuDevice {
             feedback: storage("feedback"),
             frame_feedback: FrameFeedback::new(&context),
             found_back: Readback::new(),
-            short: ShortRays::new(),
+            short: Arena::new(&context),
+            short_back: Readback::new(),
             places: 0,
             batch: BatchSize::new(context.is_software),
             context,

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::present::PresentPass;
-use super::storage::Storage;
+use super::storage::{Storage, Stretch};
 use crate::device::FinishJob;
 use crate::present::Finisher;
 use layout::present::{HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED};
@@ -10,12 +10,14 @@ use layout::{PresentBlock, binding};
 use shaders::compose::PresentKernel;
 use std::collections::HashMap;
 
-/// The kernel for it, the tables of each view, and the codes of the picture at which it is.
+/// The kernel for it, the tables of each view, and the codes of the pictures of a submission.
 #[derive(Debug)]
 pub(super) struct Finishing {
     pass: PresentPass,
     views: HashMap<usize, Tables>,
     codes: Storage,
+    /// Bytes of them that are some picture's.
+    used_bytes: u64,
 }
 
 impl Finishing {
@@ -24,19 +26,29 @@ impl Finishing {
             pass: PresentPass::new(PresentKernel::Finish),
             views: HashMap::new(),
             codes: Storage::new(context, "codes"),
+            used_bytes: 0,
         }
     }
 
-    /// Notes the codes of a picture, the `place`th of a submission: what will hold a word for each pixel, until the next is
-    /// made.
+    /// Makes room for the codes of a submission, of so many bytes with what lies between pictures.
+    pub(super) fn begin(&mut self, context: &Context, bytes: u64) {
+        self.codes.reserve(context, bytes);
+        self.used_bytes = 0;
+    }
+
+    /// Those of all pictures that were noted since.
+    pub(super) fn codes(&self) -> Stretch<'_> {
+        self.codes.stretch(0, self.used_bytes)
+    }
+
+    /// Notes the codes of a picture, the `place`th of a submission: a word for each pixel, behind those of the one before.
     pub(super) fn note(
         &mut self,
         (context, encoder): (&Context, &mut wgpu::CommandEncoder),
         place: usize,
-        picture: &Storage,
+        picture: &Stretch,
         job: &FinishJob,
-    ) -> &wgpu::Buffer {
-        self.codes.reserve(context, code_bytes(job));
+    ) {
         let tables = self.views.entry(job.view).or_insert_with(|| Tables::new(context, job.finisher));
         let block = PresentBlock {
             raster: [job.raster.width as u32, job.raster.height as u32, 0, 0],
@@ -45,20 +57,25 @@ impl Finishing {
             ..PresentBlock::default()
         };
         let others = [
-            (binding::PLACES, &tables.places),
-            (binding::BLEND, &tables.blend),
-            (binding::BLACK, &tables.black),
-            (binding::CURVES, &tables.curves),
-            (binding::CODES, &self.codes),
+            (binding::PLACES, tables.places.whole()),
+            (binding::BLEND, tables.blend.whole()),
+            (binding::BLACK, tables.black.whole()),
+            (binding::CURVES, tables.curves.whole()),
+            (binding::CODES, self.codes.stretch(self.used_bytes, code_bytes(job))),
         ];
         self.pass.note((context, encoder), place, &block, picture, &others);
-        &self.codes.buffer
+        self.used_bytes += code_room(job);
     }
 }
 
 /// Bytes of a picture's codes on the device: a word for each pixel.
 pub(super) fn code_bytes(job: &FinishJob) -> u64 {
     4 * (job.raster.width * job.raster.height) as u64
+}
+
+/// The same, until the next picture's may begin: at whole multiples of as many bytes as parts of buffers that are bound have to.
+pub(super) fn code_room(job: &FinishJob) -> u64 {
+    code_bytes(job).next_multiple_of(256)
 }
 
 /// Red, green and blue of each pixel of them.

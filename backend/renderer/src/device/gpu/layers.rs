@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::present::PresentPass;
-use super::storage::Storage;
+use super::storage::{Storage, Stretch};
 use crate::device::FinishJob;
 use layout::present::MARKED_ACROSS;
 use layout::{PresentBlock, binding};
@@ -41,16 +41,16 @@ impl Laying {
         &mut self,
         (context, encoder): (&Context, &mut wgpu::CommandEncoder),
         place: usize,
-        picture: &Storage,
+        picture: &Stretch,
         job: &FinishJob,
-    ) -> &Storage {
+    ) -> Stretch<'_> {
         let bytes = 16 * (job.raster.width * job.raster.height) as u64;
         self.marked.reserve(context, bytes);
         self.marks.resize_with(self.marks.len().max(place + 1), || Marks::new(context));
         let Marks { pixels, layers } = &mut self.marks[place];
         pixels.write(context, job.layers.pixels());
         layers.write(context, job.layers.layers());
-        encoder.copy_buffer_to_buffer(&picture.buffer, 0, &self.marked.buffer, 0, bytes);
+        encoder.copy_buffer_to_buffer(picture.buffer, picture.offset, &self.marked.buffer, 0, bytes);
         let count = job.layers.pixels().len() as u32;
         let block = PresentBlock {
             raster: [MARKED_ACROSS, count.div_ceil(MARKED_ACROSS), 0, 0],
@@ -58,11 +58,11 @@ impl Laying {
             ..PresentBlock::default()
         };
         let others = [
-            (binding::MARKED_PIXELS, &*pixels),
-            (binding::LAYERS, &*layers),
-            (binding::MARKED, &self.marked),
+            (binding::MARKED_PIXELS, pixels.whole()),
+            (binding::LAYERS, layers.whole()),
+            (binding::MARKED, self.marked.whole()),
         ];
         self.pass.note((context, encoder), place, &block, picture, &others);
-        &self.marked
+        self.marked.whole()
     }
 }

@@ -1,6 +1,7 @@
 //! The wgpu device. The only folder that names wgpu.
 
 mod adapters;
+mod arena;
 mod atlas;
 mod batch;
 mod bind;
@@ -19,7 +20,6 @@ mod pipeline_cache;
 mod precision;
 mod present;
 mod readback;
-mod short;
 mod show;
 mod storage;
 mod view;

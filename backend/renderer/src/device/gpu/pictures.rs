@@ -1,11 +1,12 @@
 //! The pictures on the device, and what becomes of them.
 
+use super::arena::{Arena, COLOUR_BYTES, Plan, Room};
 use super::context::Context;
-use super::finish::{Finishing, code_bytes, unpacked};
+use super::finish::{Finishing, code_bytes, code_room, unpacked};
 use super::layers::Laying;
 use super::readback::Readback;
 use super::show::Showing;
-use super::storage::Storage;
+use super::storage::Stretch;
 use super::view::ViewBuffers;
 use crate::device::{DeviceError, DevicePicture, FinishJob, ShowJob};
 use rayon::prelude::*;
@@ -16,7 +17,9 @@ const MOST_CODE_BYTES: u64 = 1 << 27;
 /// All of them, with the kernels that present.
 #[derive(Debug)]
 pub(super) struct Pictures {
-    pub(super) views: Vec<ViewBuffers>,
+    pub(super) arenas: Vec<Arena>,
+    plan: Plan,
+    views: Vec<ViewBuffers>,
     pixels_back: Readback,
     codes_back: Readback,
     showing: Showing,
@@ -27,6 +30,8 @@ pub(super) struct Pictures {
 impl Pictures {
     pub(super) fn new(context: &Context) -> Self {
         Self {
+            arenas: Vec::new(),
+            plan: Plan::new(context.most_bound_bytes()),
             views: Vec::new(),
             pixels_back: Readback::new(),
             codes_back: Readback::new(),
@@ -36,14 +41,34 @@ impl Pictures {
         }
     }
 
-    /// Makes room for so many pictures.
-    pub(super) fn make_room(&mut self, context: &Context, pictures: usize) {
-        self.views.resize_with(self.views.len().max(pictures), || ViewBuffers::new(context));
+    /// Makes room for pictures of these rasters, the first at an index and the others behind it. What is there stays, but for
+    /// pictures that grow.
+    pub(super) fn make_room(
+        &mut self,
+        context: &Context,
+        first: usize,
+        rasters: impl ExactSizeIterator<Item = [u32; 2]>,
+    ) {
+        let count = self.views.len().max(first + rasters.len());
+        self.views.resize_with(count, || ViewBuffers::new(context));
+        for (view, raster) in self.views[first..].iter_mut().zip(rasters) {
+            view.raster = raster;
+            view.room = Some(self.plan.room(view.room, view.pixel_count()));
+        }
+        self.arenas.resize_with(self.plan.used.len(), || Arena::new(context));
+        for (arena, &pixels) in self.arenas.iter_mut().zip(&self.plan.used) {
+            arena.grow(context, pixels);
+        }
+    }
+
+    /// Where a picture lies, for which room was made.
+    pub(super) fn room(&self, picture: usize) -> Room {
+        self.views[picture].room.expect("room is made before a picture is cast")
     }
 
     /// Makes what is shown of what was cast. Whether any of it is behind, picture by picture.
     pub(super) fn show(&mut self, context: &Context, jobs: &[ShowJob]) -> Result<Vec<bool>, DeviceError> {
-        self.showing.show(context, &mut self.views, jobs)
+        self.showing.show(context, &self.arenas, &mut self.views, jobs)
     }
 
     /// The colours of a picture.
@@ -52,11 +77,10 @@ impl Pictures {
         context: &Context,
         picture: DevicePicture,
     ) -> Result<Vec<f32>, DeviceError> {
-        let (colours, pixels) = colours_of(&self.views, picture);
+        let colours = colours_of(&self.arenas, &self.views, picture);
         let mut encoder = context.new_encoder();
-        let bytes = 16 * pixels as u64;
-        self.pixels_back.begin(context, bytes);
-        self.pixels_back.copy(&mut encoder, &colours.buffer, bytes);
+        self.pixels_back.begin(context, colours.bytes);
+        self.pixels_back.copy(&mut encoder, &colours);
         context.submit(encoder);
         self.pixels_back.items(context)
     }
@@ -79,23 +103,27 @@ impl Pictures {
 
     /// Those of so many that there is room for all on the way.
     fn some_codes(&mut self, context: &Context, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
-        let Self { views, codes_back, laying, finishing, .. } = self;
+        let Self { arenas, views, codes_back, laying, finishing, .. } = self;
         let mut encoder = context.new_encoder();
-        codes_back.begin(context, jobs.iter().map(code_bytes).sum());
+        let bytes = jobs.iter().map(code_room).sum();
+        codes_back.begin(context, bytes);
+        finishing.begin(context, bytes);
         for (place, job) in jobs.iter().enumerate() {
-            let (colours, _) = colours_of(views, job.picture);
+            let colours = colours_of(arenas, views, job.picture);
             let picture = match job.layers.is_empty() {
                 true => colours,
-                false => laying.note((context, &mut encoder), place, colours, job),
+                false => laying.note((context, &mut encoder), place, &colours, job),
             };
-            let words = finishing.note((context, &mut encoder), place, picture, job);
-            codes_back.copy(&mut encoder, words, code_bytes(job));
+            finishing.note((context, &mut encoder), place, &picture, job);
         }
+        codes_back.copy(&mut encoder, &finishing.codes());
         context.submit(encoder);
         codes_back.read(context, |mut words| {
             let of_each: Vec<&[u8]> = jobs
                 .iter()
-                .map(|job| words.split_off(..code_bytes(job) as usize).expect("each has so many bytes"))
+                .map(|job| words.split_off(..code_room(job) as usize).expect("each has so many bytes"))
+                .zip(jobs)
+                .map(|(room, job)| &room[..code_bytes(job) as usize])
                 .collect();
             of_each.into_par_iter().map(unpacked).collect()
         })
@@ -105,7 +133,7 @@ impl Pictures {
 /// How many of some pictures, at least one, have codes that fit on the way to the host together.
 fn fitting(jobs: &[FinishJob]) -> usize {
     let mut room = MOST_CODE_BYTES;
-    let fit = jobs.iter().take_while(|job| match room.checked_sub(code_bytes(job)) {
+    let fit = jobs.iter().take_while(|job| match room.checked_sub(code_room(job)) {
         Some(left) => {
             room = left;
             true
@@ -115,10 +143,18 @@ fn fitting(jobs: &[FinishJob]) -> usize {
     fit.count().max(1)
 }
 
-/// The colours of a picture, and how many.
-fn colours_of(views: &[ViewBuffers], picture: DevicePicture) -> (&Storage, usize) {
+/// The colours of a picture.
+fn colours_of<'a>(arenas: &'a [Arena], views: &'a [ViewBuffers], picture: DevicePicture) -> Stretch<'a> {
     match picture {
-        DevicePicture::Cast(index) => (&views[index].pixels, views[index].pixel_count()),
-        DevicePicture::Shown(index) => (&views[index].shown, views[index].pixel_count()),
+        DevicePicture::Cast(index) => cast_colours(arenas, &views[index]),
+        DevicePicture::Shown(index) => {
+            views[index].shown.stretch(0, COLOUR_BYTES * views[index].pixel_count())
+        }
     }
+}
+
+/// Those of what was cast.
+pub(super) fn cast_colours<'a>(arenas: &'a [Arena], view: &ViewBuffers) -> Stretch<'a> {
+    let room = view.room.expect("only pictures that were cast are looked at");
+    arenas[room.arena].colours(&room, view.pixel_count())
 }

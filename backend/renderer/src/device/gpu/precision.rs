@@ -5,6 +5,7 @@ use super::context::Context;
 use super::kernels::Kernel;
 use super::pass::note_pass;
 use super::readback::Readback;
+use super::storage::Stretch;
 use crate::device::DeviceError;
 use bricks::{BRICK_EDGE, BRICK_VOXELS};
 
@@ -44,7 +45,7 @@ pub(super) fn filter_error(
     note_pass(&mut encoder, &pipeline, &bind_group, [POINTS / 64, 1]);
     let mut readback = Readback::new();
     readback.begin(context, found.size());
-    readback.copy(&mut encoder, &found, found.size());
+    readback.copy(&mut encoder, &Stretch { buffer: &found, offset: 0, bytes: found.size() });
     context.submit(encoder);
     let samples: Vec<f32> = readback.items(context)?;
     let error = |(i, sample): (usize, &f32)| (sample - (i as f32 + 0.5) / POINTS as f32).abs();

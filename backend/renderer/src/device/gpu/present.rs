@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::kernels::Kernel;
 use super::pass::note_pass;
-use super::storage::{Storage, uniform};
+use super::storage::{Stretch, uniform};
 use layout::{PresentBlock, TILE_EDGE, binding};
 use shaders::compose::PresentKernel;
 
@@ -26,8 +26,8 @@ impl PresentPass {
         (context, encoder): (&Context, &mut wgpu::CommandEncoder),
         place: usize,
         block: &PresentBlock,
-        picture: &Storage,
-        others: &[(u32, &Storage)],
+        picture: &Stretch,
+        others: &[(u32, Stretch)],
     ) {
         let pipeline = context.kernel(Kernel::Present(self.kernel));
         let blocks = self.blocks.len().max(place + 1);
@@ -36,9 +36,9 @@ impl PresentPass {
         context.queue.write_buffer(uniform, 0, bytemuck::bytes_of(block));
         let mut entries =
             vec![wgpu::BindGroupEntry { binding: binding::PRESENT, resource: uniform.as_entire_binding() }];
-        let buffers = [(binding::PICTURE, picture)].into_iter().chain(others.iter().copied());
+        let buffers = [(binding::PICTURE, *picture)].into_iter().chain(others.iter().copied());
         entries.extend(
-            buffers.map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() }),
+            buffers.map(|(binding, stretch)| wgpu::BindGroupEntry { binding, resource: stretch.binding() }),
         );
         let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,

@@ -1,6 +1,7 @@
 //! Bringing buffers back to the host.
 
 use super::context::Context;
+use super::storage::Stretch;
 use crate::device::DeviceError;
 use bytemuck::Pod;
 
@@ -29,10 +30,10 @@ impl Readback {
         }
     }
 
-    /// Notes a copy of the first `bytes` of `from`, behind those that were noted.
-    pub(super) fn copy(&mut self, encoder: &mut wgpu::CommandEncoder, from: &wgpu::Buffer, bytes: u64) {
-        encoder.copy_buffer_to_buffer(from, 0, self.buffer(), self.used_bytes, bytes);
-        self.used_bytes += bytes;
+    /// Notes a copy, behind those that were noted.
+    pub(super) fn copy(&mut self, encoder: &mut wgpu::CommandEncoder, from: &Stretch) {
+        encoder.copy_buffer_to_buffer(from.buffer, from.offset, self.buffer(), self.used_bytes, from.bytes);
+        self.used_bytes += from.bytes;
     }
 
     /// Waits for the copies, which have been submitted, and hands over their bytes.

@@ -1,6 +1,8 @@
 //! What is shown of a picture: gaps filled, and no pixel changed by more than it may.
 
+use super::arena::Arena;
 use super::context::Context;
+use super::pictures::cast_colours;
 use super::present::PresentPass;
 use super::readback::Readback;
 use super::storage::Storage;
@@ -36,13 +38,14 @@ impl Showing {
     pub(super) fn show(
         &mut self,
         context: &Context,
+        arenas: &[Arena],
         views: &mut [ViewBuffers],
         jobs: &[ShowJob],
     ) -> Result<Vec<bool>, DeviceError> {
         let mut encoder = context.new_encoder();
         self.behind_back.begin(context, 4 * jobs.len() as u64);
         for (place, job) in jobs.iter().enumerate() {
-            self.note((context, &mut encoder), place, &mut views[job.picture], job);
+            self.note((context, &mut encoder), place, arenas, &mut views[job.picture], job);
         }
         context.submit(encoder);
         // Whether any picture is behind is waited for only where one can be.
@@ -55,27 +58,29 @@ impl Showing {
         &mut self,
         (context, encoder): (&Context, &mut wgpu::CommandEncoder),
         place: usize,
+        arenas: &[Arena],
         view: &mut ViewBuffers,
         job: &ShowJob,
     ) {
-        let bytes = 16 * view.pixel_count() as u64;
+        let pixels = cast_colours(arenas, view);
+        let bytes = pixels.bytes;
         view.shown.reserve(context, bytes);
         let mut whole = None;
         for (i, pass) in passes(job.known).enumerate() {
             self.whole[i].reserve(context, bytes);
             let (done, rest) = self.whole.split_at(i);
-            let picture = done.last().unwrap_or(&view.pixels);
-            let others = [(binding::BEFORE, &view.shown), (binding::WHOLE, &rest[0])];
+            let picture = done.last().map_or(pixels, Storage::whole);
+            let others = [(binding::BEFORE, view.shown.whole()), (binding::WHOLE, rest[0].whole())];
             let block = reconstruction(job, &pass);
-            self.reconstruct[i].note((context, &mut *encoder), place, &block, picture, &others);
+            self.reconstruct[i].note((context, &mut *encoder), place, &block, &picture, &others);
             whole = Some(i);
         }
-        let picture = whole.map_or(&view.pixels, |i| &self.whole[i]);
+        let picture = whole.map_or(pixels, |i| self.whole[i].whole());
         encoder.clear_buffer(&view.behind.buffer, 0, None);
-        let others = [(binding::SHOWN, &view.shown), (binding::BEHIND, &view.behind)];
-        self.ease.note((context, &mut *encoder), place, &easing(job), picture, &others);
+        let others = [(binding::SHOWN, view.shown.whole()), (binding::BEHIND, view.behind.whole())];
+        self.ease.note((context, &mut *encoder), place, &easing(job), &picture, &others);
         if eases(job) {
-            self.behind_back.copy(encoder, &view.behind.buffer, 4);
+            self.behind_back.copy(encoder, &view.behind.stretch(0, 4));
         }
     }
 }

@@ -3,6 +3,24 @@
 use super::context::Context;
 use bytemuck::Pod;
 
+/// A stretch of a storage buffer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<'a> {
+    pub(super) buffer: &'a wgpu::Buffer,
+    pub(super) offset: u64,
+    pub(super) bytes: u64,
+}
+
+impl<'a> Stretch<'a> {
+    pub(super) fn binding(&self) -> wgpu::BindingResource<'a> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: self.buffer,
+            offset: self.offset,
+            size: std::num::NonZeroU64::new(self.bytes),
+        })
+    }
+}
+
 /// A storage buffer that grows to what is put into it.
 #[derive(Debug)]
 pub(super) struct Storage {
@@ -33,6 +51,18 @@ impl Storage {
         }
     }
 
+    /// Makes room for `bytes` and no more; what was there stays.
+    pub(super) fn grow(&mut self, context: &Context, bytes: u64) {
+        self.used_bytes = bytes.max(64).next_multiple_of(16);
+        if self.buffer.size() < self.used_bytes {
+            let larger = Self::make(context, self.label, self.used_bytes);
+            let mut encoder = context.new_encoder();
+            encoder.copy_buffer_to_buffer(&self.buffer, 0, &larger, 0, self.buffer.size());
+            context.submit(encoder);
+            self.buffer = larger;
+        }
+    }
+
     pub(super) fn write<T: Pod>(&mut self, context: &Context, items: &[T]) {
         let bytes: &[u8] = bytemuck::cast_slice(items);
         self.reserve(context, bytes.len() as u64);
@@ -46,12 +76,18 @@ impl Storage {
         }
     }
 
+    /// A part of it, from `offset` on.
+    pub(super) fn stretch(&self, offset: u64, bytes: u64) -> Stretch<'_> {
+        Stretch { buffer: &self.buffer, offset, bytes }
+    }
+
+    /// All of it that is used.
+    pub(super) fn whole(&self) -> Stretch<'_> {
+        self.stretch(0, self.used_bytes)
+    }
+
     pub(super) fn binding(&self) -> wgpu::BindingResource<'_> {
-        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &self.buffer,
-            offset: 0,
-            size: std::num::NonZeroU64::new(self.used_bytes),
-        })
+        self.whole().binding()
     }
 }
 
