@@ -82,7 +82,6 @@ var<private> projector: ViewBlock;
 @group(0) @binding(BINDING_PIXELS) var<storage, read_write> pixels: array<vec4<f32>>;
 @group(0) @binding(BINDING_COUNTS) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(BINDING_FEEDBACK) var<storage, read_write> feedback: array<FeedbackEntry>;
-@group(0) @binding(BINDING_ATLAS) var atlas: texture_3d<f32>;
 @group(0) @binding(BINDING_TABLE_CELLS) var<storage, read> table_cells: array<TableCell>;
 // Which 4³ cells of each slot's brick show anything: 16 words a slot, cell (x, y, z) is bit (z 8 + y) 8 + x.
 @group(0) @binding(BINDING_CELLS) var<storage, read> cells: array<u32>;

@@ -22,7 +22,7 @@ bindings! {
     CELLS = 4;
     /// The texture of bricks.
     ATLAS = 5;
-    /// Its trilinear sampler.
+    /// Its sampler.
     SAMPLER = 6;
     /// The [`TableEntry`](crate::TableEntry)s of the optics.
     OPTICS = 7;

@@ -10,7 +10,9 @@ use optics::{DebugView, EnhancerKind, MimdaForm};
 pub enum Filter {
     /// By the texture unit.
     Hardware,
-    /// By eight fetches and f32 arithmetic.
+    /// By two gathers and f32 arithmetic.
+    Gathered,
+    /// By eight fetches and f32 arithmetic, where a format cannot be gathered.
     Exact,
 }
 
@@ -146,6 +148,7 @@ impl KernelKey {
         let needs = &self.needs;
         let sample = match self.filter {
             Filter::Hardware => module!("sample/hardware"),
+            Filter::Gathered => module!("sample/gathered"),
             Filter::Exact => module!("sample/exact"),
         };
         let way = match needs.way {
@@ -201,7 +204,7 @@ impl KernelKey {
         chains.push(Chain::of_kinds(&[EnhancerKind::ClipPlane; 3]));
         let mut keys = Vec::new();
         // Both look-ups are looked at as one, by filters alike.
-        for (filter, lookup) in [(Filter::Hardware, Lookup::Listed), (Filter::Exact, Lookup::Halved)] {
+        for (filter, lookup) in [(Filter::Hardware, Lookup::Listed), (Filter::Gathered, Lookup::Halved)] {
             for levels in [Levels::Single, Levels::Quadrilinear] {
                 for shading in Shading::ALL {
                     for compositing in Compositing::ALL {
@@ -236,13 +239,15 @@ impl KernelKey {
             let shading = Shading::Exaggerated;
             let compositing = Compositing::Mimda(MimdaForm::Paper);
             let needs = Needs { shading, compositing, way: Way::Refracted, debug, ..Needs::PLAIN };
-            keys.push(Self { rays, filter: Filter::Exact, lookup: Lookup::Halved, needs });
+            for filter in [Filter::Gathered, Filter::Exact] {
+                keys.push(Self { rays, filter, lookup: Lookup::Halved, needs });
+            }
         }
         // Importance that is not accumulated is looked at by enhancers alone.
         let tells = |key: &&Self| {
             let Self { filter, needs, .. } = key;
             let is_plain = needs.shading == Shading::Plain && needs.compositing == Compositing::Over;
-            *filter == Filter::Exact && is_plain && needs.chain.needs_importance()
+            *filter == Filter::Gathered && is_plain && needs.chain.needs_importance()
         };
         let telling = |key: &Self| Self { needs: Needs { tells_importance: true, ..key.needs }, ..*key };
         let told: Vec<Self> = keys.iter().filter(tells).map(telling).collect();
@@ -252,7 +257,7 @@ impl KernelKey {
         let is_apart = |key: &&Self| {
             let Self { filter, needs, .. } = key;
             let has_plain_rest =
-                *filter == Filter::Exact && needs.compositing == Compositing::Over && !needs.tells_importance;
+                *filter == Filter::Gathered && needs.compositing == Compositing::Over && !needs.tells_importance;
             has_plain_rest && (needs.chain.is_empty() || needs.chain.needs_gradient())
         };
         let blended: Vec<Self> = keys.iter().filter(is_apart).copied().map(with_blending).collect();
@@ -264,7 +269,7 @@ impl KernelKey {
         // Which rays there are no other slot asks.
         let plain = Self {
             rays: KernelRays::Short,
-            filter: Filter::Exact,
+            filter: Filter::Gathered,
             lookup: Lookup::Listed,
             needs: Needs::PLAIN,
         };

@@ -3,7 +3,7 @@
 //! | slot | modules |
 //! | --- | --- |
 //! | rays | `cast`, `short` |
-//! | filter | `sample/hardware`, `sample/exact` |
+//! | filter | `sample/hardware`, `gathered`, `exact` |
 //! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
 //! | weights | `levels/no_weights`, `levels/weights` |

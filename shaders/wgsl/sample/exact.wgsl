@@ -1,5 +1,7 @@
 // The stored sample at a point of a brick, interpolated in f32 from eight fetches.
 
+@group(0) @binding(BINDING_ATLAS) var atlas: texture_3d<f32>;
+
 // `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5. The slot enters as
 // whole numbers alone, so that the same point of a brick gives the same bits in any slot.
 fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {

@@ -1,5 +1,6 @@
 // The stored sample at a point of a brick, interpolated by the texture unit.
 
+@group(0) @binding(BINDING_ATLAS) var atlas: texture_3d<f32>;
 @group(0) @binding(BINDING_SAMPLER) var trilinear: sampler;
 
 // Points are taken to the nearest 1/4096 texel: with slots at whole texels and an atlas of 2^n texels along each axis, the

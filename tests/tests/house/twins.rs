@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 const SHOWS: &str = "it casts no rays: the CPU device shows with it, and nobody asks for it in f64";
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 30] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 31] = [
     ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
@@ -31,6 +31,7 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 30] = [
         Some("shaders/twin/src/sample.rs"),
         "the twin has one way to sample: there is no choice to name",
     ),
+    ("sample/gathered", Some("shaders/twin/src/sample.rs"), "the same numbers from other instructions"),
     ("present/block", Some("shaders/layout/src/present.rs"), "the host's struct is used beyond the renderer"),
     ("present/ease", Some("backend/renderer/src/present/ease.rs"), SHOWS),
     ("present/layers", Some("backend/renderer/src/present/layers.rs"), SHOWS),

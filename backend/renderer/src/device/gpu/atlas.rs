@@ -1,4 +1,4 @@
-//! The brick cache on the GPU: a 3-D texture of slots.
+//! The brick cache on the GPU: a texture of slots.
 
 use super::context::Context;
 use crate::device::DeviceError;
@@ -6,6 +6,15 @@ use bricks::BRICK_EDGE;
 
 /// Slots along x and along y, 2⁴ × 32 texels = 512, while there is room along z.
 const SLOT_BITS_ACROSS: u32 = 4;
+
+/// What kernels make of its third axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// A third dimension, which the texture unit interpolates along.
+    Dimension,
+    /// Layers, of each of which it gathers four neighbours at once.
+    Layers,
+}
 
 /// The texture, and how its slots lie.
 #[derive(Debug)]
@@ -22,10 +31,17 @@ impl Atlas {
         context: &Context,
         slots: u32,
         format: wgpu::TextureFormat,
+        depth: Depth,
     ) -> Result<Self, DeviceError> {
         assert!(slots.is_power_of_two(), "the caller rounds the number of slots");
         let edge = BRICK_EDGE as u32;
-        let most = (context.device.limits().max_texture_dimension_3d / edge).ilog2();
+        let limits = context.device.limits();
+        let most_texels = limits.max_texture_dimension_3d.min(limits.max_texture_array_layers);
+        let most = (most_texels / edge).ilog2();
+        let (dimension, view) = match depth {
+            Depth::Dimension => (wgpu::TextureDimension::D3, wgpu::TextureViewDimension::D3),
+            Depth::Layers => (wgpu::TextureDimension::D2, wgpu::TextureViewDimension::D2Array),
+        };
         let slots = layout(slots.ilog2(), most).map(|bits| 1 << bits);
         let scope = context.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let texture = context.device.create_texture(&wgpu::TextureDescriptor {
@@ -37,7 +53,7 @@ impl Atlas {
             },
             mip_level_count: 1,
             sample_count: 1,
-            dimension: wgpu::TextureDimension::D3,
+            dimension,
             format,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
@@ -49,7 +65,9 @@ impl Atlas {
                 slots.iter().product::<u32>()
             )));
         }
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let dimension = Some(view);
+        let view =
+            texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() });
         Ok(Self { texture, view, slots })
     }
 

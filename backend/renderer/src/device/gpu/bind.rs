@@ -54,7 +54,7 @@ impl GpuDevice {
             let resource = wgpu::BindingResource::TextureView(&deviations.view);
             entries.push(wgpu::BindGroupEntry { binding: binding::DEVIATIONS, resource });
         }
-        if key.filter == Filter::Hardware {
+        if key.filter != Filter::Exact {
             let sampler = wgpu::BindingResource::Sampler(&self.sampler);
             entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });
         }

@@ -1,7 +1,7 @@
 //! A back-end's share of the GPU: its atlas and buffers.
 
 use super::arena::Arena;
-use super::atlas::Atlas;
+use super::atlas::{Atlas, Depth};
 use super::batch::BatchSize;
 use super::context::Context;
 use super::feedback::FrameFeedback;
@@ -64,18 +64,25 @@ impl GpuDevice {
         has_deviations: bool,
     ) -> Result<Self, DeviceError> {
         let turn = context.turn();
-        let atlas = Atlas::new(&context, slots, context.atlas_format)?;
-        let deviations =
-            has_deviations.then(|| Atlas::new(&context, slots, wgpu::TextureFormat::R8Unorm)).transpose()?;
-        let sampler = context.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("trilinear"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            ..Default::default()
-        });
-        let filter_error =
-            if context.has_filter { Some(filter_error(&context, &atlas, &sampler)?) } else { None };
+        let sampler = |label, filter| {
+            context.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(label),
+                mag_filter: filter,
+                min_filter: filter,
+                ..Default::default()
+            })
+        };
+        let trilinear = sampler("trilinear", wgpu::FilterMode::Linear);
+        let filter_error = context.has_filter.then(|| filter_error(&context, &trilinear)).transpose()?;
         let filter = choose_filter(filter, filter_error)?;
+        let (depth, sampler) = match filter {
+            Filter::Gathered => (Depth::Layers, sampler("nearest", wgpu::FilterMode::Nearest)),
+            Filter::Hardware | Filter::Exact => (Depth::Dimension, trilinear),
+        };
+        let atlas = Atlas::new(&context, slots, context.atlas_format, depth)?;
+        let deviations = has_deviations
+            .then(|| Atlas::new(&context, slots, wgpu::TextureFormat::R8Unorm, Depth::Dimension))
+            .transpose()?;
         let storage = |label| Storage::new(&context, label);
         let scene = uniform::<SceneBlock>(&context, "scene");
         let links = uniform::<[Link; MOST_ENHANCERS]>(&context, "chain of enhancers");
@@ -113,7 +120,7 @@ impl GpuDevice {
     pub(in crate::device) fn info(&self, why: &str) -> DeviceInfo {
         let filter = match self.filter {
             Filter::Hardware => "hardware",
-            Filter::Exact => "exact",
+            Filter::Gathered | Filter::Exact => "exact",
         };
         let measured = match self.filter_error {
             Some(error) => format!("its texture unit interpolates to {error:.1e}"),
@@ -218,9 +225,10 @@ impl GpuDevice {
 
 fn choose_filter(choice: FilterChoice, error: Option<f32>) -> Result<Filter, DeviceError> {
     match (choice, error) {
-        (FilterChoice::Exact, _) | (FilterChoice::Auto, None) => Ok(Filter::Exact),
+        (FilterChoice::Exact | FilterChoice::Auto, None) => Ok(Filter::Exact),
+        (FilterChoice::Exact, Some(_)) => Ok(Filter::Gathered),
         (FilterChoice::Auto, Some(error)) => {
-            Ok(if is_precise(error) { Filter::Hardware } else { Filter::Exact })
+            Ok(if is_precise(error) { Filter::Hardware } else { Filter::Gathered })
         }
         (FilterChoice::Hardware, Some(_)) => Ok(Filter::Hardware),
         (FilterChoice::Hardware, None) => Err(DeviceError(

@@ -1,6 +1,6 @@
 //! How finely this adapter's texture unit interpolates: measured, not believed.
 
-use super::atlas::Atlas;
+use super::atlas::{Atlas, Depth};
 use super::context::Context;
 use super::kernels::Kernel;
 use super::pass::note_pass;
@@ -17,12 +17,9 @@ const POINTS: u32 = 1024;
 /// shows less than 1/255.
 const PRECISE: f32 = 1.0 / 16384.0;
 
-/// The largest error of the texture unit between a texel of 0 and a texel of 1. Uses slot 0 of the atlas.
-pub(super) fn filter_error(
-    context: &Context,
-    atlas: &Atlas,
-    sampler: &wgpu::Sampler,
-) -> Result<f32, DeviceError> {
+/// The largest error of the texture unit between a texel of 0 and a texel of 1.
+pub(super) fn filter_error(context: &Context, sampler: &wgpu::Sampler) -> Result<f32, DeviceError> {
+    let atlas = Atlas::new(context, 1, context.atlas_format, Depth::Dimension)?;
     let ramp: Vec<u16> = (0..BRICK_VOXELS).map(|i| if i % BRICK_EDGE > 4 { 65535 } else { 0 }).collect();
     atlas.write(context, 0, &ramp);
     let pipeline = context.kernel(Kernel::FilterPrecision);
