@@ -256,8 +256,9 @@ impl KernelKey {
         let with_blending = |key: Self| Self { needs: Needs { blends: true, ..key.needs }, ..key };
         let is_apart = |key: &&Self| {
             let Self { filter, needs, .. } = key;
-            let has_plain_rest =
-                *filter == Filter::Gathered && needs.compositing == Compositing::Over && !needs.tells_importance;
+            let has_plain_rest = *filter == Filter::Gathered
+                && needs.compositing == Compositing::Over
+                && !needs.tells_importance;
             has_plain_rest && (needs.chain.is_empty() || needs.chain.needs_gradient())
         };
         let blended: Vec<Self> = keys.iter().filter(is_apart).copied().map(with_blending).collect();

@@ -15,6 +15,8 @@ const UNKNOWN: f64 = 0.02;
 const ILL: f64 = 0.02;
 /// Share of the pixels that may need shorter steps.
 const UNSEEN: f64 = 0.01;
+/// Share of the pixels that row planes may show otherwise: of 300 scenes it was 0.9 %.
+const OFF_BY_PLANES: f64 = 0.02;
 /// Share of the lit pixels of which a fault of a code may go unseen.
 const BLUNT: f64 = 0.15;
 
@@ -52,6 +54,8 @@ pub struct Summary {
     pub verdict: Verdict,
     /// Pixels of row planes together.
     pub by_planes: Verdict,
+    /// Scenes whose pictures by row planes would have failed if they were by rays.
+    pub failed_by_planes: Vec<u64>,
     /// The scene whose kernel and twin differ most, of all and of those with nothing steep.
     pub rounding: [Option<Worst<Difference>>; 2],
     /// The scene with most pixels off the truth.
@@ -159,7 +163,8 @@ impl Summary {
         }
         found.by_rays.iter().for_each(|verdict| self.verdict = self.verdict.and(verdict));
         found.by_planes.iter().for_each(|verdict| self.by_planes = self.by_planes.and(verdict));
-        for &verdict in found.by_rays.iter().chain(&found.by_planes) {
+        self.failed_by_planes.extend(found.by_planes.filter(|verdict| !verdict.holds()).map(|_| case));
+        for &verdict in &found.by_rays {
             if self.truth.as_ref().is_none_or(|worst| worst.difference.off() < verdict.off()) {
                 self.truth = Some(Worst { case, difference: verdict, scene: scene.clone() });
             }
@@ -169,13 +174,24 @@ impl Summary {
     /// What too many scenes have for the comparison to mean anything, a sentence each.
     pub fn shortcomings(&self) -> Vec<&'static str> {
         let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
-        let Self { cases, lit, known: [known, unknown], sharp: [sharp, asked], .. } = *self;
-        let verdict = self.verdict.and(&self.by_planes);
+        let Self {
+            cases,
+            lit,
+            known: [known, unknown],
+            sharp: [sharp, asked],
+            ref verdict,
+            ref by_planes,
+            ..
+        } = *self;
         let all = [
             (4 * lit < 3 * cases, "too few show anything"),
             (share(unknown, known + unknown) > UNKNOWN, "too many pixels have no truth"),
             (share(verdict.ill, verdict.pixels) > ILL, "too many pixels are ill-conditioned"),
             (share(verdict.unseen, verdict.pixels) > UNSEEN, "too many pixels need shorter steps"),
+            (
+                share(by_planes.off(), by_planes.pixels) > OFF_BY_PLANES,
+                "too many pixels of row planes are off",
+            ),
             (share(asked - sharp, asked) > BLUNT, "too few pixels would show a fault of a code"),
         ];
         all.into_iter().filter(|(is_short, _)| *is_short).map(|(_, what)| what).collect()
@@ -193,7 +209,12 @@ impl fmt::Display for Summary {
         writeln!(f, "truth known of {known} pixels, unknown of {unknown}")?;
         writeln!(f, "of {} lit pixels a fault of a code would be seen in {}", sharp[1], sharp[0])?;
         writeln!(f, "rays, all devices: {}", self.verdict)?;
-        writeln!(f, "row planes: {}", self.by_planes)?;
+        let of_planes = self.failed_by_planes.len();
+        writeln!(
+            f,
+            "row planes, off in {of_planes} scenes, {:?}: {}",
+            self.failed_by_planes, self.by_planes
+        )?;
         for (worst, of) in self.rounding.iter().zip(["steep", "tame"]) {
             if let Some(Worst { case, difference, .. }) = worst {
                 writeln!(f, "kernel and twin, worst of the {of} scenes: case {case}: {difference}")?;

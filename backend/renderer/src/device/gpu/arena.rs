@@ -91,8 +91,8 @@ impl Arena {
             (binding::COUNTS, &self.counts),
             (binding::TALLIES, &self.tallies),
         ];
-        let entries = buffers
-            .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() });
+        let entries =
+            buffers.map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() });
         let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &pipeline.get_bind_group_layout(0),

@@ -66,8 +66,7 @@ impl Atlas {
             )));
         }
         let dimension = Some(view);
-        let view =
-            texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() });
         Ok(Self { texture, view, slots })
     }
 
