@@ -146,15 +146,9 @@ fn fitting(jobs: &[FinishJob]) -> usize {
 /// The colours of a picture.
 fn colours_of<'a>(arenas: &'a [Arena], views: &'a [ViewBuffers], picture: DevicePicture) -> Stretch<'a> {
     match picture {
-        DevicePicture::Cast(index) => cast_colours(arenas, &views[index]),
+        DevicePicture::Cast(index) => views[index].cast_colours(arenas),
         DevicePicture::Shown(index) => {
             views[index].shown.stretch(0, COLOUR_BYTES * views[index].pixel_count())
         }
     }
-}
-
-/// Those of what was cast.
-pub(super) fn cast_colours<'a>(arenas: &'a [Arena], view: &ViewBuffers) -> Stretch<'a> {
-    let room = view.room.expect("only pictures that were cast are looked at");
-    arenas[room.arena].colours(&room, view.pixel_count())
 }

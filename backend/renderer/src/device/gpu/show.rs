@@ -2,7 +2,6 @@
 
 use super::arena::Arena;
 use super::context::Context;
-use super::pictures::cast_colours;
 use super::present::PresentPass;
 use super::readback::Readback;
 use super::storage::Storage;
@@ -62,7 +61,7 @@ impl Showing {
         view: &mut ViewBuffers,
         job: &ShowJob,
     ) {
-        let pixels = cast_colours(arenas, view);
+        let pixels = view.cast_colours(arenas);
         let bytes = pixels.bytes;
         view.shown.reserve(context, bytes);
         let mut whole = None;

@@ -1,8 +1,8 @@
 //! What the GPU keeps of one view's picture.
 
-use super::arena::Room;
+use super::arena::{Arena, Room};
 use super::context::Context;
-use super::storage::Storage;
+use super::storage::{Storage, Stretch};
 
 /// Its place among the pictures, and what is shown of it.
 #[derive(Debug)]
@@ -30,5 +30,11 @@ impl ViewBuffers {
     /// Pixels of its picture.
     pub(super) fn pixel_count(&self) -> u64 {
         u64::from(self.raster[0]) * u64::from(self.raster[1])
+    }
+
+    /// The colours of what was cast.
+    pub(super) fn cast_colours<'a>(&self, arenas: &'a [Arena]) -> Stretch<'a> {
+        let room = self.room.expect("only pictures that were cast are looked at");
+        arenas[room.arena].colours(&room, self.pixel_count())
     }
 }
