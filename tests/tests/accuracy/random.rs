@@ -8,7 +8,7 @@ use lightloom_tests::draw;
 use lightloom_tests::random_scene::{Plan, Wanted, run};
 use lightloom_tests::results::{Program, Results};
 
-/// A minute on two cores.
+/// A minute and a half on two cores.
 const CASES: u64 = 40;
 const SEED: u64 = 20_100_607;
 /// Times that a case that fails is made simpler, and drawn again.

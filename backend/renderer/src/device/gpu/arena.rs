@@ -24,7 +24,6 @@ pub(super) struct Arena {
     /// How many tiles or rays a dispatch casts, and the words of each.
     pub(super) listed: Storage,
     tallies: Storage,
-    used_pixels: u64,
 }
 
 /// Where a picture lies.
@@ -47,7 +46,6 @@ impl Arena {
             views: storage("views"),
             listed: storage("what is cast"),
             tallies: storage("sample counts of tiles"),
-            used_pixels: 0,
         }
     }
 
@@ -66,9 +64,8 @@ impl Arena {
 
     /// Makes room for so many pixels; those that are there stay.
     pub(super) fn grow(&mut self, context: &Context, pixels: u64) {
-        self.used_pixels = self.used_pixels.max(pixels);
-        self.pixels.grow(context, COLOUR_BYTES * self.used_pixels);
-        self.counts.grow(context, COUNT_BYTES * self.used_pixels);
+        self.pixels.grow(context, COLOUR_BYTES * pixels);
+        self.counts.grow(context, COUNT_BYTES * pixels);
     }
 
     /// The colours of a picture of so many pixels.
@@ -113,7 +110,8 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn new(most_bytes: u64) -> Self {
-        Self { most_pixels: most_bytes / COLOUR_BYTES, used: Vec::new() }
+        // Whole multiples, so that what lies behind a picture fits as well.
+        Self { most_pixels: most_bytes / COLOUR_BYTES / APART * APART, used: Vec::new() }
     }
 
     /// Room for a picture of so many pixels that may have had other room: the same where it suffices; more at the end of an

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 /// Tiles of the first batch: few, because nobody knows yet how long they take.
 const FIRST: usize = 256;
-/// What a batch takes at most, whatever else it would be good for: a driver's watchdog waits for some seconds.
+/// After a batch that took longer the next are smaller, however few tiles it had: a driver's watchdog waits for some seconds.
 const LONGEST: Duration = Duration::from_millis(500);
 
 /// Some neighbouring items of one of many lists.
