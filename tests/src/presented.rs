@@ -233,7 +233,7 @@ pub fn cast(
         views,
         first_picture: 0,
         needs,
-        fans: None,
+        sharing: None,
         mends: false,
         part,
         gather,

@@ -10,6 +10,7 @@ use crate::sample::scalars_at;
 use crate::slab::{HALO, Keeps, LANES, Slab};
 use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
+use optics::Enhancer;
 use twin::gradient::Gradients;
 use twin::kernel::Kernel;
 use twin::levels::Brick;
@@ -41,6 +42,7 @@ pub(crate) struct Grid<'a> {
     pub(crate) fan: &'a Fan,
     pub(crate) volume_from_display: &'a DAffine3,
     pub(crate) row: u32,
+    pub(crate) enhancers: &'a [Enhancer],
 }
 
 impl Grid<'_> {
@@ -71,19 +73,19 @@ impl Grid<'_> {
         spans.clear();
         let along_x = self.volume_from_display.matrix3.x_axis;
         let phases = slab.phases as f64;
+        let [first, past] = slab.inner_columns();
         for (index, depth) in slab.depths.iter().enumerate() {
             let y = self.fan.y_at(self.row, depth);
             let origin = self.volume_from_display.transform_point3(DVec3::new(0.0, y, depth.z));
-            let (seen_low, seen_high) = self.fan.seen(depth);
-            let seen = [seen_low, seen_high].map(|u| (phases * u - 0.5).ceil() as i64);
             for leaf in leaves {
                 // A little more than the leaf, whose box is known to rounding.
                 if depth.z > leaf.z[0] + 1e-9 || depth.z < leaf.z[1] - 1e-9 {
                     continue;
                 }
-                let Some((from, to)) = crossing(leaf, origin, along_x) else { continue };
+                let Some((from, to)) = leaf.crossing(origin, along_x) else { continue };
                 let column = |x: f64| (phases * self.fan.column_of(x, depth) - 0.5).ceil() as i64;
-                let columns = [column(from).max(seen[0] - 1), column(to).min(seen[1] + 1)];
+                // All of a block is known, whoever looks at it, and so are its columns in front of what a ray meets and behind it.
+                let columns = [column(from).max(first), column(to).min(past)];
                 if columns[0] < columns[1] {
                     let before = slab.depths[..index].last();
                     let is_first = before.is_none_or(|before| before.z > leaf.z[0] + 1e-9);
@@ -152,7 +154,7 @@ impl Grid<'_> {
         spacing: usize,
     ) {
         let cells = slab.cells();
-        let every = gradients_every(spacing);
+        let every = gradients_every(spacing, keeps.halvings);
         let mut rays = Rays { grid: self, last: None };
         for span in spans {
             let depth = span.depth as usize;
@@ -216,8 +218,7 @@ impl<'a> Rays<'a> {
             brick: Brick::new::<K>(casting, node, &ray),
             depth: span.depth as usize,
             columns: span.columns,
-            first_x: fan.x_of((span.columns[0] as f64 + 0.5) / phases, depth) as f32,
-            pitch: (fan.pitch(depth) / phases) as f32,
+            x: [fan.x_of(0.5 / phases, depth), fan.pitch(depth) / phases],
             keeps,
         }
     }
@@ -231,16 +232,18 @@ struct Line<'a> {
     depth: usize,
     /// The leaf's own: the first, and one past the last.
     columns: [i64; 2],
-    /// x of the first, and from each to the next.
-    first_x: f32,
-    pitch: f32,
+    /// x of column 0, and from each to the next.
+    x: [f64; 2],
     keeps: Keeps,
 }
 
 impl Line<'_> {
+    /// x of a block's columns, the same whoever looks.
     #[inline(always)]
-    fn x_of(&self, column: i64) -> f32 {
-        self.first_x + (column - self.columns[0]) as f32 * self.pitch
+    fn ruler(&self, slab: &Slab, block: usize) -> Ruler {
+        let [first, _] = slab.columns(block);
+        let [of_zero, pitch] = self.x;
+        Ruler { first, x: (of_zero + first as f64 * pitch) as f32, pitch: pitch as f32 }
     }
 
     #[inline(always)]
@@ -253,14 +256,15 @@ impl Line<'_> {
     fn fill_block<S: Simd, K: Kernel>(&self, simd: S, slab: &mut Slab, block: usize, halo: usize) -> u64 {
         let [first, past] = slab.columns(block);
         let past = past + halo as i64;
+        let ruler = self.ruler(slab, block);
         let mut samples = 0;
-        let half = 0.5 * self.pitch;
+        let half = 0.5 * ruler.pitch;
         let mut column = (first - 1).max(self.columns[0]);
         let last = (past + 1).min(self.columns[1]);
         // What shows is known one column farther on both sides, so that what lies between is, too.
         let mut known = [first; 2];
         while column < last {
-            let t = self.x_of(column) - half;
+            let t = ruler.x_of(column) - half;
             let (shows, count) = if self.brick.has_fractions::<K>() {
                 let unseen = self.brick.pairs_unseen::<K>(t, half);
                 (unseen == 0, unseen.max(1))
@@ -271,14 +275,14 @@ impl Line<'_> {
             if shows {
                 let shown = [(column - 1).max(known[1]), (next + 1).min(past)];
                 if shown[0] > known[1] {
-                    samples += self.put_all::<S, K>(simd, slab, block, known);
+                    samples += self.put_all::<S, K>(simd, slab, (block, ruler), known);
                     known[0] = shown[0];
                 }
                 known[1] = shown[1].max(known[1]);
             }
             column = next;
         }
-        samples + self.put_all::<S, K>(simd, slab, block, known)
+        samples + self.put_all::<S, K>(simd, slab, (block, ruler), known)
     }
 
     /// Samples a block's columns from one to before another. How many samples that took.
@@ -287,10 +291,10 @@ impl Line<'_> {
         &self,
         simd: S,
         slab: &mut Slab,
-        block: usize,
+        (block, ruler): (usize, Ruler),
         [from, to]: [i64; 2],
     ) -> u64 {
-        let [first, _] = slab.columns(block);
+        let first = ruler.first;
         // The leaf's own, eight at a time; where levels are mixed, none.
         let mut own = [to; 2];
         if !self.brick.has_levels::<K>() {
@@ -300,20 +304,20 @@ impl Line<'_> {
         let mut samples = 0;
         for column in (from..own[0]).chain(own[1]..to) {
             let at = slab.place(self.depth, block, (column - first) as usize);
-            samples += self.put::<K>(slab, column, at);
+            samples += self.put::<K>(slab, (column, ruler.x_of(column)), at);
         }
         let spreads = self.keeps.spreads && self.brick.own.has_deviations();
         let mut column = own[0];
         while column < own[1] {
             let count = (own[1] - column).min(LANES as i64) as usize;
-            let further = splat(simd, (column - self.columns[0]) as f32) + ramp(simd);
-            let x = splat(simd, self.first_x) + further * splat(simd, self.pitch);
+            let further = splat(simd, (column - first) as f32) + ramp(simd);
+            let x = splat(simd, ruler.x) + further * splat(simd, ruler.pitch);
             let scalars = scalars_at(simd, &self.brick.own, x).to_array();
             for (lane, &scalar) in scalars.iter().enumerate().take(count) {
                 let at = slab.place(self.depth, block, (column - first) as usize + lane);
                 slab.scalars[at] = scalar;
                 if spreads {
-                    let x = self.x_of(column + lane as i64);
+                    let x = ruler.x_of(column + lane as i64);
                     slab.spreads[at] = self.brick.spread_at::<K>(self.casting, &self.ray, x);
                 }
             }
@@ -325,11 +329,10 @@ impl Line<'_> {
 
     /// Samples a column; one that is not the leaf's own only where nothing is known. How many samples that took.
     #[inline(always)]
-    fn put<K: Kernel>(&self, slab: &mut Slab, column: i64, at: usize) -> u64 {
+    fn put<K: Kernel>(&self, slab: &mut Slab, (column, x): (i64, f32), at: usize) -> u64 {
         if !self.is_own(column) && !slab.scalars[at].is_nan() {
             return 0;
         }
-        let x = self.x_of(column);
         slab.scalars[at] = self.brick.scalar_at::<K>(self.casting, &self.ray, x);
         if self.keeps.spreads {
             slab.spreads[at] = self.brick.spread_at::<K>(self.casting, &self.ray, x);
@@ -341,6 +344,7 @@ impl Line<'_> {
     #[inline(always)]
     fn fill_gradients<K: Kernel>(&self, slab: &mut Slab, block: usize, every: usize) {
         let [first, past] = slab.columns(block);
+        let ruler = self.ruler(slab, block);
         let near = every as i64;
         let past = if every > 1 { past + 1 } else { past };
         for column in (first..past).step_by(every) {
@@ -357,7 +361,7 @@ impl Line<'_> {
             if is_known && !self.is_own(column) {
                 continue;
             }
-            let found = Gradients::new::<K>(self.casting, &self.brick, &self.ray, self.x_of(column));
+            let found = Gradients::new::<K>(self.casting, &self.brick, &self.ray, ruler.x_of(column));
             for (level, gradient) in [found.at, found.coarse, found.coarsest].into_iter().enumerate() {
                 for axis in (0..3).take_while(|axis| 3 * level + axis < slab.gradient_rows) {
                     slab.gradients[at + (3 * level + axis) * slab.stride] = gradient.0[axis];
@@ -367,20 +371,17 @@ impl Line<'_> {
     }
 }
 
-/// Where the line from `origin` along `direction` is in the leaf's box: [from, to).
-fn crossing(leaf: &Leaf, origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
-    let (mut enter, mut leave) = (f64::MIN, f64::MAX);
-    for axis in 0..3 {
-        if direction[axis].abs() < 1e-12 {
-            if origin[axis] < leaf.low[axis] || origin[axis] >= leaf.high[axis] {
-                return None;
-            }
-        } else {
-            let a = (leaf.low[axis] - origin[axis]) / direction[axis];
-            let b = (leaf.high[axis] - origin[axis]) / direction[axis];
-            enter = enter.max(a.min(b));
-            leave = leave.min(a.max(b));
-        }
+/// Where columns lie, counted from one of them.
+#[derive(Clone, Copy)]
+struct Ruler {
+    first: i64,
+    x: f32,
+    pitch: f32,
+}
+
+impl Ruler {
+    #[inline(always)]
+    fn x_of(&self, column: i64) -> f32 {
+        self.x + (column - self.first) as f32 * self.pitch
     }
-    (enter < leave).then_some((enter, leave))
 }

@@ -3,10 +3,10 @@
 use crate::lanes::*;
 use crate::slab::{LANES, Slab};
 
-/// At how many columns and depths a gradient is taken once, where samples lie at a spacing: no closer than a quarter of a voxel,
-/// as differences over two voxels change little within that.
-pub(crate) const fn gradients_every(spacing: usize) -> usize {
-    1 << spacing.saturating_sub(2)
+/// At how many columns and depths a gradient is taken once, where samples lie at a spacing: no closer than a quarter of a voxel, so
+/// many times halved, as differences over two voxels change little within that.
+pub(crate) const fn gradients_every(spacing: usize, halvings: usize) -> usize {
+    1 << spacing.saturating_sub(2 + halvings)
 }
 
 /// Gives a block's samples gradients between those taken `every` so many columns and depths.

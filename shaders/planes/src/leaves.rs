@@ -26,6 +26,26 @@ pub(crate) struct Leaf {
     pub(crate) edge: f64,
 }
 
+impl Leaf {
+    /// Where the line from `origin` along `direction` is in its box: [from, to).
+    pub(crate) fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
+        let (mut enter, mut leave) = (f64::MIN, f64::MAX);
+        for axis in 0..3 {
+            if direction[axis].abs() < 1e-12 {
+                if origin[axis] < self.low[axis] || origin[axis] >= self.high[axis] {
+                    return None;
+                }
+            } else {
+                let a = (self.low[axis] - origin[axis]) / direction[axis];
+                let b = (self.high[axis] - origin[axis]) / direction[axis];
+                enter = enter.max(a.min(b));
+                leave = leave.min(a.max(b));
+            }
+        }
+        (enter < leave).then_some((enter, leave))
+    }
+}
+
 /// The affine map of a scene from the display to the volume.
 pub(crate) fn volume_from_display(casting: &Casting<f32>) -> DAffine3 {
     let [x, y, z, w] = casting.scene.volume_from_display.map(|c| DVec3::from_array(c.0.map(f64::from)));

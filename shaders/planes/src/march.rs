@@ -118,12 +118,15 @@ impl March<'_> {
         let is_outer = room.near.iter().any(|leaf| leaf.is_outer);
         let slab = &mut room.wide;
         self.lay_out(slab, part, 0, is_outer);
+        let columns = self.grid.extent(&room.near, slab.ends());
+        if columns[0] >= columns[1] {
+            return;
+        }
+        slab.lay_columns(columns);
         self.grid.spans(slab, &room.near, &mut room.spans);
         if room.spans.is_empty() {
             return;
         }
-        let columns = self.grid.extent(&room.near, slab.ends());
-        slab.lay_columns(columns);
         room.wanted.clear(slab.blocks_across());
         room.reaches.clear();
         for (view, state) in views.iter().enumerate() {
@@ -146,11 +149,12 @@ impl March<'_> {
         let step = (part.z[0] - part.z[1]) / part.cells as f64;
         let extinction = self.grid.casting.scene.extinction_per_metre;
         let judge = Judge {
-            tables: self.grid.casting.tables,
+            grid: &self.grid,
             variation: self.variation,
             thickness: extinction * step as f32,
             gamma: self.gamma,
             tolerance: self.tolerances[0],
+            least: self.keeps.halvings,
         };
         judge.find(simd, slab, &room.wanted, &mut room.bends, &mut room.need);
         if room.need[0].is_empty() {
@@ -259,7 +263,7 @@ impl March<'_> {
         let voxels = across * self.grid.volume_from_display.matrix3.x_axis.length() / edge;
         let closer = f64::from(1 << spacing);
         let phases = (voxels * closer / WIDEST[1]).ceil().clamp(1.0, MOST_PHASES) as usize;
-        slab.phases = phases.next_multiple_of(gradients_every(spacing));
+        slab.phases = phases.next_multiple_of(gradients_every(spacing, self.keeps.halvings));
         slab.is_outer = is_outer;
     }
 

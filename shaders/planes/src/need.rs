@@ -1,10 +1,11 @@
 //! How closely a slab has to be sampled, block by block: from what samples a voxel apart say.
 
 use crate::blocks::Blocks;
+use crate::fill::Grid;
 use crate::lanes::*;
 use crate::rough::Variation;
 use crate::slab::{LANES, Slab};
-use needs::tables::Tables;
+use glam::DVec3;
 use twin::tables::is_vacant_around;
 
 /// Distances between samples, each half the one before.
@@ -13,9 +14,18 @@ pub(crate) const SPACINGS: usize = 6;
 /// What is left of an error at half the distance: between a quarter, where scalars bend evenly, and a half, at a kink.
 const LEFT_AT_HALF: f32 = 0.35;
 
+/// The least tolerance that gradients a quarter of a voxel apart serve, and lit samples a voxel apart.
+const LIT_TOLERANCE: f32 = 1e-4;
+
+/// How many times closer by half than these a tolerance asks for: what lies between two of them errs by the square of their distance.
+pub(crate) fn halvings(tolerance: f32) -> usize {
+    let halvings = (0.5 * (LIT_TOLERANCE / tolerance).log2()).ceil();
+    (halvings.max(0.0) as usize).min(SPACINGS - 1)
+}
+
 /// What the judgement goes by.
 pub(crate) struct Judge<'a> {
-    pub(crate) tables: &'a Tables,
+    pub(crate) grid: &'a Grid<'a>,
     pub(crate) variation: &'a Variation,
     /// Optical depth from one sample to the next where the table says 1.
     pub(crate) thickness: f32,
@@ -23,6 +33,8 @@ pub(crate) struct Judge<'a> {
     pub(crate) gamma: f32,
     /// The largest error of a cell's light.
     pub(crate) tolerance: f32,
+    /// The widest spacing that the light on samples allows.
+    pub(crate) least: usize,
 }
 
 impl Judge<'_> {
@@ -48,6 +60,22 @@ impl Judge<'_> {
         }
     }
 
+    /// The most that enhancers multiply an extinction by in a block and what its views meet beside it.
+    fn most_factor(&self, slab: &Slab, block: usize) -> f32 {
+        let Grid { fan, row, enhancers, .. } = *self.grid;
+        if enhancers.is_empty() {
+            return 1.0;
+        }
+        let [first, past] = [slab.columns(block)[0], slab.columns(block + 1)[1]];
+        let corners: [DVec3; 8] = std::array::from_fn(|corner| {
+            let depth = slab.ends()[corner >> 1 & 1];
+            let column = if corner & 1 == 0 { first } else { past };
+            let x = fan.x_of(column as f64 / slab.phases as f64, depth);
+            DVec3::new(x, fan.y_at(row, depth), depth.z)
+        });
+        enhancers.iter().map(|enhancer| enhancer.most_factor(&corners)).product::<f64>() as f32
+    }
+
     /// The spacing that keeps an error at the widest one small enough.
     fn spacing(&self, error: f32) -> usize {
         let mut left = error.min(1.0);
@@ -56,7 +84,7 @@ impl Judge<'_> {
             left *= LEFT_AT_HALF;
             spacing += 1;
         }
-        spacing
+        spacing.max(self.least)
     }
 
     /// The largest error of light that scalars half-way between a block's samples make. None if nothing shows.
@@ -65,7 +93,9 @@ impl Judge<'_> {
         let most_bend = find_bends(simd, slab, block, bends);
         let most_spread = most_spread(slab, block);
         let mut worst: Option<f32> = None;
-        let per = self.thickness / self.tolerance;
+        let tables = self.grid.casting.tables;
+        let thickness = self.thickness * self.most_factor(slab, block);
+        let per = thickness / self.tolerance;
         for cell in 0..slab.cells() {
             for phase in 0..slab.phases {
                 let [front, back] = [cell, cell + 1].map(|depth| (depth * slab.phases + phase) * LANES);
@@ -84,7 +114,7 @@ impl Judge<'_> {
                 let (lowest, highest) = (least(low), greatest(simd, high));
                 let (low, high) = (low.to_array(), high.to_array());
                 let reach = most_bend + most_spread;
-                if lowest > highest || is_vacant_around(&self.tables.cells, (lowest, highest), reach) {
+                if lowest > highest || is_vacant_around(&tables.cells, (lowest, highest), reach) {
                     continue;
                 }
                 let mut found = worst.unwrap_or(0.0);
@@ -102,11 +132,11 @@ impl Judge<'_> {
                         continue;
                     }
                     let spread = error[lane] + most_spread;
-                    if is_vacant_around(&self.tables.cells, (low[lane], high[lane]), spread) {
+                    if is_vacant_around(&tables.cells, (low[lane], high[lane]), spread) {
                         continue;
                     }
                     let change = self.variation.change(low[lane], high[lane], error[lane]);
-                    found = found.max(self.thickness * change);
+                    found = found.max(thickness * change);
                     if self.gamma > 0.0 {
                         let rise = self.variation.change_of_importance(low[lane], high[lane], error[lane]);
                         found = found.max(self.gamma * rise);

@@ -6,13 +6,14 @@ use crate::fine::FineTable;
 use crate::lanes::{Level, Simd, dispatch};
 use crate::leaves::{Leaf, leaves, volume_from_display};
 use crate::march::{March, Room, RowCast};
+use crate::need::halvings;
 use crate::rough::{Roughness, Variation};
 use crate::slab::Keeps;
 use crate::steep::Steep;
 use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
 use needs::{Chain, Compositing, Needs, Shading, Way};
-use optics::DebugView;
+use optics::{DebugView, Enhancer};
 use twin::Casting;
 use twin::composite::Over;
 use twin::kernel::{Blended, Full, Kernel, Lean};
@@ -29,6 +30,7 @@ const ORDER_ERROR: f32 = 10.0;
 pub struct Planes<'a> {
     casting: &'a Casting<'a, f32>,
     fan: &'a Fan,
+    enhancers: &'a [Enhancer],
     volume_from_display: DAffine3,
     leaves: Vec<Leaf>,
     roughness: Roughness,
@@ -46,11 +48,12 @@ pub struct Scratch {
 }
 
 impl<'a> Planes<'a> {
-    /// The scene of `casting` for the views of `fan`.
-    pub fn new(casting: &'a Casting<'a, f32>, fan: &'a Fan) -> Self {
+    /// The scene of `casting`, with its enhancers, for the views of `fan`.
+    pub fn new(casting: &'a Casting<'a, f32>, fan: &'a Fan, enhancers: &'a [Enhancer]) -> Self {
         Self {
             casting,
             fan,
+            enhancers,
             volume_from_display: volume_from_display(casting),
             leaves: leaves(casting, fan),
             roughness: Roughness::of(casting.tables),
@@ -148,6 +151,7 @@ impl<'a> Planes<'a> {
                 fan: self.fan,
                 volume_from_display: &self.volume_from_display,
                 row,
+                enhancers: self.enhancers,
             },
             variation: &self.variation,
             steep: Steep {
@@ -157,7 +161,12 @@ impl<'a> Planes<'a> {
                 tolerance: scene.tolerance * ORDER_ERROR,
             },
             speed: (self.volume_from_display.matrix3 * along_ray).length(),
-            keeps: Keeps { spreads: needs.spreads, gradient_levels, means: !is_by_pixel },
+            keeps: Keeps {
+                spreads: needs.spreads,
+                gradient_levels,
+                halvings: if gradient_levels > 0 { halvings(scene.tolerance) } else { 0 },
+                means: !is_by_pixel,
+            },
             gamma: if needs.compositing == Compositing::Over { 0.0 } else { scene.gamma },
             is_by_pixel,
             tolerances: [SPACING_ERROR, MEAN_ERROR].map(|error| scene.tolerance * error),

@@ -63,6 +63,8 @@ pub(crate) struct Keeps {
     pub(crate) spreads: bool,
     /// Levels of gradients: none, the sample's own, or all three.
     pub(crate) gradient_levels: usize,
+    /// How many times closer by half than at the default these are taken, and lit samples lie.
+    pub(crate) halvings: usize,
     /// Means of what lies between depths.
     pub(crate) means: bool,
 }
@@ -92,8 +94,8 @@ impl Slab {
     /// Lays rows out for the columns from one pixel to another.
     pub(crate) fn lay_columns(&mut self, [first, last]: [i64; 2]) {
         let lanes = LANES as i64;
-        self.base = first.div_euclid(lanes) * lanes - lanes;
-        let past = (last + 1 + lanes).div_euclid(lanes) * lanes + 2 * lanes;
+        self.base = first.div_euclid(lanes) * lanes - 2 * lanes;
+        let past = (last + 1 + lanes).div_euclid(lanes) * lanes + 3 * lanes;
         self.stride = (past - self.base) as usize;
     }
 
@@ -144,6 +146,11 @@ impl Slab {
         let [a, b] = self.ends().map(|depth| (0.5 + fan.shift(view, depth)).floor() as i64 - self.base);
         let lanes = LANES as i64;
         [(a.min(b) - 1).div_euclid(lanes), (a.max(b) + 1 + lanes).div_euclid(lanes)]
+    }
+
+    /// Its columns, but for the first block and the last, which no view meets: the first, and one past the last.
+    pub(crate) fn inner_columns(&self) -> [i64; 2] {
+        [1, self.blocks_across() - 1].map(|block| self.columns(block)[0])
     }
 
     /// The columns of a block: the first, and one past the last.

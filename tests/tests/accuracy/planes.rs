@@ -1,6 +1,7 @@
 //! Row planes show what the reference has, as closely as their tolerance asks.
 
 use display_config::Display;
+use glam::{DAffine3, DVec3};
 use lightloom_tests::compare::{Errors, Limits, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
@@ -108,8 +109,8 @@ fn every_level_of_instructions_gives_the_same_bytes() {
         let fan = only(&fans);
         let feedback: Vec<FeedbackCell> = twin.nodes.iter().map(|_| FeedbackCell::default()).collect();
         let casting = twin.casting(&numbers, &feedback);
-        let best = rows(&Planes::new(&casting, fan), fan, rays.len());
-        let plain = rows(&Planes::new(&casting, fan).plainly(), fan, rays.len());
+        let best = rows(&Planes::new(&casting, fan, &[]), fan, rays.len());
+        let plain = rows(&Planes::new(&casting, fan, &[]).plainly(), fan, rays.len());
         assert!(best == plain, "{}", scene.name);
         assert!(best.iter().any(|&bits| f32::from_bits(bits) > 0.1), "a black picture proves nothing");
         assert!(feedback.iter().any(|cell| cell.entry().rays > 0), "{}: no node was noted", scene.name);
@@ -120,7 +121,7 @@ fn every_level_of_instructions_gives_the_same_bytes() {
 fn a_view_is_the_same_whoever_shares_its_rows() {
     let _turn = draw::turn();
     let display = display();
-    let mut all = vec![scenes::stored_vessels(&display)];
+    let mut all = vec![scenes::stored_vessels(&display), beyond_the_screen(&display)];
     all.extend(scenes::cranium(&display));
     for scene in all {
         let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
@@ -130,7 +131,7 @@ fn a_view_is_the_same_whoever_shares_its_rows() {
         let cast = |rays: &[_]| {
             let fans = Fans::of(rays).unwrap();
             let fan = only(&fans);
-            rows(&Planes::new(&casting, fan), fan, rays.len())
+            rows(&Planes::new(&casting, fan, &[]), fan, rays.len())
         };
         let together = cast(&rays);
         for index in [1, 6] {
@@ -143,14 +144,26 @@ fn a_view_is_the_same_whoever_shares_its_rows() {
     }
 }
 
+/// Shells wider than the screen, around it: rays come to its sides from beyond them.
+fn beyond_the_screen(display: &Display) -> TestScene {
+    let mut scene = scenes::shells(display);
+    let larger = DAffine3::from_scale(DVec3::splat(4.0));
+    scene.frame.display_from_volume = larger * scene.frame.display_from_volume;
+    scene
+}
+
 #[test]
 fn auto_casts_planes_where_many_views_share_them() {
     let _turn = draw::turn();
     let small = |preset: &str| Display::load(preset).unwrap().with_rasters(32, 24);
-    let caster = |display: &Display, device: DeviceChoice, projectors: &[u32]| {
-        let scene = scenes::shells(display);
+    let caster_at = |tolerance: f64, display: &Display, device: DeviceChoice, projectors: &[u32]| {
+        let mut scene = scenes::shells(display);
+        scene.frame.quality.tolerance = tolerance;
         let with = With { caster: CasterChoice::Auto, ..With::device(device) };
         draw(display, &scene.frame, &scene.source, projectors, with).report.caster.to_string()
+    };
+    let caster = |display: &Display, device: DeviceChoice, projectors: &[u32]| {
+        caster_at(Quality::default().tolerance, display, device, projectors)
     };
     let (wide, desk) = (small("holo72"), small("desk8"));
     // Whoever draws only some of a display's views casts like those who draw the others.
@@ -159,6 +172,8 @@ fn auto_casts_planes_where_many_views_share_them() {
     assert_eq!(caster(&desk, DeviceChoice::Cpu, &[0, 5]), few);
     let gpu = "rays: a GPU has no kernels for them yet, --device cpu has";
     assert_eq!(caster(&wide, DeviceChoice::Gpu, &[0]), gpu);
+    let exact = "rays: the tolerance is below 3e-5, where row planes err by more than it allows or take longer than rays";
+    assert_eq!(caster_at(2e-5, &wide, DeviceChoice::Cpu, &[0]), exact);
 }
 
 #[test]

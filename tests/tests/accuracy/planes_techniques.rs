@@ -34,14 +34,9 @@ const SMOOTH: Limits = Limits::of_255(0.22, 3.0, 3.6);
 const REAL: Limits = Limits::of_255(0.8, 12.0, 15.0);
 /// Coarse levels, which scenes with the techniques below ask for, change more from sample to sample.
 const REAL_OVER_LEVELS: Limits = Limits::of_255(0.9, 17.0, 20.0);
-/// Where a clip plane is opaque, one of some thousand rays meets another side of an edge that is thinner than a sample's distance:
-/// the boost of extinction does not make planes sample more closely.
-const REAL_CLIPPED: Limits = Limits::of_255(1.4, 6.0, 110.0);
-
 fn limits_of(base: &TestScene, scene: &TestScene) -> Limits {
     match scene.name {
         _ if base.name == "bumps" => SMOOTH,
-        "clip plane" => REAL_CLIPPED,
         "quadrilinear filtering" | "detail over levels" => REAL_OVER_LEVELS,
         _ => REAL,
     }

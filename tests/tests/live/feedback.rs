@@ -153,7 +153,7 @@ fn views_cast_together_are_views_cast_one_by_one() {
             views: &views,
             first_picture: 1,
             needs: stage.scene.needs,
-            fans: None,
+            sharing: None,
             mends: false,
             part: Part::Every(Lattice::ALL),
             gather: Gather::Own,

@@ -106,14 +106,14 @@ impl CpuDevice {
                 feedback: if job.gather == Gather::Own { &own } else { &self.frame_feedback },
             },
         };
-        if let Some(fans) = job.fans.filter(|_| job.mends) {
-            let outcome = mend(&casting, job, fans, &self.pictures[job.first_picture..]);
+        if let Some(sharing) = job.sharing.filter(|_| job.mends) {
+            let outcome = mend(&casting, job, sharing.fans, &self.pictures[job.first_picture..]);
             return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
         }
         self.pictures.resize_with(self.pictures.len().max(job.first_picture + job.views.len()), Vec::new);
-        if let Some(fans) = job.fans.filter(|_| job.lattice().step[0] == 1) {
+        if let Some(sharing) = job.sharing.filter(|_| job.lattice().step[0] == 1) {
             let pictures = &mut self.pictures[job.first_picture..][..job.views.len()];
-            let outcome = cast_rows(&casting, job, fans, pictures);
+            let outcome = cast_rows(&casting, job, sharing, pictures);
             return Ok(CastOutcome { feedback: own.iter().map(FeedbackCell::entry).collect(), ..outcome });
         }
         let mut outcome = CastOutcome::nothing(job);

@@ -2,6 +2,7 @@
 
 use layout::{FeedbackEntry, TILE_EDGE};
 use needs::Needs;
+use optics::Enhancer;
 use planes::Fans;
 use protocol::StopAsked;
 use std::borrow::Cow;
@@ -100,7 +101,7 @@ pub struct CastJob<'a> {
     /// What the scene needs of a kernel.
     pub needs: Needs,
     /// How the views share planes, where these are cast, whole rows at a time; None for each ray alone.
-    pub fans: Option<&'a Fans>,
+    pub sharing: Option<Sharing<'a>>,
     /// Which pixels.
     pub part: Part<'a>,
     /// Whether pictures that planes have cast are mended: the views and tiles are then those of the projectors' own rasters, and
@@ -112,6 +113,15 @@ pub struct CastJob<'a> {
     pub counts: bool,
     /// Asked before each tile whether to leave the others; a GPU asks before each batch of tiles.
     pub stop: StopAsked<'a>,
+}
+
+/// How views share row planes.
+#[derive(Clone, Copy, Debug)]
+pub struct Sharing<'a> {
+    /// Which views share which planes.
+    pub fans: &'a Fans,
+    /// The enhancers of the scene: what they multiply extinction by says how closely planes are sampled.
+    pub enhancers: &'a [Enhancer],
 }
 
 /// Some rays of projectors that end early, for marks that the volume may hide.

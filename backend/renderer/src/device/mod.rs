@@ -20,6 +20,8 @@ pub use choose::{CacheWish, ChosenDevice, open_device};
 pub use cpu::CpuDevice;
 pub use either::Device;
 pub use error::DeviceError;
-pub use job::{CastJob, CastOutcome, Gather, NEVER, Part, Patch, ShortJob, ShortView, TileGrid, coarse};
+pub use job::{
+    CastJob, CastOutcome, Gather, NEVER, Part, Patch, Sharing, ShortJob, ShortView, TileGrid, coarse,
+};
 pub use show::{DevicePicture, FinishJob, ShowJob};
 pub use tag::{FeedbackTag, TaggedFeedback};

@@ -1,8 +1,9 @@
 //! Rows of all views at once, on all cores of the CPU.
 
-use super::{CastJob, CastOutcome};
+use super::{CastJob, CastOutcome, Sharing};
 use layout::TILE_EDGE;
-use planes::{Fan, Fans, Planes, RowCast, Scratch};
+use optics::Enhancer;
+use planes::{Fan, Planes, RowCast, Scratch};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use twin::Casting;
@@ -18,18 +19,18 @@ struct Band<'a> {
 pub(super) fn cast_rows(
     casting: &Casting<f32>,
     job: &CastJob,
-    fans: &Fans,
+    Sharing { fans, enhancers }: Sharing,
     pictures: &mut [Vec<f32>],
 ) -> CastOutcome {
     let mut outcome = CastOutcome::nothing(job);
-    fans.iter().for_each(|fan| cast_fan(casting, job, fan, pictures, &mut outcome));
+    fans.iter().for_each(|fan| cast_fan(casting, job, (fan, enhancers), pictures, &mut outcome));
     outcome
 }
 
 fn cast_fan(
     casting: &Casting<f32>,
     job: &CastJob,
-    fan: &Fan,
+    (fan, enhancers): (&Fan, &[Enhancer]),
     pictures: &mut [Vec<f32>],
     outcome: &mut CastOutcome,
 ) {
@@ -37,7 +38,7 @@ fn cast_fan(
     let jobs: Vec<_> = job.view_jobs().filter(|(index, _)| fan.views.contains(index)).collect();
     let tiles = jobs.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
     let asked: BTreeSet<u32> = tiles.collect();
-    let planes = Planes::new(casting, fan);
+    let planes = Planes::new(casting, fan, enhancers);
     let (step, first) = (job.lattice().step[1], job.lattice().first[1]);
     let of_fan = pictures.iter_mut().enumerate().filter(|(index, _)| fan.views.contains(index));
     let mut bands = bands(of_fan.map(|(_, picture)| picture), fan.raster, step);

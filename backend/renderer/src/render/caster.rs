@@ -1,15 +1,20 @@
 //! What casts the rays of a frame.
 
 use super::RenderError;
-use crate::device::Device;
+use crate::device::{Device, Sharing};
 use glam::DVec3;
 use needs::Needs;
+use optics::Enhancer;
 use planes::{Fans, Planes};
 use protocol::{Caster, CasterChoice, FrameState};
 use twin::ProjectorRays;
 
 /// Where fewer views share planes, sampling them takes about as long as casting the views' rays.
 const FEWEST_VIEWS: usize = 24;
+/// The least tolerance that planes are made for.
+const LEAST_TOLERANCE: f64 = 3e-5;
+const TOO_EXACT: &str =
+    "the tolerance is below 3e-5, where row planes err by more than it allows or take longer than rays";
 const TOO_FEW_VIEWS: &str = "the display has fewer than 24 projectors, too few for row planes to save time";
 const BY_PIXEL: &str = "importance, enhancers, materials, detail and debug views go pixel by pixel through row planes, which saves no time";
 const TOO_MANY_FANS: &str =
@@ -20,6 +25,7 @@ const TOO_MANY_FANS: &str =
 pub(super) struct CasterOfFrame {
     pub(super) caster: Caster,
     pub(super) fans: Option<Fans>,
+    enhancers: Vec<Enhancer>,
 }
 
 impl CasterOfFrame {
@@ -35,13 +41,17 @@ impl CasterOfFrame {
         frame: &FrameState,
         dims: DVec3,
     ) -> Result<Self, RenderError> {
-        let because = |why: &str| Self { caster: Caster::RaysBecause(why.to_owned()), fans: None };
+        let rays = |caster: Caster| Self { caster, fans: None, enhancers: Vec::new() };
+        let because = |why: &str| rays(Caster::RaysBecause(why.to_owned()));
         let spares = asked == CasterChoice::Auto && !frame.welcomes_planes;
         if asked == CasterChoice::Rays {
-            return Ok(Self { caster: Caster::Rays, fans: None });
+            return Ok(rays(Caster::Rays));
         }
         if spares && all.len() < FEWEST_VIEWS {
             return Ok(because(TOO_FEW_VIEWS));
+        }
+        if spares && frame.quality.tolerance < LEAST_TOLERANCE {
+            return Ok(because(TOO_EXACT));
         }
         if spares && Planes::refusal(needs).is_none() && Planes::is_by_pixel(needs) {
             return Ok(because(BY_PIXEL));
@@ -54,11 +64,20 @@ impl CasterOfFrame {
                 let fans = fans.only(&views);
                 let [views, count, resampled] =
                     [views.len(), fans.count(), fans.resampled()].map(|count| count as u32);
-                Ok(Self { caster: Caster::Planes { views, fans: count, resampled }, fans: Some(fans) })
+                Ok(Self {
+                    caster: Caster::Planes { views, fans: count, resampled },
+                    fans: Some(fans),
+                    enhancers: frame.optics.enhancers.clone(),
+                })
             }
             (Err(why), CasterChoice::Planes) => Err(RenderError::Planes(why)),
             (Err(why), _) => Ok(because(why)),
         }
+    }
+
+    /// How the views share planes, where these are cast.
+    pub(super) fn sharing(&self) -> Option<Sharing<'_>> {
+        self.fans.as_ref().map(|fans| Sharing { fans, enhancers: &self.enhancers })
     }
 }
 

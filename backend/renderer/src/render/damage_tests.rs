@@ -139,7 +139,7 @@ fn limited_pictures(frame: &FrameState, broken: &[NodeKey]) -> Pictures {
                 views,
                 first_picture: 0,
                 needs,
-                fans: None,
+                sharing: None,
                 mends: false,
                 part,
                 gather,

@@ -1,0 +1,58 @@
+//! One scene drawn by one caster.
+
+use crate::scene::Scene;
+use lightloom_tests::compare::{self, Errors, TruePixel};
+use lightloom_tests::draw;
+use protocol::{CasterChoice, DeviceChoice, FrameReport, FrameState};
+use renderer::Renderer;
+
+/// Views whose pictures are compared with the reference.
+pub const COMPARED: [u32; 3] = [6, 35, 60];
+/// Every so many pixels of them, along x and y.
+const COMPARED_STRIDE: u32 = 12;
+
+/// A whole number from the environment.
+pub fn number(name: &str, default: usize) -> usize {
+    std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(default)
+}
+
+/// How often each picture is drawn: the median counts.
+pub fn repeats() -> usize {
+    number("LIGHTLOOM_BENCH_REPEATS", 3).max(1)
+}
+
+/// What the compared pixels should show.
+pub fn truth(scene: &Scene) -> Vec<TruePixel> {
+    compare::truth(&scene.display, &scene.frame, &scene.source, &COMPARED, COMPARED_STRIDE)
+}
+
+/// A renderer for some views of a scene, and the name of what draws.
+pub fn renderer(scene: &Scene, caster: CasterChoice, projectors: &[u32]) -> (Renderer, String) {
+    let with = draw::With { cache_bytes: 1 << 30, caster, ..draw::With::device(DeviceChoice::Cpu) };
+    let (renderer, info) = draw::renderer(&scene.display, &scene.source, projectors, with);
+    (renderer, info.adapter)
+}
+
+/// What a frame took and how far it was off.
+pub struct Measured {
+    /// The median.
+    pub seconds: f64,
+    pub report: FrameReport,
+    pub errors: Errors,
+}
+
+/// Draws a frame some times, and compares those of its pixels that the renderer has.
+pub fn measure(renderer: &mut Renderer, frame: &FrameState, truth: &[TruePixel]) -> Measured {
+    let mut runs: Vec<_> = (0..repeats()).map(|_| draw::timed(renderer, frame, &COMPARED)).collect();
+    runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (seconds, report, images) = runs.swap_remove((runs.len() - 1) / 2);
+    let is_drawn = |pixel: &TruePixel| images.iter().any(|image| image.projector == pixel.projector);
+    let kept: Vec<_> = truth.iter().copied().filter(is_drawn).collect();
+    Measured { seconds, report, errors: compare::errors(&images, &kept) }
+}
+
+/// RMS, 99.9 % and largest error, of 255.
+pub fn codes(errors: &Errors) -> String {
+    let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
+    format!("{rms:.3}, {p999:.2}, {max:.2}")
+}

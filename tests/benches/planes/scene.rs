@@ -1,0 +1,70 @@
+//! What is drawn for all views of `holo72`.
+
+use bricks::BrickSource;
+use display_config::Display;
+use glam::DQuat;
+use lightloom_tests::{askew, scanned_head, scenes};
+use optics::Light;
+use protocol::FrameState;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The calibration of the projectors in scenes that are drawn calibrated, too.
+const SEED: u64 = 7;
+const CALIBRATED: [&str; 3] = ["head, semi-transparent", "head, opaque, shaded", "shells, shaded"];
+
+/// A scene of a display.
+pub struct Scene {
+    pub name: String,
+    pub display: Display,
+    pub source: Arc<dyn BrickSource>,
+    pub frame: FrameState,
+}
+
+/// The display of them all.
+pub fn display() -> Display {
+    Display::load("holo72").expect("a preset")
+}
+
+/// Those of the table that are wanted, with stores in a folder.
+pub fn wanted(folder: &Path) -> Vec<Scene> {
+    let names = std::env::var("LIGHTLOOM_BENCH_SCENES").unwrap_or_default();
+    let is_wanted = |scene: &Scene| names.is_empty() || names.split(';').any(|name| name == scene.name);
+    all(folder).into_iter().filter(is_wanted).collect()
+}
+
+fn all(folder: &Path) -> Vec<Scene> {
+    let display = display();
+    let head: Arc<dyn BrickSource> = Arc::new(scanned_head::store(folder));
+    let place = scenes::placed(&*head, 0.75, DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
+    let mut all = Vec::new();
+    let (semi, opaque) = (scanned_head::semi_transparent(), scanned_head::opaque());
+    for (name, optics, light) in [
+        ("head, semi-transparent", semi, None),
+        ("head, opaque", opaque.clone(), None),
+        ("head, opaque, shaded", opaque, Some(Light::default())),
+    ] {
+        let frame = scenes::frame(&display, place, optics, light);
+        all.push((name, Arc::clone(&head), frame));
+    }
+    let shells = scenes::shells(&display);
+    all.push(("shells, shaded", shells.source, shells.frame));
+    if let Some(cranium) = scenes::cranium(&display) {
+        let plain = FrameState { light: None, ..cranium.frame.clone() };
+        all.push(("cranium", Arc::clone(&cranium.source), plain));
+        all.push(("cranium, shaded", cranium.source, cranium.frame));
+    }
+    let calibrated = askew::calibrated(display.clone(), SEED);
+    let mut scenes = Vec::new();
+    for (name, source, frame) in all {
+        let scene = |name: String, display: &Display| {
+            let (display, source, frame) = (display.clone(), Arc::clone(&source), frame.clone());
+            Scene { name, display, source, frame }
+        };
+        scenes.push(scene(name.to_owned(), &display));
+        if CALIBRATED.contains(&name) {
+            scenes.push(scene(format!("{name}, calibrated"), &calibrated));
+        }
+    }
+    scenes
+}
