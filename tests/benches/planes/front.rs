@@ -94,7 +94,8 @@ fn of_scene(scene: &Scene, results: &mut Results) -> Vec<Places> {
             let frame = FrameState { quality, ..scene.frame.clone() };
             let found = measure(&mut renderer, &frame, &truth);
             let seconds = found.seconds * VIEWS / projectors.len() as f64;
-            (Place { tolerance, seconds, rms: 255.0 * found.errors.rms }, found)
+            let rms = found.errors.as_ref().map_or(f64::NAN, |errors| 255.0 * errors.rms);
+            (Place { tolerance, seconds, rms }, found)
         };
         TOLERANCES.map(at).into_iter().collect()
     };

@@ -38,7 +38,8 @@ pub struct Measured {
     /// The median.
     pub seconds: f64,
     pub report: FrameReport,
-    pub errors: Errors,
+    /// Of its pixels that were compared; None if there were none.
+    pub errors: Option<Errors>,
 }
 
 /// Draws a frame some times, and compares those of its pixels that the renderer has.
@@ -48,11 +49,13 @@ pub fn measure(renderer: &mut Renderer, frame: &FrameState, truth: &[TruePixel])
     let (seconds, report, images) = runs.swap_remove((runs.len() - 1) / 2);
     let is_drawn = |pixel: &TruePixel| images.iter().any(|image| image.projector == pixel.projector);
     let kept: Vec<_> = truth.iter().copied().filter(is_drawn).collect();
-    Measured { seconds, report, errors: compare::errors(&images, &kept) }
+    let errors = (!kept.is_empty()).then(|| compare::errors(&images, &kept));
+    Measured { seconds, report, errors }
 }
 
 /// RMS, 99.9 % and largest error, of 255.
-pub fn codes(errors: &Errors) -> String {
+pub fn codes(errors: &Option<Errors>) -> String {
+    let Some(errors) = errors else { return "–".to_owned() };
     let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
     format!("{rms:.3}, {p999:.2}, {max:.2}")
 }
