@@ -84,7 +84,7 @@ impl From<FilterArg> for FilterChoice {
 /// See [`CasterChoice`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CasterArg {
-    /// What is as exact as the scene asks: rays.
+    /// Planes where they can draw the scene, many projectors share them and the tolerance is not below 3e-5; rays elsewhere.
     Auto,
     /// Each ray alone.
     Rays,
