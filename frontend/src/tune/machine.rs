@@ -236,9 +236,7 @@ fn play_quincunx(footage: &Footage, machine: Machine, screen: &mut Screen) -> Pl
         played.busy += rays;
         for (shown, cast) in shown.iter_mut().zip(footage.pictures(newest)) {
             let raster = Raster::of([cast.width, cast.height]);
-            let made =
-                reconstruct((&cast.rgba).into(), Some(&shown.rgba), raster, known, Thresholds::default());
-            shown.rgba = made.into_owned();
+            shown.rgba = reconstruct(&cast.rgba, Some(&shown.rgba), raster, known, Thresholds::default());
         }
         screen.show(now, shown.iter().map(|one| &one.rgba[..]));
         (active, number) = (Some(newest), number.wrapping_add(1));

@@ -75,8 +75,7 @@ fn shown_of_sub_frames(truths: &Shown, thresholds: Thresholds, has_rows: bool) -
         known = if rests { known } else { Classes::default() }.with(Classes::of_lattice(&lattice));
         for (shown, cast) in shown.iter_mut().zip(cast) {
             let raster = Raster { width: cast.width as usize, height: cast.height as usize };
-            let now = reconstruct((&cast.rgba).into(), Some(&shown.rgba), raster, known, thresholds);
-            shown.rgba = now.into_owned();
+            shown.rgba = reconstruct(&cast.rgba, Some(&shown.rgba), raster, known, thresholds);
         }
         all.push(shown.clone());
     }

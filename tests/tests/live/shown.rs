@@ -78,8 +78,7 @@ fn a_gpu_shows_what_the_host_would() {
         let has_before = before.is_some();
         let job = ShowJob { picture: 0, raster, known, has_before, most_change };
         let is_behind = gpu.device.show(&[job]).unwrap();
-        let mut whole =
-            reconstruct((&cast).into(), before.as_deref(), raster, known, Thresholds::default()).into_owned();
+        let mut whole = reconstruct(&cast, before.as_deref(), raster, known, Thresholds::default());
         let behind = match (&before, most_change) {
             (Some(before), Some(most)) => ease(before, &mut whole, most),
             _ => false,
@@ -101,7 +100,7 @@ fn a_gpu_shows_what_the_host_would() {
     let [known, other] = [0, 2].map(|i| known_sets()[i]);
     let job = ShowJob { picture: 0, raster, known, has_before: false, most_change: None };
     gpu.device.show(&[job]).unwrap();
-    let spoiled = reconstruct((&cast).into(), None, raster, other, Thresholds::default()).into_owned();
+    let spoiled = reconstruct(&cast, None, raster, other, Thresholds::default());
     assert!(apart(&gpu.shown(), &spoiled) > 1e3 * LARGEST, "a mistake passes");
 }
 

@@ -8,7 +8,7 @@ use super::{
     CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShortJob, ShortView,
     ShowJob, TaggedFeedback,
 };
-use crate::present::{Thresholds, ease, reconstruct};
+use crate::present::{Show, Thresholds};
 use bricks::BRICK_VOXELS;
 use layout::{NodeRecord, SHORT_RAYS};
 use needs::tables::Tables;
@@ -180,24 +180,9 @@ impl CpuDevice {
 
     fn show_one(&mut self, job: &ShowJob) -> bool {
         let &ShowJob { picture, raster, known, has_before, most_change } = job;
-        let cast = &self.pictures[picture];
         self.shown.resize_with(self.shown.len().max(picture + 1), Vec::new);
-        let shown = &mut self.shown[picture];
-        // Another caster may have shown another raster.
-        let before = (has_before && shown.len() == cast.len()).then_some(&shown[..]);
-        let mut now = reconstruct(cast.into(), before, raster, known, Thresholds::default());
-        let is_behind = match (before, most_change) {
-            (Some(before), Some(most)) => ease(before, now.to_mut(), most),
-            _ => false,
-        };
-        match now {
-            Cow::Owned(now) => *shown = now,
-            Cow::Borrowed(cast) => {
-                shown.clear();
-                shown.extend_from_slice(cast);
-            }
-        }
-        is_behind
+        let (cast, thresholds) = (&self.pictures[picture], Thresholds::default());
+        Show { cast, raster, known, thresholds, most_change }.over(&mut self.shown[picture], has_before)
     }
 
     pub(super) fn picture(&mut self, picture: DevicePicture) -> Result<Cow<'_, [f32]>, DeviceError> {

@@ -123,6 +123,15 @@ impl Device {
         on_device!(self, device => device.show(jobs))
     }
 
+    /// How many pictures are best shown and handed over together: on the CPU one after the other, which is in its cache then.
+    pub fn pictures_at_once(&self) -> usize {
+        match self {
+            Self::Cpu(_) => 1,
+            #[cfg(feature = "gpu")]
+            Self::Gpu(_) => usize::MAX,
+        }
+    }
+
     /// The colours of a picture: 4 numbers per pixel, rows from the top.
     ///
     /// # Errors

@@ -5,36 +5,45 @@ use std::sync::LazyLock;
 /// Entries of the table that guesses a code; finer than the steepest part of the curve, so a guess is off by at most one.
 const GUESSES: usize = 4096;
 
-/// `THRESHOLDS[i]` is the smallest linear value whose code is above i.
-static THRESHOLDS: LazyLock<[f32; 255]> =
-    LazyLock::new(|| std::array::from_fn(|i| smallest_above((i as f64 + 0.5) / 255.0)));
+/// The curve as tables.
+struct Curve {
+    /// The smallest linear values whose codes are above 0, 1, …; nothing is above 255.
+    edges: [f32; 256],
+    /// The code at the low end of each of `GUESSES` equal parts of [0, 1].
+    guess: Vec<u8>,
+}
 
-/// The code at the low end of each of `GUESSES` equal parts of [0, 1].
-static GUESS: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let code = |x: f32| THRESHOLDS.partition_point(|t| *t <= x) as u8;
-    (0..=GUESSES).map(|i| code(i as f32 / GUESSES as f32)).collect()
+static CURVE: LazyLock<Curve> = LazyLock::new(|| {
+    let edge = |i: usize| if i < 255 { smallest_above((i as f64 + 0.5) / 255.0) } else { f32::INFINITY };
+    let edges: [f32; 256] = std::array::from_fn(edge);
+    let code = |x: f32| edges.partition_point(|edge| *edge <= x) as u8;
+    let guess = (0..=GUESSES).map(|i| code(i as f32 / GUESSES as f32)).collect();
+    Curve { edges, guess }
 });
+
+impl Curve {
+    fn code(&self, linear: f32) -> u8 {
+        // Not `clamp`: it hands NaN on, while this comparison sends it to black.
+        let x = if linear > 0.0 { linear.min(1.0) } else { 0.0 };
+        let guess = self.guess[(x * GUESSES as f32) as usize];
+        guess + u8::from(self.edges[usize::from(guess)] <= x)
+    }
+}
 
 /// The 8-bit sRGB code of a linear value: `round(255 · curve(x))`, clamped; NaN is 0.
 pub fn srgb_code(linear: f32) -> u8 {
-    // Not `clamp`: it hands NaN on, while this comparison sends it to black.
-    let x = if linear > 0.0 { linear.min(1.0) } else { 0.0 };
-    let mut code = GUESS[(x * GUESSES as f32) as usize];
-    while usize::from(code) < THRESHOLDS.len() && THRESHOLDS[usize::from(code)] <= x {
-        code += 1;
-    }
-    code
+    CURVE.code(linear)
 }
 
 /// The codes of a pixel's red, green and blue.
 pub(crate) fn srgb_codes(pixel: &[f32]) -> [u8; 3] {
-    [srgb_code(pixel[0]), srgb_code(pixel[1]), srgb_code(pixel[2])]
+    [pixel[0], pixel[1], pixel[2]].map(srgb_code)
 }
 
 /// The smallest linear values of codes 1 to 255.
 #[cfg(feature = "gpu")]
-pub(crate) fn srgb_edges() -> &'static [f32; 255] {
-    &THRESHOLDS
+pub(crate) fn srgb_edges() -> &'static [f32] {
+    &CURVE.edges[..255]
 }
 
 /// The encoding curve of IEC 61966-2-1, from linear to sRGB, on [0, 1].

@@ -46,6 +46,11 @@ impl Classes {
         self.0 & Self::of_pixel(x, y).0 != 0
     }
 
+    /// Whether all pixels of a row are of some of them.
+    pub(super) fn has_row(self, y: usize) -> bool {
+        self.has(0, y) && self.has(1, y)
+    }
+
     /// Whether these are every other row.
     pub(super) fn are_rows(self) -> bool {
         matches!(self.0, 0b0011 | 0b1100)

@@ -6,6 +6,7 @@ mod finish;
 mod layers;
 mod reconstruct;
 mod resample;
+mod show;
 
 pub use classes::{Classes, lattice_of};
 pub use ease::ease;
@@ -15,5 +16,6 @@ pub use finish::Finisher;
 pub use layers::Layers;
 #[cfg(feature = "gpu")]
 pub use reconstruct::{Pass, passes};
-pub use reconstruct::{Raster, Thresholds, reconstruct};
+pub use reconstruct::{Raster, Thresholds};
 pub use resample::{Bends, resampled};
+pub use show::{Show, reconstruct};

@@ -17,8 +17,6 @@
 
 use super::Classes;
 use layout::present::MOST_PAIRS;
-use rayon::prelude::*;
-use std::borrow::Cow;
 
 /// Size of a picture, pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,32 +86,27 @@ pub fn passes(known: Classes) -> impl Iterator<Item = Pass> {
     first.into_iter().chain(last)
 }
 
-/// Makes the picture to show of `cast`, of which the pixels of the `known` classes stand. `before` is what was shown before,
-/// where anything was. Both have four numbers a pixel, rows from the top.
-///
-/// # Panics
-/// Where a picture has not as many numbers as the raster says.
-pub fn reconstruct<'a>(
-    cast: Cow<'a, [f32]>,
-    before: Option<&[f32]>,
-    raster: Raster,
-    known: Classes,
-    thresholds: Thresholds,
-) -> Cow<'a, [f32]> {
-    assert_eq!(cast.len(), 4 * raster.width * raster.height, "a picture fills its raster");
-    passes(known).fold(cast, |picture, Pass { missing, pairs }| {
-        Filter { picture: &picture, before, raster, pairs, thresholds }.fill(missing).into()
-    })
+/// One pass over a picture: the neighbours of all pixels to make are known where they are in the raster.
+#[derive(Clone, Copy)]
+pub(super) struct Filter<'a> {
+    pub(super) picture: &'a [f32],
+    pub(super) raster: Raster,
+    pub(super) pass: Pass,
+    pub(super) thresholds: Thresholds,
 }
 
-/// One pass over a picture.
-struct Filter<'a> {
-    picture: &'a [f32],
-    before: Option<&'a [f32]>,
-    raster: Raster,
-    /// Of each pair of neighbours the one: all of them are known where they are in the raster.
-    pairs: &'a [Step],
-    thresholds: Thresholds,
+/// Some rows of what was shown before.
+#[derive(Clone, Copy)]
+pub(super) struct Before<'a> {
+    pub(super) numbers: &'a [f32],
+    /// Of a whole picture, the index of the first of these.
+    pub(super) first: usize,
+}
+
+impl Before<'_> {
+    fn pixel(&self, at: usize) -> Pixel {
+        pixel_at(self.numbers, at - self.first)
+    }
 }
 
 /// The neighbours of a pixel: the indices of their first numbers, pair by pair, those outside the raster left out.
@@ -144,22 +137,12 @@ impl Around {
 }
 
 impl Filter<'_> {
-    fn fill(&self, missing: Classes) -> Vec<f32> {
-        let mut filled = self.picture.to_vec();
-        filled.par_chunks_mut(4 * self.raster.width).enumerate().for_each(|(y, row)| {
-            for (x, pixel) in row.chunks_exact_mut(4).enumerate().filter(|&(x, _)| missing.has(x, y)) {
-                pixel.copy_from_slice(&self.pixel(x, y));
-            }
-        });
-        filled
-    }
-
     /// The neighbours of a pixel.
     fn around(&self, x: usize, y: usize) -> Around {
         let Raster { width, height } = self.raster;
         let mut around = Around::default();
         let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
-        for &[dx, dy] in self.pairs {
+        for &[dx, dy] in self.pass.pairs {
             around.add([[dx, dy], [-dx, -dy]].map(|[dx, dy]| {
                 let (x, y) = (x.wrapping_add_signed(dx as isize), y.wrapping_add_signed(dy as isize));
                 (is_inside || (x < width && y < height)).then_some(4 * (y * width + x))
@@ -168,15 +151,15 @@ impl Filter<'_> {
         around
     }
 
-    fn pixel(&self, x: usize, y: usize) -> Pixel {
-        let (at, around) = (4 * (y * self.raster.width + x), self.around(x, y));
-        let Some(before) = self.before else { return self.in_space(at, &around) };
-        // Most of a picture is empty, or stands still.
-        let stays = |&place: &usize| self.picture[place..place + 4] == before[place..place + 4];
-        if around.places().iter().all(stays) {
-            return pixel_at(before, at);
+    /// A missing pixel, any of whose neighbours have moved or not.
+    pub(super) fn pixel(&self, x: usize, y: usize, before: Option<Before>, moves: bool) -> Pixel {
+        let at = 4 * (y * self.raster.width + x);
+        match before {
+            None => self.in_space(at, &self.around(x, y)),
+            Some(before) if moves => self.in_time(before, at, &self.around(x, y)),
+            // Most of a picture is empty, or stands still.
+            Some(before) => before.pixel(at),
         }
-        self.in_time(before, at, &around)
     }
 
     /// The mean of the opposite pair whose colours differ least. At the rim there may be no whole pair; in a raster of a
@@ -198,15 +181,15 @@ impl Filter<'_> {
     }
 
     /// The colour of a pixel, made from those around it in space and in time.
-    fn in_time(&self, before: &[f32], at: usize, around: &Around) -> Pixel {
+    fn in_time(&self, before: Before, at: usize, around: &Around) -> Pixel {
         let change = |at| {
-            let (now, was) = (pixel_at(self.picture, at), pixel_at(before, at));
+            let (now, was) = (pixel_at(self.picture, at), before.pixel(at));
             std::array::from_fn(|i| now[i] - was[i])
         };
         let typical = mean(around.places(), change);
         let disorder =
             around.places().iter().fold(0.0_f32, |most, &at| most.max(difference(change(at), typical)));
-        let was = pixel_at(before, at);
+        let was = before.pixel(at);
         let temporal = |i: usize| (was[i] + typical[i]).clamp(0.0, was[i].max(1.0));
         match self.thresholds.share(disorder) {
             0.0 => std::array::from_fn(temporal),
@@ -246,7 +229,3 @@ fn pixel_at(picture: &[f32], at: usize) -> Pixel {
 fn difference(a: Pixel, b: Pixel) -> f32 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
-
-#[cfg(test)]
-#[path = "reconstruct_tests.rs"]
-mod tests;

@@ -77,9 +77,13 @@ impl Finisher {
     pub fn codes(&self, rgba: &[f32]) -> Vec<u8> {
         let [width, height] = self.size;
         let mut rgb = vec![0; 3 * width * height];
+        // Most of a picture is black.
+        let black = self.curve.of_black();
         rgb.par_chunks_mut(3 * width.max(1)).enumerate().for_each(|(y, row)| {
             for (x, codes) in row.chunks_exact_mut(3).enumerate() {
-                codes.copy_from_slice(&self.curve.codes(self.light(rgba, x, y), [x, y]));
+                let light = self.light(rgba, x, y);
+                let known = black.filter(|_| light == [0.0; 3]);
+                codes.copy_from_slice(&known.unwrap_or_else(|| self.curve.codes(light, [x, y])));
             }
         });
         rgb

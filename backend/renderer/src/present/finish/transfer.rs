@@ -29,6 +29,14 @@ impl Curve {
         }
     }
 
+    /// The codes of no light, where they are the same at every pixel.
+    pub fn of_black(&self) -> Option<[u8; 3]> {
+        match self {
+            Self::Dithered(_) => None,
+            _ => Some(self.codes([0.0; 3], [0, 0])),
+        }
+    }
+
     /// The codes of the light of a pixel, from 0 to 1.
     pub fn codes(&self, light: [f32; 3], pixel: [usize; 2]) -> [u8; 3] {
         match self {
@@ -53,7 +61,7 @@ impl Curve {
     pub fn numbers(&self) -> Vec<f32> {
         let channel = |channel: usize| -> Vec<f32> {
             match self {
-                Self::Srgb => [&srgb_edges()[..], &[0.0; 256]].concat(),
+                Self::Srgb => [srgb_edges(), &[0.0; 256]].concat(),
                 Self::Rounded(steps) => [&steps[channel].edges[..], &[0.0; 256]].concat(),
                 Self::Dithered(ramps) => {
                     [&ramps[channel].steps.edges[..], &ramps[channel].lights[..]].concat()

@@ -1,19 +1,9 @@
-//! Laws of the reconstruction.
+//! Laws of what is shown.
 
 use super::*;
 use crate::present::lattice_of;
 use proptest::prelude::*;
 use protocol::SubFrame;
-
-fn shown_of(
-    cast: Vec<f32>,
-    before: Option<&[f32]>,
-    raster: Raster,
-    known: Classes,
-    thresholds: Thresholds,
-) -> Vec<f32> {
-    reconstruct(cast.into(), before, raster, known, thresholds).into_owned()
-}
 
 const RASTER: Raster = Raster { width: 9, height: 7 };
 
@@ -49,7 +39,8 @@ fn known_pixels_are_shown_as_they_were_cast() {
     let (now, before) = (picture(|x, y| (x * y).sin()), picture(|x, y| (x + y).cos()));
     for known in known_sets() {
         for before in [None, Some(&before[..])] {
-            let shown = shown_of(partly(&now, RASTER, known), before, RASTER, known, Thresholds::default());
+            let shown =
+                reconstruct(&partly(&now, RASTER, known), before, RASTER, known, Thresholds::default());
             assert!(shown.iter().all(|number| number.is_finite()), "{known:?}");
             for (i, (shown, now)) in shown.chunks_exact(4).zip(now.chunks_exact(4)).enumerate() {
                 if known.has(i % RASTER.width, i / RASTER.width) {
@@ -66,7 +57,7 @@ fn known_pixels_are_shown_as_they_were_cast() {
 fn slopes_come_back_without_what_was_before() {
     let ramp = picture(|x, y| 0.1 * x + 0.03 * y);
     for known in known_sets() {
-        let shown = shown_of(partly(&ramp, RASTER, known), None, RASTER, known, Thresholds::default());
+        let shown = reconstruct(&partly(&ramp, RASTER, known), None, RASTER, known, Thresholds::default());
         for y in 2..RASTER.height - 2 {
             for x in 2..RASTER.width - 2 {
                 let at = 4 * (y * RASTER.width + x);
@@ -82,10 +73,10 @@ fn what_stands_still_stays_to_the_bit_and_what_jumps_follows() {
     let dark = picture(|_, _| 0.125);
     for known in known_sets() {
         let again =
-            shown_of(partly(&still, RASTER, known), Some(&still), RASTER, known, Thresholds::default());
+            reconstruct(&partly(&still, RASTER, known), Some(&still), RASTER, known, Thresholds::default());
         assert_eq!(again, still, "{known:?}");
         let shown =
-            shown_of(partly(&bright, RASTER, known), Some(&dark), RASTER, known, Thresholds::default());
+            reconstruct(&partly(&bright, RASTER, known), Some(&dark), RASTER, known, Thresholds::default());
         assert_eq!(shown, bright, "{known:?}");
     }
 }
@@ -97,7 +88,7 @@ fn an_even_change_keeps_detail() {
     let (before, now) = (picture(detail), picture(|x, y| detail(x, y) + 0.125));
     for known in known_sets() {
         let shown =
-            shown_of(partly(&now, RASTER, known), Some(&before), RASTER, known, Thresholds::default());
+            reconstruct(&partly(&now, RASTER, known), Some(&before), RASTER, known, Thresholds::default());
         assert_eq!(shown, now, "{known:?}");
     }
 }
@@ -107,7 +98,8 @@ fn an_even_change_keeps_detail() {
 fn edges_along_a_pair_stay_sharp() {
     let diagonal = picture(|x, y| if x > y { 1.0 } else { 0.0 });
     for known in known_sets() {
-        let shown = shown_of(partly(&diagonal, RASTER, known), None, RASTER, known, Thresholds::default());
+        let shown =
+            reconstruct(&partly(&diagonal, RASTER, known), None, RASTER, known, Thresholds::default());
         for y in 1..RASTER.height - 1 {
             for x in 1..RASTER.width - 1 {
                 let value = shown[4 * (y * RASTER.width + x)];
@@ -131,7 +123,62 @@ proptest! {
         let is_known = |i: usize| known.has(i % width, i / width);
         let cast: Vec<f32> = now.chunks_exact(4).enumerate()
             .flat_map(|(i, p)| [if is_known(i) { p[0] } else { 0.5 }; 4]).collect();
-        let shown = shown_of(cast, Some(&before), raster, known, Thresholds::default());
+        let shown = reconstruct(&cast, Some(&before), raster, known, Thresholds::default());
         prop_assert!(shown.iter().all(|number| (0.0..=1.0).contains(number)));
     }
+}
+
+/// What each pixel is by the filter alone, of pictures that are kept apart; with no regard to what stands still.
+fn pixel_by_pixel(cast: &[f32], before: &[f32], raster: Raster, known: Classes) -> Vec<f32> {
+    passes(known).fold(cast.to_vec(), |picture, pass| {
+        let filter = Filter { picture: &picture, raster, pass, thresholds: Thresholds::default() };
+        let before = Before { numbers: before, first: 0 };
+        let pixels = (0..raster.width * raster.height).map(|i| (i % raster.width, i / raster.width));
+        let pixel = |(i, (x, y))| match pass.missing.has(x, y) {
+            true => filter.pixel(x, y, Some(before), true),
+            false => [0, 1, 2, 3].map(|c| picture[4 * i + c]),
+        };
+        pixels.enumerate().flat_map(pixel).collect()
+    })
+}
+
+/// Bands of rows, those that stand still, and pixels that may change by little only.
+#[test]
+fn a_picture_made_in_place_is_the_one_made_apart() {
+    let raster = Raster { width: 7, height: 3 * BAND + 5 };
+    let before = picture_of(raster, |x, y| 0.5 + 0.4 * (3.1 * x + 1.7 * y).sin());
+    let moves = |x: f32, y: f32| match y as usize {
+        // A band whose neighbours move, a few rows, a few pixels.
+        y if y / BAND == 1 => y + 1 == 2 * BAND,
+        y => y < 4 || (x + y as f32) % 5.0 == 0.0,
+    };
+    let change = picture_of(raster, |x, y| if moves(x, y) { 0.3 * (x * y).cos() } else { 0.0 });
+    let now: Vec<f32> = before.iter().zip(&change).map(|(was, change)| (was + change).max(0.0)).collect();
+    for known in known_sets() {
+        let cast = partly(&now, raster, known);
+        for most_change in [None, Some(0.04)] {
+            let mut expected = pixel_by_pixel(&cast, &before, raster, known);
+            let expected_behind = most_change.is_some_and(|most| ease(&before, &mut expected, most));
+            let mut shown = before.clone();
+            let show = Show { cast: &cast, raster, known, thresholds: Thresholds::default(), most_change };
+            assert_eq!(show.over(&mut shown, true), expected_behind, "{known:?}");
+            assert_eq!(shown, expected, "{known:?} {most_change:?}");
+            assert_eq!(expected_behind, most_change.is_some(), "something moves by more than a little");
+        }
+    }
+}
+
+#[test]
+fn a_picture_of_another_size_is_none_that_was_before() {
+    let now = picture(|x, y| (x * y).sin().abs());
+    let show = Show {
+        cast: &now,
+        raster: RASTER,
+        known: Classes::ALL,
+        thresholds: Thresholds::default(),
+        most_change: Some(0.01),
+    };
+    let mut shown = vec![f32::NAN; 3];
+    assert!(!show.over(&mut shown, true));
+    assert_eq!(shown, now);
 }
