@@ -238,10 +238,9 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// x of a block's columns, the same whoever looks.
+    /// x of the columns from a block's first on, the same whoever looks.
     #[inline(always)]
-    fn ruler(&self, slab: &Slab, block: usize) -> Ruler {
-        let [first, _] = slab.columns(block);
+    fn ruler(&self, first: i64) -> Ruler {
         let [of_zero, pitch] = self.x;
         Ruler { first, x: (of_zero + first as f64 * pitch) as f32, pitch: pitch as f32 }
     }
@@ -256,7 +255,7 @@ impl Line<'_> {
     fn fill_block<S: Simd, K: Kernel>(&self, simd: S, slab: &mut Slab, block: usize, halo: usize) -> u64 {
         let [first, past] = slab.columns(block);
         let past = past + halo as i64;
-        let ruler = self.ruler(slab, block);
+        let ruler = self.ruler(first);
         let mut samples = 0;
         let half = 0.5 * ruler.pitch;
         let mut column = (first - 1).max(self.columns[0]);
@@ -344,7 +343,7 @@ impl Line<'_> {
     #[inline(always)]
     fn fill_gradients<K: Kernel>(&self, slab: &mut Slab, block: usize, every: usize) {
         let [first, past] = slab.columns(block);
-        let ruler = self.ruler(slab, block);
+        let ruler = self.ruler(first);
         let near = every as i64;
         let past = if every > 1 { past + 1 } else { past };
         for column in (first..past).step_by(every) {

@@ -4,7 +4,6 @@ use super::RenderError;
 use crate::device::{Device, Sharing};
 use glam::DVec3;
 use needs::Needs;
-use optics::Enhancer;
 use planes::{Fans, Planes};
 use protocol::{Caster, CasterChoice, FrameState};
 use twin::ProjectorRays;
@@ -25,7 +24,6 @@ const TOO_MANY_FANS: &str =
 pub(super) struct CasterOfFrame {
     pub(super) caster: Caster,
     pub(super) fans: Option<Fans>,
-    enhancers: Vec<Enhancer>,
 }
 
 impl CasterOfFrame {
@@ -41,7 +39,7 @@ impl CasterOfFrame {
         frame: &FrameState,
         dims: DVec3,
     ) -> Result<Self, RenderError> {
-        let rays = |caster: Caster| Self { caster, fans: None, enhancers: Vec::new() };
+        let rays = |caster: Caster| Self { caster, fans: None };
         let because = |why: &str| rays(Caster::RaysBecause(why.to_owned()));
         let spares = asked == CasterChoice::Auto && !frame.welcomes_planes;
         if asked == CasterChoice::Rays {
@@ -64,20 +62,16 @@ impl CasterOfFrame {
                 let fans = fans.only(&views);
                 let [views, count, resampled] =
                     [views.len(), fans.count(), fans.resampled()].map(|count| count as u32);
-                Ok(Self {
-                    caster: Caster::Planes { views, fans: count, resampled },
-                    fans: Some(fans),
-                    enhancers: frame.optics.enhancers.clone(),
-                })
+                Ok(Self { caster: Caster::Planes { views, fans: count, resampled }, fans: Some(fans) })
             }
             (Err(why), CasterChoice::Planes) => Err(RenderError::Planes(why)),
             (Err(why), _) => Ok(because(why)),
         }
     }
 
-    /// How the views share planes, where these are cast.
-    pub(super) fn sharing(&self) -> Option<Sharing<'_>> {
-        self.fans.as_ref().map(|fans| Sharing { fans, enhancers: &self.enhancers })
+    /// How the views share planes of the frame, where these are cast.
+    pub(super) fn sharing<'a>(&'a self, frame: &'a FrameState) -> Option<Sharing<'a>> {
+        self.fans.as_ref().map(|fans| Sharing { fans, enhancers: &frame.optics.enhancers })
     }
 }
 

@@ -83,17 +83,24 @@ impl Engine {
             .into_iter()
             .filter_map(|projector| Some((projector, work.view_of(projector)?)))
             .collect();
-        let shown = self.show(work, &of_frame)?;
-        let mut finals = Vec::with_capacity(of_frame.len());
-        for ((projector, view), (picture, is_as_cast)) in of_frame.into_iter().zip(shown) {
+        for some in of_frame.chunks(self.device.pictures_at_once()) {
+            let finals = self.finals(work, some)?;
+            give(self, work, &finals, sink)?;
+        }
+        work.account.stages.readback_ms += milliseconds(started);
+        Ok(())
+    }
+
+    /// What is shown of some projectors' views.
+    fn finals(&mut self, work: &mut Work, of: &[(u32, usize)]) -> Result<Vec<Final>, DeviceError> {
+        let shown = self.show(work, of)?;
+        let is_of = |(&(projector, view), (picture, is_as_cast)): (&(u32, usize), (Shown, bool))| {
             let (size, warp) = (work.setting.own_raster(view), work.setting.warp(view).copied());
             let mended = work.mended.as_mut().filter(|_| is_as_cast);
             let patch = mended.map_or_else(Patch::default, |mended| std::mem::take(&mut mended[view]));
-            finals.push(Final { projector, view, size, picture, warp, patch });
-        }
-        give(self, work, &finals, sink)?;
-        work.account.stages.readback_ms += milliseconds(started);
-        Ok(())
+            Final { projector, view, size, picture, warp, patch }
+        };
+        Ok(of.iter().zip(shown).map(is_of).collect())
     }
 
     /// What is shown of the pictures of some projectors' views: it depends on the frames before where there are many. And whether

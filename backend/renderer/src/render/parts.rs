@@ -125,7 +125,7 @@ impl Engine {
             scene: &setting.scene,
             views: &setting.rays,
             first_picture: setting.rays.len(),
-            sharing: setting.caster.sharing(),
+            sharing: setting.caster.sharing(newest),
             needs: Needs { blends: self.shelf.blends, spreads: self.shelf.spreads, ..setting.needs },
             part: Part::Every(lattice),
             mends: false,

@@ -181,7 +181,7 @@ impl Work {
                 true => self.setting.rays.len(),
                 false => self.picture_of(views.start),
             },
-            sharing: self.setting.caster.sharing(),
+            sharing: self.setting.caster.sharing(&self.frame),
             needs: Needs { blends: engine.shelf.blends, spreads: engine.shelf.spreads, ..self.setting.needs },
             part: Part::Tiles { lattice: *lattice, tiles },
             gather: if self.frame.pace == Pace::Complete { Gather::Own } else { Gather::Frame },
