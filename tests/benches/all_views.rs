@@ -60,11 +60,11 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
             let truth = compare::truth(display, &frame, source, keep, COMPARED_STRIDE);
             let errors = compare::errors(&images, &truth);
             let rate = report.samples as f64 / seconds / 1e6;
-            let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
             let whole = if report.complete { "" } else { ", INCOMPLETE" };
             results.line(format!(
-                "| {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {rms:.3}, {p999:.2}, {max:.2}{whole} | {peak_mib:.0} |",
+                "| {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {}{whole} | {peak_mib:.0} |",
                 report.samples as f64 / 1e9,
+                compare::codes(&errors),
             ));
         }
     }

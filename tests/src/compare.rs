@@ -150,6 +150,12 @@ pub fn cells(errors: &Errors) -> String {
     format!("{} | {} | {rms:.3} | {p999:.2} | {max:.1}", errors.pixels, errors.lit)
 }
 
+/// RMS, what 99.9 % stay within and the largest, of 255, in one cell.
+pub fn codes(errors: &Errors) -> String {
+    let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|error| 255.0 * error);
+    format!("{rms:.3}, {p999:.2}, {max:.2}")
+}
+
 /// Errors of pairs (found, true).
 pub fn errors_of(pairs: impl Iterator<Item = ([f64; 4], [f64; 4])>) -> Errors {
     Errors::of(pairs).expect("something was compared")

@@ -90,14 +90,23 @@ fn procedural(name: &str, edge: u32) -> Arc<dyn BrickSource> {
     shared(format!("{name}@{edge}"), make)
 }
 
+/// Voxels along an edge of the shells, for which their extinction per voxel is meant.
+const SHELLS_EDGE: u32 = 128;
+
 /// Nested semi-transparent shells, shaded.
 pub fn shells(display: &Display) -> TestScene {
-    let source = procedural("shells", 128);
-    let optics = optics(
+    shells_of(display, SHELLS_EDGE)
+}
+
+/// The same of so many voxels along an edge, and as thick.
+pub fn shells_of(display: &Display, edge: u32) -> TestScene {
+    let source = procedural("shells", edge);
+    let mut optics = optics(
         (0.0, 1.0),
         &vec![(0.15, 0.0), (0.35, 0.03), (0.5, 0.0), (0.6, 0.0), (0.75, 0.15), (0.9, 0.02), (1.0, 0.3)],
         &vec![(0.2, [0.9, 0.35, 0.1]), (0.6, [0.1, 0.6, 0.9]), (1.0, [1.0, 0.95, 0.8])],
     );
+    optics.extinction = scaled(&optics.extinction, f64::from(SHELLS_EDGE) / f64::from(edge));
     let place = placed(&*source, 0.6 * display.height_m, DQuat::from_rotation_y(0.4));
     let frame = frame(display, place, optics, Some(Light::default()));
     TestScene { name: "shells", source, frame }

@@ -1,12 +1,13 @@
 //! Error against time of both casters, from loose tolerances to tight ones.
 
-use crate::measure::{COMPARED, Measured, codes, measure, renderer, truth};
-use crate::scene::{Scene, wanted};
+use crate::measure::{measure, renderer};
+use crate::scene::{COMPARED, Scene};
+use crate::sweep;
 use frontend::report::plot::{Chart, Mark, Point, Series, Stroke};
+use lightloom_tests::compare::{self, Errors};
 use lightloom_tests::results::{self, Program, Results};
 use optics::Quality;
 use protocol::{CasterChoice, FrameState};
-use std::path::Path;
 
 /// Scenes of the plot.
 const SCENES: [&str; 4] =
@@ -18,97 +19,139 @@ const VIEWS: f64 = 72.0;
 /// The largest RMS error, of 255, at which single rays are asked how fast they are.
 const ASKED_OF_RAYS: f64 = 0.3;
 
-/// A way to cast a scene at several tolerances.
-struct Way {
-    name: &'static str,
-    caster: CasterChoice,
-    /// The longest step of a ray.
-    step_voxels: f64,
+/// How many planes the competitor has.
+const COUNTS: [usize; 5] = [64, 128, 256, 512, 1024];
+
+/// A way to draw a scene, more and more exactly.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Planes,
+    /// With steps of up to so many voxels.
+    Rays(f64),
+    Sweep,
 }
 
-const WAYS: [Way; 3] = [
-    Way { name: "planes", caster: CasterChoice::Planes, step_voxels: 0.4 },
-    Way { name: "rays", caster: CasterChoice::Rays, step_voxels: 0.4 },
-    Way { name: "rays, steps of up to a voxel", caster: CasterChoice::Rays, step_voxels: 1.0 },
-];
+const WAYS: [Way; 4] = [Way::Planes, Way::Rays(0.4), Way::Rays(1.0), Way::Sweep];
 
-/// A tolerance, and what it led to: seconds for all views, and RMS error of 255.
-#[derive(Clone, Copy)]
+impl Way {
+    fn name(self) -> String {
+        match self {
+            Self::Planes => "planes".to_owned(),
+            Self::Rays(1.0) => "rays, steps of up to a voxel".to_owned(),
+            Self::Rays(_) => "rays".to_owned(),
+            Self::Sweep => "plane sweep".to_owned(),
+        }
+    }
+}
+
+/// A setting of a way, and what it led to.
 struct Place {
-    tolerance: f64,
+    setting: String,
+    is_default: bool,
+    /// For all views.
     seconds: f64,
-    rms: f64,
+    errors: Errors,
 }
 
-pub fn run(folder: &Path) -> Result<(), String> {
+impl Place {
+    /// Of 255.
+    fn rms(&self) -> f64 {
+        255.0 * self.errors.rms
+    }
+}
+
+/// A way, and where each of its settings led to.
+struct Line {
+    way: Way,
+    places: Vec<Place>,
+}
+
+impl Line {
+    fn is_of_rays(&self) -> bool {
+        matches!(self.way, Way::Rays(_))
+    }
+}
+
+pub fn run(scenes: &[Scene]) -> Result<(), String> {
     let mut results = Results::new(Program::Bench("planes"), "planes", "front");
-    results.line("| scene | way | tolerance | seconds for 72 views | RMS, 99.9 %, largest error of 255 | rays as exact, times as long |");
+    results.line("| scene | way | tolerance, or planes | seconds for 72 views | RMS, 99.9 %, largest error of 255 | rays as exact, times as long |");
     results.line("| --- | --- | ---: | ---: | ---: | ---: |");
     let mut fastest = Vec::new();
-    for scene in wanted(folder).into_iter().filter(|scene| SCENES.contains(&scene.name.as_str())) {
-        let found = of_scene(&scene, &mut results);
-        for (way, places) in WAYS.iter().zip(&found) {
-            for (place, measured) in places {
-                let ratio = match way.caster {
-                    CasterChoice::Planes => seconds_of_rays(&found[1..], place.rms)
+    for scene in scenes.iter().filter(|scene| SCENES.contains(&scene.name.as_str())) {
+        let lines = WAYS.map(|way| Line { way, places: places(scene, way, &mut results) });
+        let rays: Vec<&Line> = lines.iter().filter(|line| line.is_of_rays()).collect();
+        for line in &lines {
+            for place in &line.places {
+                let ratio = match line.is_of_rays() {
+                    true => String::new(),
+                    false => seconds_of_rays(&rays, place.rms())
                         .map_or("–".to_owned(), |rays| format!("{:.1}", rays / place.seconds)),
-                    _ => String::new(),
                 };
                 results.line(format!(
-                    "| {} | {} | {:.0e} | {:.2} | {} | {ratio} |",
+                    "| {} | {} | {} | {:.2} | {} | {ratio} |",
                     scene.name,
-                    way.name,
-                    place.tolerance,
+                    line.way.name(),
+                    place.setting,
                     place.seconds,
-                    codes(&measured.errors),
+                    compare::codes(&place.errors),
                 ));
             }
         }
-        let within = found[1..].iter().flatten().map(|(place, _)| place).filter(|p| p.rms <= ASKED_OF_RAYS);
+        let within = rays.iter().flat_map(|line| &line.places).filter(|place| place.rms() <= ASKED_OF_RAYS);
         fastest.extend(within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).map(|place| {
             format!(
                 "- Rays of {} take {:.1} s at RMS {:.3}, the fastest of those within {ASKED_OF_RAYS}.",
-                scene.name, place.seconds, place.rms
+                scene.name,
+                place.seconds,
+                place.rms()
             )
         }));
-        write(&scene, &found)?;
+        write(scene, &lines)?;
     }
     results.line("");
     fastest.into_iter().for_each(|line| results.line(line));
     results.finish()
 }
 
-/// What a way made of a scene, tolerance by tolerance.
-type Places = Vec<(Place, Measured)>;
-
-/// What each way makes of a scene.
-fn of_scene(scene: &Scene, results: &mut Results) -> Vec<Places> {
-    let truth = truth(scene);
+/// What a way makes of a scene.
+fn places(scene: &Scene, way: Way, results: &mut Results) -> Vec<Place> {
     let all: Vec<u32> = (0..VIEWS as u32).collect();
-    let of_way = |way: &Way| {
-        let projectors = if way.caster == CasterChoice::Planes { &all[..] } else { &COMPARED[..] };
-        let (mut renderer, adapter) = renderer(scene, way.caster, projectors);
-        results.drawn_by(&adapter);
-        let at = |tolerance: f64| {
-            let quality = Quality { tolerance, step_voxels: way.step_voxels, ..scene.frame.quality };
-            let frame = FrameState { quality, ..scene.frame.clone() };
-            let found = measure(&mut renderer, &frame, &truth);
-            let seconds = found.seconds * VIEWS / projectors.len() as f64;
-            let rms = found.errors.as_ref().map_or(f64::NAN, |errors| 255.0 * errors.rms);
-            (Place { tolerance, seconds, rms }, found)
-        };
-        TOLERANCES.map(at).into_iter().collect()
+    let own = scene.frame.quality;
+    let (caster, projectors, step_voxels) = match way {
+        Way::Planes => (CasterChoice::Planes, &all[..], own.step_voxels),
+        Way::Rays(step_voxels) => (CasterChoice::Rays, &COMPARED[..], step_voxels),
+        Way::Sweep => {
+            let place = |count| {
+                let swept = sweep::sweep(scene, count);
+                let (setting, seconds) = (count.to_string(), swept.seconds());
+                Place { setting, is_default: false, seconds, errors: swept.errors }
+            };
+            return COUNTS.map(place).into();
+        }
     };
-    WAYS.iter().map(of_way).collect()
+    let (mut renderer, adapter) = renderer(scene, caster, projectors);
+    results.drawn_by(&adapter);
+    let place = |tolerance: f64| {
+        let quality = Quality { tolerance, step_voxels, ..own };
+        let frame = FrameState { quality, ..scene.frame.clone() };
+        let measured = measure(&mut renderer, &frame, scene.truth());
+        Place {
+            setting: format!("{tolerance:.0e}"),
+            is_default: quality == own,
+            seconds: measured.seconds * VIEWS / projectors.len() as f64,
+            errors: measured.errors.expect("the views that are compared are among these"),
+        }
+    };
+    TOLERANCES.map(place).into()
 }
 
 /// Seconds that rays take at an RMS error: of the faster way, between two tolerances on a straight line of logarithms. None if
 /// neither reaches it or both are more exact at all tolerances.
-fn seconds_of_rays(ways: &[Places], rms: f64) -> Option<f64> {
-    let of_way = |places: &Places| {
-        places.windows(2).find_map(|ends| {
-            let [(loose, _), (tight, _)] = ends else { return None };
-            let share = (loose.rms.ln() - rms.ln()) / (loose.rms.ln() - tight.rms.ln());
+fn seconds_of_rays(ways: &[&Line], rms: f64) -> Option<f64> {
+    let of_way = |line: &&Line| {
+        line.places.windows(2).find_map(|ends| {
+            let [loose, tight] = ends else { return None };
+            let share = (loose.rms() / rms).ln() / (loose.rms() / tight.rms()).ln();
             (0.0..=1.0)
                 .contains(&share)
                 .then(|| (loose.seconds.ln() * (1.0 - share) + tight.seconds.ln() * share).exp())
@@ -118,20 +161,19 @@ fn seconds_of_rays(ways: &[Places], rms: f64) -> Option<f64> {
 }
 
 /// The plot of a scene, beside the page.
-fn write(scene: &Scene, found: &[Places]) -> Result<(), String> {
+fn write(scene: &Scene, lines: &[Line]) -> Result<(), String> {
     let Some(folder) = results::folder() else { return Ok(()) };
-    let default = scene.frame.quality.tolerance;
-    let point = |(place, _): &(Place, Measured)| Point {
+    let point = |place: &Place| Point {
         x: place.seconds,
-        y: place.rms,
-        title: format!("tolerance {:.0e}: {:.2} s, RMS {:.3}", place.tolerance, place.seconds, place.rms),
+        y: place.rms(),
+        title: format!("{}: {:.2} s, RMS {:.3}", place.setting, place.seconds, place.rms()),
     };
-    let line = |(number, (way, places)): (usize, (&Way, &Places))| {
-        let line = Series::new(way.name, places.iter().map(point).collect());
-        line.tone(number).mark(Mark::Dot).stroke(Stroke::Thin)
+    let line = |(number, line): (usize, &Line)| {
+        let series = Series::new(line.way.name(), line.places.iter().map(point).collect());
+        series.tone(number).mark(Mark::Dot).stroke(Stroke::Thin)
     };
-    let mut series: Vec<Series> = WAYS.iter().zip(found).enumerate().map(line).collect();
-    let at_default = found[..2].iter().flatten().filter(|(place, _)| place.tolerance == default);
+    let mut series: Vec<Series> = lines.iter().enumerate().map(line).collect();
+    let at_default = lines.iter().flat_map(|line| &line.places).filter(|place| place.is_default);
     series.push(Series::new("the default", at_default.map(point).collect()).mark(Mark::Diamond));
     let chart = Chart {
         title: format!("{}: all 72 views of holo72, two cores", scene.name),

@@ -8,20 +8,24 @@ mod front;
 mod measure;
 mod scaling;
 mod scene;
+mod sweep;
 mod table;
 
-/// A part by its name: what it measures.
-type Part = (&'static str, fn(&std::path::Path) -> Result<(), String>);
-
-const PARTS: [Part; 3] = [("cpu", table::run), ("front", front::run), ("scaling", scaling::run)];
+use std::cell::LazyCell;
 
 fn main() -> Result<(), String> {
-    let wanted = std::env::var("LIGHTLOOM_BENCH_PARTS").unwrap_or_default();
+    let parts = std::env::var("LIGHTLOOM_BENCH_PARTS").unwrap_or_default();
+    let is_wanted = |name| parts.is_empty() || parts.split(',').any(|part| part == name);
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
-    for (name, run) in PARTS {
-        if wanted.is_empty() || wanted.split(',').any(|part| part == name) {
-            run(folder.path())?;
-        }
+    let scenes = LazyCell::new(|| scene::wanted(folder.path()));
+    if is_wanted("cpu") {
+        table::run(&scenes)?;
+    }
+    if is_wanted("front") {
+        front::run(&scenes)?;
+    }
+    if is_wanted("scaling") {
+        scaling::run()?;
     }
     Ok(())
 }

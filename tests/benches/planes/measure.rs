@@ -1,15 +1,10 @@
 //! One scene drawn by one caster.
 
-use crate::scene::Scene;
+use crate::scene::{COMPARED, Scene};
 use lightloom_tests::compare::{self, Errors, TruePixel};
 use lightloom_tests::draw;
 use protocol::{CasterChoice, DeviceChoice, FrameReport, FrameState};
 use renderer::Renderer;
-
-/// Views whose pictures are compared with the reference.
-pub const COMPARED: [u32; 3] = [6, 35, 60];
-/// Every so many pixels of them, along x and y.
-const COMPARED_STRIDE: u32 = 12;
 
 /// A whole number from the environment.
 pub fn number(name: &str, default: usize) -> usize {
@@ -19,11 +14,6 @@ pub fn number(name: &str, default: usize) -> usize {
 /// How often each picture is drawn: the median counts.
 pub fn repeats() -> usize {
     number("LIGHTLOOM_BENCH_REPEATS", 3).max(1)
-}
-
-/// What the compared pixels should show.
-pub fn truth(scene: &Scene) -> Vec<TruePixel> {
-    compare::truth(&scene.display, &scene.frame, &scene.source, &COMPARED, COMPARED_STRIDE)
 }
 
 /// A renderer for some views of a scene, and the name of what draws.
@@ -42,6 +32,13 @@ pub struct Measured {
     pub errors: Option<Errors>,
 }
 
+impl Measured {
+    /// A cell of the errors.
+    pub fn codes(&self) -> String {
+        self.errors.as_ref().map_or("–".to_owned(), compare::codes)
+    }
+}
+
 /// Draws a frame some times, and compares those of its pixels that the renderer has.
 pub fn measure(renderer: &mut Renderer, frame: &FrameState, truth: &[TruePixel]) -> Measured {
     let mut runs: Vec<_> = (0..repeats()).map(|_| draw::timed(renderer, frame, &COMPARED)).collect();
@@ -51,11 +48,4 @@ pub fn measure(renderer: &mut Renderer, frame: &FrameState, truth: &[TruePixel])
     let kept: Vec<_> = truth.iter().copied().filter(is_drawn).collect();
     let errors = (!kept.is_empty()).then(|| compare::errors(&images, &kept));
     Measured { seconds, report, errors }
-}
-
-/// RMS, 99.9 % and largest error, of 255.
-pub fn codes(errors: &Option<Errors>) -> String {
-    let Some(errors) = errors else { return "–".to_owned() };
-    let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|e| 255.0 * e);
-    format!("{rms:.3}, {p999:.2}, {max:.2}")
 }

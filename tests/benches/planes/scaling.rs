@@ -1,35 +1,33 @@
 //! How the time of row planes grows with views, voxels and threads.
 
-use crate::measure::{Measured, codes, measure, renderer, truth};
+use crate::measure::{measure, renderer};
 use crate::scene::{self, Scene};
-use bricks::procedural::ProceduralVolume;
 use display_config::{Display, Projector};
-use glam::{DQuat, UVec3};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes;
-use optics::Optics;
-use protocol::{CasterChoice, FrameState};
-use std::path::Path;
-use std::sync::Arc;
+use protocol::CasterChoice;
 
-const VIEWS: [usize; 4] = [1, 8, 72, 288];
-const EDGES: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
-/// Voxels along the edge of the volume that is drawn for several numbers of views.
-const EDGE_OF_VIEWS: u32 = 256;
+/// Numbers of views for which the volume of [`EDGE`] is drawn, besides all of the display.
+const VIEWS: [usize; 3] = [1, 8, 288];
+/// Voxels along the edges of volumes that are drawn for all views, besides [`EDGE`].
+const EDGES: [u32; 5] = [128, 512, 1024, 2048, 4096];
+const EDGE: u32 = 256;
 
-pub fn run(_: &Path) -> Result<(), String> {
+pub fn run() -> Result<(), String> {
     let mut results = Results::new(Program::Bench("planes"), "planes", "scaling");
     results.line("| shells | views | threads | seconds | ms a view | Gsamples | bricks | RMS, 99.9 %, largest error of 255 |");
     results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     let threads = rayon::current_num_threads();
     for views in VIEWS {
-        let scene = shells(with_views(scene::display(), views), EDGE_OF_VIEWS);
-        row(&mut results, &scene, EDGE_OF_VIEWS, threads)?;
+        row(&mut results, &shells(with_views(scene::display(), views), EDGE), threads)?;
+    }
+    let scene = shells(scene::display(), EDGE);
+    for threads in 1..=threads {
+        row(&mut results, &scene, threads)?;
     }
     for edge in EDGES {
-        row(&mut results, &shells(scene::display(), edge), edge, threads)?;
+        row(&mut results, &shells(scene::display(), edge), threads)?;
     }
-    row(&mut results, &shells(scene::display(), EDGE_OF_VIEWS), EDGE_OF_VIEWS, 1)?;
     results.finish()
 }
 
@@ -46,35 +44,30 @@ fn with_views(display: Display, views: usize) -> Display {
     Display { projectors: (0..views).map(projector).collect(), ..display }
 }
 
-/// The shells at so many voxels along an edge, as thick as at any other.
 fn shells(display: Display, edge: u32) -> Scene {
-    let of_tests = scenes::shells(&display);
-    let source = ProceduralVolume::new("shells", UVec3::splat(edge), 1e-3).expect("the name is one of ours");
-    let place = scenes::placed(&source, 0.6 * display.height_m, DQuat::from_rotation_y(0.4));
-    let own = of_tests.frame.optics;
-    let per_voxel = 128.0 / f64::from(edge);
-    let optics = Optics { extinction: scenes::scaled(&own.extinction, per_voxel), ..own };
-    let frame = FrameState { optics, display_from_volume: place, ..of_tests.frame };
-    Scene { name: format!("{edge}³"), display, source: Arc::new(source), frame }
+    let shells = scenes::shells_of(&display, edge);
+    Scene::new(format!("{edge}³"), display, shells.source, shells.frame)
 }
 
-fn row(results: &mut Results, scene: &Scene, edge: u32, threads: usize) -> Result<(), String> {
+fn row(results: &mut Results, scene: &Scene, threads: usize) -> Result<(), String> {
     let views = scene.display.projectors.len();
     let all: Vec<u32> = (0..views as u32).collect();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| format!("{threads} threads: {error}"))?;
-    let truth = if views == 72 { truth(scene) } else { Vec::new() };
-    let (Measured { seconds, report, errors }, adapter) = pool.install(|| {
+    let truth = if views == 72 { scene.truth() } else { &[] };
+    let (found, adapter) = pool.install(|| {
         let (mut renderer, adapter) = renderer(scene, CasterChoice::Planes, &all);
-        (measure(&mut renderer, &scene.frame, &truth), adapter)
+        (measure(&mut renderer, &scene.frame, truth), adapter)
     });
     results.drawn_by(&adapter);
     results.line(format!(
-        "| {edge}³ | {views} | {threads} | {seconds:.2} | {:.1} | {:.3} | {} | {} |",
-        1e3 * seconds / views as f64,
-        report.samples as f64 / 1e9,
-        report.working_set_union,
-        codes(&errors),
+        "| {} | {views} | {threads} | {:.2} | {:.1} | {:.3} | {} | {} |",
+        scene.name,
+        found.seconds,
+        1e3 * found.seconds / views as f64,
+        found.report.samples as f64 / 1e9,
+        found.report.working_set_union,
+        found.codes(),
     ));
     Ok(())
 }

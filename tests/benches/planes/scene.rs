@@ -3,11 +3,17 @@
 use bricks::BrickSource;
 use display_config::Display;
 use glam::DQuat;
+use lightloom_tests::compare::{self, TruePixel};
 use lightloom_tests::{askew, scanned_head, scenes};
 use optics::Light;
 use protocol::FrameState;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+
+/// Views whose pictures are compared with the reference.
+pub const COMPARED: [u32; 3] = [6, 35, 60];
+/// Every so many pixels of them, along x and y.
+const COMPARED_STRIDE: u32 = 12;
 
 /// The calibration of the projectors in scenes that are drawn calibrated, too.
 const SEED: u64 = 7;
@@ -19,6 +25,20 @@ pub struct Scene {
     pub display: Display,
     pub source: Arc<dyn BrickSource>,
     pub frame: FrameState,
+    truth: OnceLock<Vec<TruePixel>>,
+}
+
+impl Scene {
+    /// A scene whose truth is found once it is asked for.
+    pub fn new(name: String, display: Display, source: Arc<dyn BrickSource>, frame: FrameState) -> Self {
+        Self { name, display, source, frame, truth: OnceLock::new() }
+    }
+
+    /// What the compared pixels should show.
+    pub fn truth(&self) -> &[TruePixel] {
+        let of = || compare::truth(&self.display, &self.frame, &self.source, &COMPARED, COMPARED_STRIDE);
+        self.truth.get_or_init(of)
+    }
 }
 
 /// The display of them all.
@@ -58,8 +78,7 @@ fn all(folder: &Path) -> Vec<Scene> {
     let mut scenes = Vec::new();
     for (name, source, frame) in all {
         let scene = |name: String, display: &Display| {
-            let (display, source, frame) = (display.clone(), Arc::clone(&source), frame.clone());
-            Scene { name, display, source, frame }
+            Scene::new(name, display.clone(), Arc::clone(&source), frame.clone())
         };
         scenes.push(scene(name.to_owned(), &display));
         if CALIBRATED.contains(&name) {
