@@ -14,12 +14,12 @@ pub(crate) const SPACINGS: usize = 6;
 /// What is left of an error at half the distance: between a quarter, where scalars bend evenly, and a half, at a kink.
 const LEFT_AT_HALF: f32 = 0.35;
 
-/// The least tolerance that gradients a quarter of a voxel apart serve, and lit samples a voxel apart.
-const LIT_TOLERANCE: f32 = 1e-4;
+/// The least tolerance that samples a voxel apart serve, whatever is said of their errors, and gradients a quarter of a voxel apart.
+const WIDEST_TOLERANCE: f32 = 1e-4;
 
 /// How many times closer by half than these a tolerance asks for: what lies between two of them errs by the square of their distance.
 pub(crate) fn halvings(tolerance: f32) -> usize {
-    let halvings = (0.5 * (LIT_TOLERANCE / tolerance).log2()).ceil();
+    let halvings = (0.5 * (WIDEST_TOLERANCE / tolerance).log2()).ceil();
     (halvings.max(0.0) as usize).min(SPACINGS - 1)
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct Judge<'a> {
     pub(crate) gamma: f32,
     /// The largest error of a cell's light.
     pub(crate) tolerance: f32,
-    /// The widest spacing that the light on samples allows.
+    /// The widest spacing that the tolerance allows.
     pub(crate) least: usize,
 }
 

@@ -104,6 +104,12 @@ impl<'a> Planes<'a> {
     ) -> RowCast {
         let needs = self.casting.needs;
         let light = (needs.shading != Shading::Plain).then_some(self.casting.scene.toward_light.0);
+        scratch.leaves.clear();
+        scratch.leaves.extend(self.leaves.iter().filter(|leaf| leaf.rows[0] <= row && row < leaf.rows[1]));
+        if scratch.leaves.is_empty() {
+            out.iter_mut().for_each(|out| out.fill(0.0));
+            return RowCast::default();
+        }
         scratch.views.resize_with(self.fan.offsets.len(), ViewRow::default);
         for (view, state) in scratch.views.iter_mut().enumerate() {
             state.begin(self.fan, view, row, light);
@@ -131,11 +137,6 @@ impl<'a> Planes<'a> {
     #[inline(always)]
     fn march<S: Simd, K: Kernel>(&self, simd: S, row: u32, scratch: &mut Scratch) -> RowCast {
         let Scratch { leaves, views, room } = scratch;
-        leaves.clear();
-        leaves.extend(self.leaves.iter().filter(|leaf| leaf.rows[0] <= row && row < leaf.rows[1]));
-        if leaves.is_empty() {
-            return RowCast::default();
-        }
         let scene = self.casting.scene;
         let along_ray = DVec3::new(0.0, self.fan.y_slope(row), 1.0);
         let needs = self.casting.needs;
@@ -164,7 +165,7 @@ impl<'a> Planes<'a> {
             keeps: Keeps {
                 spreads: needs.spreads,
                 gradient_levels,
-                halvings: if gradient_levels > 0 { halvings(scene.tolerance) } else { 0 },
+                halvings: halvings(scene.tolerance),
                 means: !is_by_pixel,
             },
             gamma: if needs.compositing == Compositing::Over { 0.0 } else { scene.gamma },

@@ -63,7 +63,7 @@ pub(crate) struct Keeps {
     pub(crate) spreads: bool,
     /// Levels of gradients: none, the sample's own, or all three.
     pub(crate) gradient_levels: usize,
-    /// How many times closer by half than at the default these are taken, and lit samples lie.
+    /// How many times closer by half than at the default gradients are taken, and samples lie.
     pub(crate) halvings: usize,
     /// Means of what lies between depths.
     pub(crate) means: bool,
