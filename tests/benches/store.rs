@@ -1,7 +1,7 @@
 //! Building and reading stores: voxels and bricks per second, next to the rate of moving the same bytes with nothing in
 //! between, and next to the errors at which they were measured.
 //!
-//! `cargo bench -p lightloom-tests --bench store`; LIGHTLOOM_BENCH_EDGE=n takes n³ voxels (1024), LIGHTLOOM_BENCH_HUGE=n
+//! `cargo bench -p lightloom-tests --bench store`; LIGHTLOOM_BENCH_EDGE=n takes n³ voxels in place of 1024³, once, LIGHTLOOM_BENCH_HUGE=n
 //! builds n³ voxels of procedural:sparse-vessels instead (4096: an hour and more on a slow machine, and room for the
 //! store), and LIGHTLOOM_BENCH_DIR is the folder for the files.
 
@@ -21,6 +21,8 @@ use volumes::{ImportOptions, import};
 use volumes::{RawLayout, Selection};
 
 const MIB: f64 = (1 << 20) as f64;
+/// Voxels along an edge of the head, where no other number is asked for.
+const EDGE: u32 = 1024;
 /// Builds of each kind; the median of them is shown.
 const RUNS: usize = 3;
 /// Bytes moved at once where nothing is done with them.
@@ -46,16 +48,18 @@ fn main() -> Result<(), String> {
             results.finish()
         }
         None => {
-            let mut results = Results::new(program, "store", "build");
-            build_rates(&mut results, folder.path(), number("LIGHTLOOM_BENCH_EDGE").unwrap_or(1024));
+            let edge = number("LIGHTLOOM_BENCH_EDGE");
+            let (part, runs) = if edge.is_some() { ("dense", 1) } else { ("build", RUNS) };
+            let mut results = Results::new(program, "store", part);
+            build_rates(&mut results, folder.path(), edge.unwrap_or(EDGE), runs);
             results.finish()
         }
     }
 }
 
-fn build_rates(results: &mut Results, folder: &Path, edge: u32) {
+fn build_rates(results: &mut Results, folder: &Path, edge: u32, runs: usize) {
     let threads = rayon::current_num_threads();
-    results.line(format!("{edge}³ voxels; median of {RUNS} runs, {threads} threads\n"));
+    results.line(format!("{edge}³ voxels; median of {runs} runs, {threads} threads\n"));
     results.line("| stored | Mvoxel/s | copying alone | store, MiB | peak, MiB | CPU, s | RMS | largest |");
     results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     let mut last = None;
@@ -71,7 +75,7 @@ fn build_rates(results: &mut Results, folder: &Path, edge: u32) {
         };
         for &(bits, codec) in plans {
             let out = folder.join("head.lloom");
-            let (measured, report) = median_build(&raw, &selection, &out, bits, codec);
+            let (measured, report) = median_build(&raw, &selection, &out, (bits, codec), runs);
             let copying = copying_rate(&raw, &out, folder, edge);
             let (rate, bits) = (rate(edge, measured.wall_s), bits.bits());
             results.line(format!(
@@ -126,16 +130,16 @@ fn median_build(
     raw: &Path,
     selection: &Selection,
     out: &Path,
-    bits: CodeBits,
-    codec: Codec,
+    (bits, codec): (CodeBits, Codec),
+    runs: usize,
 ) -> (Measured, BuildReport) {
     let build = BuildOptions { bits, codec, memory_bytes: 768 << 20, ..Default::default() };
     let options = ImportOptions { build, ..Default::default() };
-    let mut runs: Vec<_> = (0..RUNS)
+    let mut runs: Vec<_> = (0..runs)
         .map(|_| measure(|| import(raw, selection, out, &options, &|_, _| {}).expect("it imports")))
         .collect();
     runs.sort_by(|(a, _), (b, _)| a.wall_s.total_cmp(&b.wall_s));
-    runs.swap_remove(RUNS / 2)
+    runs.swap_remove(runs.len() / 2)
 }
 
 fn measure<T>(work: impl FnOnce() -> T) -> (Measured, T) {
