@@ -21,9 +21,9 @@ use twin::{Casting, vector::Vec3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {
     pub(crate) node: u32,
+    /// The leaf's number among those of the slab.
+    pub(crate) leaf: usize,
     depth: u32,
-    /// Whether it is the leaf's first in the slab.
-    pub(crate) is_first: bool,
     /// The first, and one past the last.
     columns: [i64; 2],
 }
@@ -77,7 +77,7 @@ impl Grid<'_> {
         for (index, depth) in slab.depths.iter().enumerate() {
             let y = self.fan.y_at(self.row, depth);
             let origin = self.volume_from_display.transform_point3(DVec3::new(0.0, y, depth.z));
-            for leaf in leaves {
+            for (number, leaf) in leaves.iter().enumerate() {
                 // A little more than the leaf, whose box is known to rounding.
                 if depth.z > leaf.z[0] + 1e-9 || depth.z < leaf.z[1] - 1e-9 {
                     continue;
@@ -87,9 +87,7 @@ impl Grid<'_> {
                 // All of a block is known, whoever looks at it, and so are its columns in front of what a ray meets and behind it.
                 let columns = [column(from).max(first), column(to).min(past)];
                 if columns[0] < columns[1] {
-                    let before = slab.depths[..index].last();
-                    let is_first = before.is_none_or(|before| before.z > leaf.z[0] + 1e-9);
-                    spans.push(Span { node: leaf.node, depth: index as u32, is_first, columns });
+                    spans.push(Span { node: leaf.node, leaf: number, depth: index as u32, columns });
                 }
             }
         }

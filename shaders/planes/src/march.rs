@@ -33,6 +33,8 @@ pub(crate) struct Room {
     close: Slab,
     spans: Vec<Span>,
     near: Vec<Leaf>,
+    /// Which of these were noted.
+    noted: Vec<bool>,
     places: Places,
     bends: Vec<f32>,
     wanted: Blocks,
@@ -141,7 +143,9 @@ impl March<'_> {
         }
         slab.clear(&room.wanted, self.keeps);
         let samples = self.grid.fill::<S, K>(simd, slab, &room.spans, &room.wanted, self.keeps);
-        self.note(slab, &room.spans, &room.wanted, cast);
+        room.noted.clear();
+        room.noted.resize(room.near.len(), false);
+        self.note(slab, &room.spans, &room.wanted, &mut room.noted, cast);
         cast.samples += samples;
         if samples == 0 {
             return;
@@ -267,10 +271,11 @@ impl March<'_> {
         slab.is_outer = is_outer;
     }
 
-    /// Notes the leaves that were looked at.
-    fn note(&self, slab: &Slab, spans: &[Span], wanted: &Blocks, cast: &mut RowCast) {
+    /// Notes the leaves that were looked at, each once, at whichever depth.
+    fn note(&self, slab: &Slab, spans: &[Span], wanted: &Blocks, noted: &mut [bool], cast: &mut RowCast) {
         for span in spans {
-            if span.is_first && span.blocks(slab, 0).any(|block| wanted.contains(block)) {
+            if !noted[span.leaf] && span.blocks(slab, 0).any(|block| wanted.contains(block)) {
+                noted[span.leaf] = true;
                 let casting = self.grid.casting;
                 let node = &casting.volume.nodes[span.node as usize];
                 casting.observer.note(span.node, node.deficit);

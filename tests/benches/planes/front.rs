@@ -123,7 +123,7 @@ fn places(scene: &Scene, way: Way, results: &mut Results) -> Vec<Place> {
         Way::Sweep => {
             let place = |count| {
                 let swept = sweep::sweep(scene, count);
-                let (setting, seconds) = (count.to_string(), swept.seconds());
+                let (setting, seconds) = (count.to_string(), swept.seconds);
                 Place { setting, is_default: false, seconds, errors: swept.errors }
             };
             return COUNTS.map(place).into();

@@ -43,7 +43,7 @@ pub fn run(scenes: &[Scene]) -> Result<(), String> {
             results.line(format!(
                 "| {} | plane sweep, {count} planes | 72 | {:.2} | {:.2} | {} | {} | {:.0} |",
                 scene.name,
-                found.seconds(),
+                found.seconds,
                 found.samples as f64 / 1e9,
                 compare::codes(&found.errors),
                 found.bricks,

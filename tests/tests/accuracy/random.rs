@@ -39,6 +39,16 @@ fn row_planes_see_what_lies_beside_the_screen_and_light_as_exactly_as_asked() {
     }
 }
 
+/// A rod and a slab of one voxel, whose leaves begin between two depths: row planes once took coarse ones for fine enough.
+#[test]
+fn row_planes_refine_what_is_a_voxel_thin() {
+    let _turn = draw::turn();
+    for case in [1041, 1162] {
+        let summary = run(&Plan { seed: 1, first: case, cases: 1, wanted: Wanted::ALL, tries: 0 });
+        assert!(summary.by_planes.pixels > 0 && summary.failed_by_planes.is_empty(), "{case}");
+    }
+}
+
 #[test]
 fn random_scenes_are_light_by_every_device_and_near_the_truth() {
     let _turn = draw::turn();

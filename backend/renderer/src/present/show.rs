@@ -53,10 +53,10 @@ impl Show<'_> {
     }
 }
 
-/// The same as a picture of its own.
+/// The same as a picture of its own, of what was shown before, where anything was.
 ///
 /// # Panics
-/// Where a picture has not as many numbers as the raster says.
+/// Where the cast picture has not as many numbers as the raster says.
 pub fn reconstruct(
     cast: &[f32],
     before: Option<&[f32]>,

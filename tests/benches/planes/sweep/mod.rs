@@ -23,20 +23,13 @@ const AT_ONCE: usize = 32;
 
 /// What so many planes made of all views.
 pub struct Swept {
-    pub classify_s: f64,
-    pub warp_s: f64,
+    /// To classify, and to warp into all views.
+    pub seconds: f64,
     /// Texels that were sampled.
     pub samples: u64,
     /// Those read.
     pub bricks: usize,
     pub errors: Errors,
-}
-
-impl Swept {
-    /// For all views.
-    pub fn seconds(&self) -> f64 {
-        self.classify_s + self.warp_s
-    }
 }
 
 /// Whether it draws a scene at all.
@@ -51,31 +44,22 @@ pub fn sweep(scene: &Scene, count: usize) -> Swept {
         (0..scene.display.projectors.len()).filter_map(|view| View::of(scene, view)).collect();
     let mut pictures: Vec<Vec<f32>> = views.iter().map(View::picture).collect();
     let frustum = Frustum::of(scene, &content, count);
-    let (mut classify_s, mut warp_s, mut samples) = (0.0, 0.0, 0);
     let mut planes: Vec<Plane> = (0..AT_ONCE.min(count)).map(|_| Plane::new(&frustum)).collect();
+    let (started, mut samples) = (Instant::now(), 0);
     for first in (0..count).step_by(AT_ONCE) {
         let some = &mut planes[..AT_ONCE.min(count - first)];
-        let started = Instant::now();
         let classify = |(at, plane): (usize, &mut Plane)| plane.classify(&frustum, first + at, &content);
         samples += some.par_iter_mut().enumerate().map(classify).sum::<u64>();
-        classify_s += started.elapsed().as_secs_f64();
-        let started = Instant::now();
         for (view, picture) in views.iter().zip(&mut pictures) {
             view.warp(&frustum, some, picture);
         }
-        warp_s += started.elapsed().as_secs_f64();
     }
+    let seconds = started.elapsed().as_secs_f64();
     let image = |projector: u32| {
         let raster = &scene.display.projectors[projector as usize].raster;
         let rgba = std::mem::take(&mut pictures[projector as usize]);
         ProjectorImage { projector, width: raster.width, height: raster.height, rgba }
     };
     let images = COMPARED.map(image);
-    Swept {
-        classify_s,
-        warp_s,
-        samples,
-        bricks: content.leaves.len(),
-        errors: compare::errors(&images, scene.truth()),
-    }
+    Swept { seconds, samples, bricks: content.leaves.len(), errors: compare::errors(&images, scene.truth()) }
 }
