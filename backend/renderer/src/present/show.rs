@@ -42,7 +42,8 @@ impl Show<'_> {
         let mut passes = passes(self.known);
         match [passes.next(), passes.next()] {
             [Some(first), Some(last)] => {
-                let partly = made(filter(self.cast, first), has_before.then_some(shown));
+                let mut partly = shown.clone();
+                make_over(filter(self.cast, first), &mut partly, has_before, None);
                 make_over(filter(&partly, last), shown, has_before, self.most_change)
             }
             [only, _] => {
@@ -69,23 +70,12 @@ pub fn reconstruct(
     shown
 }
 
-/// A picture with what is missing of it.
-fn made(filter: Filter, before: Option<&[f32]>) -> Vec<f32> {
-    let of_row = 4 * filter.raster.width;
-    let mut made = vec![0.0; filter.picture.len()];
-    made.par_chunks_mut(BAND * of_row).enumerate().for_each(|(band, rows)| {
-        let before = before.map(|numbers| Before { numbers, first: 0 });
-        Band { filter, before, is_in_place: false, most_change: None }.make(BAND * band, rows);
-    });
-    made
-}
-
-/// The same over what was shown before, if there is such a picture. Whether any pixel is behind.
+/// Makes what is missing over what was shown before, if there is such a picture. Whether any pixel is behind.
 fn make_over(filter: Filter, shown: &mut [f32], has_before: bool, most_change: Option<f32>) -> bool {
     let of_row = 4 * filter.raster.width;
     let of_band = BAND * of_row;
     if !has_before {
-        let band = Band { filter, before: None, is_in_place: false, most_change: None };
+        let band = Band { filter, before: None, most_change: None };
         shown.par_chunks_mut(of_band).enumerate().for_each(|(at, rows)| {
             band.make(BAND * at, rows);
         });
@@ -102,7 +92,7 @@ fn make_over(filter: Filter, shown: &mut [f32], has_before: bool, most_change: O
         was.clear();
         [above, rows, below].iter().for_each(|rows| was.extend_from_slice(rows));
         let before = Before { numbers: was, first: at * of_band - above.len() };
-        Band { filter, before: Some(before), is_in_place: true, most_change }.make(BAND * at, rows)
+        Band { filter, before: Some(before), most_change }.make(BAND * at, rows)
     };
     let bands = shown.par_chunks_mut(of_band).enumerate();
     bands.map_init(Vec::new, make).reduce(|| false, |a, b| a | b)
@@ -111,10 +101,8 @@ fn make_over(filter: Filter, shown: &mut [f32], has_before: bool, most_change: O
 /// Some rows that are made.
 struct Band<'a> {
     filter: Filter<'a>,
-    /// What these were before, and one more on both sides.
+    /// What these were before, and one more on both sides; they are made over that.
     before: Option<Before<'a>>,
-    /// Whether they are made over that.
-    is_in_place: bool,
     most_change: Option<f32>,
 }
 
@@ -144,7 +132,7 @@ impl Band<'_> {
         for (y, row) in (first..past).zip(rows.chunks_exact_mut(of_row)) {
             if let Some(moved) = &moved {
                 self.moves_around(moved, y, &mut moves);
-                if self.is_in_place && !moves.contains(&true) && !moved.row(y).contains(&true) {
+                if !moves.contains(&true) && !moved.row(y).contains(&true) {
                     continue;
                 }
             }

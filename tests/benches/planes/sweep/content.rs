@@ -2,9 +2,9 @@
 
 use super::look::Look;
 use crate::scene::Scene;
-use bricks::{BRICK_EDGE, Codes, NodeKey, OVERLAP, OWN_EDGE, is_shown};
+use bricks::{BRICK_EDGE, Codes, NodeKey, OVERLAP, OWN_EDGE};
 use glam::{DAffine3, DVec3, Vec3};
-use lightloom_tests::compare;
+use lightloom_tests::ideal_cut::ideal_cut;
 
 /// Strides of the codes along x, y and z.
 const STRIDES: [usize; 3] = [1, BRICK_EDGE, BRICK_EDGE * BRICK_EDGE];
@@ -36,16 +36,9 @@ pub struct Leaf {
 impl Content {
     pub fn of(scene: &Scene) -> Self {
         let (source, frame) = (&scene.source, &scene.frame);
-        let (shape, rule) = (source.shape(), compare::lod_rule(&scene.display, frame));
-        let (mut leaves, mut open) = (Vec::new(), vec![NodeKey::ROOT]);
-        while let Some(key) = open.pop() {
-            if !is_shown(&frame.optics, source.summary(key)) {
-                continue;
-            }
-            if !rule.is_fine_enough(&shape, key) {
-                open.extend((0..8).map(|octant| key.child(octant)).filter(|&child| shape.contains(child)));
-                continue;
-            }
+        let (shape, all) = (source.shape(), 0..scene.display.projectors.len() as u32);
+        let cut = ideal_cut(&**source, &scene.display, frame, &Vec::from_iter(all));
+        let leaf = |key: NodeKey| {
             let brick = source.brick(key).expect("every brick of a test scene can be read");
             let codes = match brick.codes {
                 Codes::U8(codes) => codes.into_iter().map(u16::from).collect(),
@@ -54,7 +47,7 @@ impl Content {
             let edge = f64::from(1u32 << shape.level(key.depth));
             let first = key.cell.as_dvec3() * OWN_EDGE as f64 - OVERLAP as f64 + 0.5;
             let corners = shape.corners(key).map(|corner| frame.display_from_volume.transform_point3(corner));
-            leaves.push(Leaf {
+            Leaf {
                 region: shape.region(key),
                 bounds: around(corners),
                 first: first * edge,
@@ -62,8 +55,9 @@ impl Content {
                 codes,
                 low: brick.low,
                 step: brick.step,
-            });
-        }
+            }
+        };
+        let leaves: Vec<Leaf> = cut.leaves.into_iter().map(leaf).collect();
         let bounds = around(leaves.iter().flat_map(|leaf| leaf.bounds));
         let volume_from_display = frame.display_from_volume.inverse();
         Self { leaves, look: Look::of(scene), volume_from_display, bounds }

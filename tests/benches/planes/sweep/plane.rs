@@ -2,7 +2,7 @@
 
 use super::content::{Content, Leaf};
 use crate::scene::Scene;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::ops::Range;
 
 /// Where the planes lie.
@@ -113,9 +113,4 @@ impl Plane {
             None => (&[], 0..0),
         }
     }
-}
-
-/// A direction's length for each metre of depth.
-pub fn slant(direction: DVec3) -> f32 {
-    (direction.length() / direction.z.abs()) as f32
 }

@@ -1,6 +1,6 @@
 //! Planes as a projector shows them.
 
-use super::plane::{Frustum, Plane, slant};
+use super::plane::{Frustum, Plane};
 use crate::scene::Scene;
 use display_config::BeamLaw;
 use glam::{DVec2, DVec3};
@@ -26,8 +26,8 @@ impl View {
     pub fn of(scene: &Scene, view: usize) -> Option<Self> {
         let raster = &scene.display.projectors[view].raster;
         let on_screen = |x, y| scene.display.pixel_on_screen(view, x, y);
-        let (first, last) = ([0, 0], [raster.width - 1, raster.height - 1]);
-        let first = on_screen(first[0], first[1]);
+        let last = [raster.width - 1, raster.height - 1];
+        let first = on_screen(0, 0);
         let pitch = on_screen(1, 1) - first;
         let expected = first + pitch * DVec2::new(last[0].into(), last[1].into());
         let observer = scene.frame.observer_in_display;
@@ -53,7 +53,9 @@ impl View {
                 let screen = DVec3::new(self.first.x + x as f64 * self.pitch.x, screen_y, 0.0);
                 let origin =
                     DVec3::new(self.law.a() + self.law.b() * screen.x, self.observer.y, self.observer.z);
-                slant(screen - origin)
+                let way = screen - origin;
+                // Metres of the ray for each of depth.
+                (way.length() / way.z.abs()) as f32
             }));
             planes.iter().for_each(|plane| self.warp_row(frustum, plane, screen_y, slants, row));
         });
