@@ -82,56 +82,78 @@ struct Step {
     length: f32,
 }
 
-// Adds one step, cut into parts, as far as anything can be seen. Yields the number of samples taken.
-fn add_parts(accumulated: ptr<function, Accumulated>, brick: Brick, ray: Ray, step: Step, parts: f32) -> u32 {
-    let part = step.length / parts;
-    let thickness = scene.quality.z * part;
-    var front = *accumulated;
-    var samples = 0u;
-    var alone = vec4<f32>(0.0);
-    var from_s = step.s0;
-    var from_located = locate(from_s);
-    for (var j = 1.0; j <= parts; j += 1.0) {
-        let t = step.t0 + j * part;
-        var to_s = step.s1;
-        if j < parts {
-            to_s = scalar_at(brick, ray, t);
-            samples += 1u;
-        }
-        let to_located = locate(to_s);
-        let middle = t - 0.5 * part;
-        let plain = sample_over(from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
-        if !is_clear(plain.k.w) {
-            var gradients = NO_GRADIENTS;
-            if plain.k.w > 0.0 && (SHADES || chain_looks(middle)) {
-                gradients = gradients_at(brick, ray, middle);
-            }
-            let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
-            let lit = light_on(sample, gradients, ray, from_s, to_s);
-            let light = debug_light(segment_light(sample, thickness, lit), ray, middle);
-            if ONCE_PER_STEP {
-                alone += light * (1.0 - alone.w);
-            } else {
-                front = composite(front, light, sample);
-                if still_to_come(front) < scene.quality.y {
-                    break;
-                }
-            }
-        }
-        from_s = to_s;
-        from_located = to_located;
-    }
-    if ONCE_PER_STEP {
-        front = composite(front, alone, step.whole);
-    }
-    *accumulated = front;
-    return samples;
+// A step that is cut into parts, some of which are added.
+struct Cut {
+    step: Step,
+    parts: f32,
+    // The next one, from 1.
+    next: f32,
+    // The scalar where it begins.
+    from_s: f32,
+    from_located: Located,
+    // What the parts show among themselves.
+    alone: vec4<f32>,
+    // Samples taken between the ends of the step.
+    samples: u32,
 }
 
-// Adds a pair of steps that meets nothing but scalars within `range`, each step standing for a spread: the first along one straight path, the second along
-// another, which is the same where light is not bent. Yields the number of samples taken between those given.
+fn cut_into(step: Step, parts: f32) -> Cut {
+    return Cut(step, parts, 1.0, step.s0, locate(step.s0), vec4<f32>(0.0), 0u);
+}
+
+// Adds the next part of a step. Whether there is another one that can be seen.
+fn add_part(accumulated: ptr<function, Accumulated>, cut: ptr<function, Cut>, brick: Brick, ray: Ray) -> bool {
+    let step = (*cut).step;
+    let parts = (*cut).parts;
+    let j = (*cut).next;
+    let part = step.length / parts;
+    let t = step.t0 + j * part;
+    var to_s = step.s1;
+    if j < parts {
+        to_s = scalar_at(brick, ray, t);
+        (*cut).samples += 1u;
+    }
+    let from_s = (*cut).from_s;
+    let to_located = locate(to_s);
+    let middle = t - 0.5 * part;
+    let plain = sample_over((*cut).from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
+    (*cut).from_s = to_s;
+    (*cut).from_located = to_located;
+    (*cut).next = j + 1.0;
+    var goes_on = j < parts;
+    if !is_clear(plain.k.w) {
+        var gradients = NO_GRADIENTS;
+        if plain.k.w > 0.0 && (SHADES || chain_looks(middle)) {
+            gradients = gradients_at(brick, ray, middle);
+        }
+        let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
+        let lit = light_on(sample, gradients, ray, from_s, to_s);
+        let light = debug_light(segment_light(sample, scene.quality.z * part, lit), ray, middle);
+        if ONCE_PER_STEP {
+            (*cut).alone += light * (1.0 - (*cut).alone.w);
+        } else {
+            let front = composite(*accumulated, light, sample);
+            *accumulated = front;
+            goes_on &= still_to_come(front) >= scene.quality.y;
+        }
+    }
+    if ONCE_PER_STEP && !goes_on {
+        *accumulated = composite(*accumulated, (*cut).alone, step.whole);
+    }
+    return goes_on;
+}
+
+// A pair of steps, each to be cut into so many parts; with one part, they have been added.
+struct CutPair {
+    parts: f32,
+    first: Step,
+    second: Step,
+}
+
+// Adds a pair of steps that meets nothing but scalars within `range`, each step standing for a spread, unless it has to be cut: the first along one straight
+// path, the second along another, which is the same where light is not bent.
 fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
-    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>, spreads: vec2<f32>) -> u32 {
+    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>, spreads: vec2<f32>) -> CutPair {
     let thickness = scene.quality.z * step;
     var pair = pair_of(s0, s1, s2, range, spreads);
     let middle = t0 + step;
@@ -164,10 +186,6 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, 
         }
         *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
         *front = add_whole(*front, pair.second, thickness, light_beyond, next_ray, t1 + 0.5 * step);
-    } else {
-        var samples = add_parts(front, brick, ray, Step(pair.first, s0, s1, t0, step), parts);
-        samples += add_parts(front, next_brick, next_ray, Step(pair.second, s1, s2, t1, step), parts);
-        return samples;
     }
-    return 0u;
+    return CutPair(parts, Step(pair.first, s0, s1, t0, step), Step(pair.second, s1, s2, t1, step));
 }

@@ -7,10 +7,10 @@ fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     if place >= listed[0] {
         return;
     }
-    projector = views[listed[1u + 2u * place]];
-    let tile = listed[2u + 2u * place];
+    let tile = tile_at(place);
+    projector = views[tile.view];
     let across = projector.raster.z;
-    let in_tiles = vec2<u32>(tile % across, tile / across) * TILE_EDGE + local.xy;
+    let in_tiles = vec2<u32>(tile.number % across, tile.number / across) * TILE_EDGE + local.xy;
     let pixel = in_tiles * projector.lattice.xy + projector.lattice.zw;
     if pixel.x >= projector.raster.x || pixel.y >= projector.raster.y {
         return;

@@ -52,12 +52,14 @@ fn turned(from_ray: Ray, direction_in_display: vec3<f32>) -> Ray {
     return ray;
 }
 
-fn is_parallel(ray: Ray, axis: u32) -> bool {
-    return abs(ray.direction_in_volume[axis]) < PARALLEL;
+// Whether it is along each axis: vectors are never indexed by a variable, or they would lie in memory.
+fn are_parallel(ray: Ray) -> vec3<bool> {
+    return abs(ray.direction_in_volume) < vec3<f32>(PARALLEL);
 }
 
-fn is_forward(ray: Ray, axis: u32) -> bool {
-    return ray.direction_in_volume[axis] >= 0.0;
+// Whether it goes forward along each axis.
+fn are_forward(ray: Ray) -> vec3<bool> {
+    return ray.direction_in_volume >= vec3<f32>(0.0);
 }
 
 fn point_on(ray: Ray, t: f32) -> vec3<f32> {
@@ -68,21 +70,21 @@ fn point_in_display(ray: Ray, t: f32) -> vec3<f32> {
     return ray.origin_in_display + ray.direction_in_display * t;
 }
 
+// t at which the ray meets a face across each axis; FAR along an axis that it is parallel to.
+fn ways_to(faces: vec3<f32>, ray: Ray) -> vec3<f32> {
+    return select((faces - ray.origin_in_volume) * ray.inverse, vec3<f32>(FAR), are_parallel(ray));
+}
+
 // The part of the ray inside the volume; empty if x >= y.
 fn clip_to_volume(ray: Ray) -> vec2<f32> {
-    var span = vec2<f32>(ray.start, ray.end);
-    for (var axis = 0u; axis < 3u; axis++) {
-        let origin = ray.origin_in_volume[axis];
-        let high = scene.volume[axis];
-        if is_parallel(ray, axis) {
-            if origin < 0.0 || origin > high {
-                return vec2<f32>(FAR, -FAR);
-            }
-        } else {
-            let a = (0.0 - origin) * ray.inverse[axis];
-            let b = (high - origin) * ray.inverse[axis];
-            span = vec2<f32>(max(span.x, min(a, b)), min(span.y, max(a, b)));
-        }
+    let origin = ray.origin_in_volume;
+    let high = scene.volume.xyz;
+    let parallel = are_parallel(ray);
+    if any(parallel & ((origin < vec3<f32>(0.0)) | (origin > high))) {
+        return vec2<f32>(FAR, -FAR);
     }
-    return span;
+    let forward = are_forward(ray);
+    let enter = select(ways_to(select(high, vec3<f32>(0.0), forward), ray), vec3<f32>(-FAR), parallel);
+    let leave = ways_to(select(vec3<f32>(0.0), high, forward), ray);
+    return vec2<f32>(max(max(ray.start, enter.x), max(enter.y, enter.z)), min(min(ray.end, leave.x), min(leave.y, leave.z)));
 }

@@ -18,15 +18,17 @@ fn node_low(node: NodeRecord) -> vec3<f32> {
 fn exit_of(node: NodeRecord, ray: Ray) -> Exit {
     let edge = OWN_EDGE * voxel_edge(node.depth);
     let low = node_low(node);
+    let face = select(low, low + edge, are_forward(ray));
+    let t = ways_to(face, ray);
     var exit = Exit(FAR, 0u);
-    for (var axis = 0u; axis < 3u; axis++) {
-        if !is_parallel(ray, axis) {
-            let face = select(low[axis], low[axis] + edge, is_forward(ray, axis));
-            let t = (face - ray.origin_in_volume[axis]) * ray.inverse[axis];
-            if t < exit.t {
-                exit = Exit(t, axis);
-            }
-        }
+    if t.x < exit.t {
+        exit = Exit(t.x, 0u);
+    }
+    if t.y < exit.t {
+        exit = Exit(t.y, 1u);
+    }
+    if t.z < exit.t {
+        exit = Exit(t.z, 2u);
     }
     return exit;
 }
@@ -34,12 +36,9 @@ fn exit_of(node: NodeRecord, ray: Ray) -> Exit {
 // Which child of a node a point belongs to; on a border, the one the ray goes into.
 fn octant_of(node: NodeRecord, point: vec3<f32>, ray: Ray) -> u32 {
     let centre = node_low(node) + 0.5 * OWN_EDGE * voxel_edge(node.depth);
-    var octant = 0u;
-    for (var axis = 0u; axis < 3u; axis++) {
-        let is_upper = point[axis] > centre[axis] || (point[axis] == centre[axis] && is_forward(ray, axis));
-        octant |= select(0u, 1u << axis, is_upper);
-    }
-    return octant;
+    let forward = are_forward(ray);
+    let upper = (point > centre) | ((point == centre) & forward);
+    return select(0u, 1u, upper.x) | select(0u, 2u, upper.y) | select(0u, 4u, upper.z);
 }
 
 // The leaf of the cut at `point`, from the root.
@@ -55,17 +54,16 @@ fn leaf_at(point: vec3<f32>, ray: Ray) -> u32 {
     return at;
 }
 
-// The leaf beyond the face that the ray leaves `node` through, or NO_NODE. Down to the node's own depth the way
+// The leaf beyond the face that the ray leaves a node through, or NO_NODE. Down to the node's own depth the way
 // follows from its cell alone, so that it does not depend on where in the tree the link led; below, from the point.
-fn leaf_beyond(node: NodeRecord, axis: u32, point: vec3<f32>, ray: Ray) -> u32 {
-    let forward = is_forward(ray, axis);
-    let links = node.neighbours;
-    var at = links[2u * axis + select(0u, 1u, forward)];
+fn leaf_beyond(index: u32, node: NodeRecord, axis: u32, point: vec3<f32>, ray: Ray) -> u32 {
+    let along = vec3<u32>(axis) == vec3<u32>(0u, 1u, 2u);
+    let forward = any(along & are_forward(ray));
+    var at = nodes[index].neighbours[2u * axis + select(0u, 1u, forward)];
     if at == NO_NODE {
         return NO_NODE;
     }
-    var cell = node.cell;
-    cell[axis] = select(cell[axis] - 1u, cell[axis] + 1u, forward);
+    let cell = node.cell + select(vec3<u32>(0u), vec3<u32>(select(0xffffffffu, 1u, forward)), along);
     loop {
         let next = nodes[at];
         if next.first_child == NO_NODE {

@@ -36,7 +36,8 @@ bindings! {
     INDEX = 11;
     /// The [`TableEntry`](crate::TableEntry)s of the materials.
     MATERIALS = 12;
-    /// What to cast: how many, then view and number of each tile, or view, pixel and end of each short ray.
+    /// What to cast. How many tiles and runs of them, then of each run the place of its first tile among all, its view and the
+    /// number of that tile. Or how many short rays, then view, pixel and end of each.
     LISTED = 13;
     /// The colours of all views, pixel by pixel.
     PIXELS = 14;
@@ -66,7 +67,8 @@ bindings! {
     BLACK = 26;
     /// The transfer curves of red, green and blue.
     CURVES = 27;
-    /// The codes, pixel by pixel: red in the lowest byte, then green and blue.
+    /// The codes, row by row, of [`CODED_PIXELS`](crate::present::CODED_PIXELS) pixels at a time: red, green and blue of each, a byte
+    /// a code.
     CODES = 28;
     /// The [`MarkedPixel`](crate::present::MarkedPixel)s.
     MARKED_PIXELS = 29;
@@ -74,7 +76,7 @@ bindings! {
     LAYERS = 30;
     /// The colours of a picture with its marks.
     MARKED = 31;
-    /// The samples taken, tile by tile.
+    /// The [`TileTally`](crate::TileTally)s.
     TALLIES = 32;
 }
 

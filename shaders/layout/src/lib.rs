@@ -17,4 +17,4 @@ pub use node::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
 pub use present::PresentBlock;
 pub use scene::{Link, SceneBlock};
 pub use table_entry::{ImportanceEntry, IndexEntry, TableCell, TableEntry};
-pub use view::{MISSING, SHORT_RAYS, TALLIED_TILES, TILE_EDGE, ViewBlock};
+pub use view::{MISSING, SHORT_RAYS, TALLIED_TILES, TILE_EDGE, TileTally, ViewBlock};

@@ -11,6 +11,9 @@ pub const CODES: usize = 256;
 /// Numbers of a channel's transfer curve: the lights at which the code rises, then those of all codes.
 pub const CURVE_NUMBERS: usize = 2 * CODES - 1;
 
+/// Pixels of a row whose codes are whole words.
+pub const CODED_PIXELS: u32 = 4;
+
 /// Bits of a coordinate that matter to the dither: its pattern repeats after 32 pixels.
 pub const DITHER_BITS: u32 = 5;
 

@@ -8,8 +8,25 @@ pub const TILE_EDGE: u32 = 8;
 pub const SHORT_RAYS: u32 = 64;
 /// Tiles are tallied in rows of this many: one workgroup each.
 pub const TALLIED_TILES: u32 = 64;
-/// Set in a pixel's count of samples where its ray met a node that is too coarse, and in that of a tile.
+/// Set in a pixel's count of samples where its ray met a node that is too coarse.
 pub const MISSING: u32 = 0x8000_0000;
+
+/// What the rays of [`TALLIED_TILES`] tiles counted.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct TileTally {
+    /// Samples of all their rays: less than 2³² while a ray takes less than a million.
+    pub samples: u32,
+    /// A bit for each of them, set where one of its rays met a node that is too coarse.
+    pub missing: [u32; 2],
+}
+
+impl TileTally {
+    /// Whether a ray of a tile, by its place among them, met a node that is too coarse.
+    pub fn is_missing(&self, place: usize) -> bool {
+        self.missing[place / 32] >> (place % 32) & 1 != 0
+    }
+}
 
 /// One of the views that a dispatch casts. Every member fills 16 bytes.
 #[repr(C)]

@@ -91,7 +91,7 @@ fn spread_wgsl(needs: &Needs) -> Vec<&'static str> {
     vec![module!("spread/level"), levels]
 }
 
-fn gradient_wgsl(needs: &Needs) -> Vec<&'static str> {
+fn gradient_wgsl(needs: &Needs, filter: Filter) -> Vec<&'static str> {
     if !needs.reads_gradients() {
         return vec![module!("gradient/none")];
     }
@@ -101,7 +101,8 @@ fn gradient_wgsl(needs: &Needs) -> Vec<&'static str> {
         (false, Levels::Single, true) => module!("gradient/toward_parent"),
         (false, Levels::Single, false) => module!("gradient/own"),
     };
-    vec![module!("gradient/central"), which]
+    let differences = if filter == Filter::Hardware { "" } else { module!("sample/differences") };
+    vec![differences, module!("gradient/central"), which]
 }
 
 fn shade_wgsl(needs: &Needs) -> Vec<&'static str> {
@@ -171,7 +172,7 @@ impl KernelKey {
         ];
         modules.extend(levels_wgsl(needs));
         modules.extend(spread_wgsl(needs));
-        modules.extend(gradient_wgsl(needs));
+        modules.extend(gradient_wgsl(needs, self.filter));
         modules.extend(composite_wgsl(needs));
         modules.extend(shade_wgsl(needs));
         let chain = chain::wgsl(&needs.chain, needs.reads_importance());
@@ -184,9 +185,9 @@ impl KernelKey {
             debug.as_str(),
         ]);
         modules.extend(way);
-        modules.push(match self.rays {
-            KernelRays::OfTiles => module!("cast"),
-            KernelRays::Short => module!("short"),
+        modules.extend(match self.rays {
+            KernelRays::OfTiles => &[module!("listed"), module!("cast")][..],
+            KernelRays::Short => &[module!("short")],
         });
         modules.join("\n")
     }

@@ -2,8 +2,8 @@
 //!
 //! | slot | modules |
 //! | --- | --- |
-//! | rays | `cast`, `short` |
-//! | filter | `sample/hardware`, `gathered`, `exact` |
+//! | rays | `listed` and `cast`, or `short` |
+//! | filter | `sample/hardware`, or `gathered` or `exact` with `differences` |
 //! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
 //! | weights | `levels/no_weights`, `levels/weights` |

@@ -2,6 +2,7 @@
 
 use super::constants;
 use super::kernel::module;
+use layout::present::CODED_PIXELS;
 
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -35,14 +36,19 @@ impl PresentKernel {
         modules.join("\n")
     }
 
-    /// The name of its entry point, which is called for each pixel in tiles of [`layout::TILE_EDGE`]; that of layers for each of a
-    /// list.
+    /// Pixels of a row that one invocation makes.
+    pub fn pixels_at_once(self) -> u32 {
+        if self == Self::Finish { CODED_PIXELS } else { 1 }
+    }
+
+    /// The name of its entry point, which is called in tiles of [`layout::TILE_EDGE`] invocations for all pixels; that of layers for
+    /// each of a list.
     pub fn entry_point(self) -> &'static str {
         match self {
             Self::Reconstruct => "reconstruct_pixel",
             Self::Ease => "ease_pixel",
             Self::Layers => "lay_pixel",
-            Self::Finish => "finish_pixel",
+            Self::Finish => "finish_pixels",
         }
     }
 }

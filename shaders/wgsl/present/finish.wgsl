@@ -27,17 +27,28 @@ fn light_of(at: u32) -> vec3<f32> {
     return lifted + (1.0 - lifted) * light;
 }
 
+// Four pixels of a row, whose codes are three whole words.
 @compute @workgroup_size(TILE_EDGE, TILE_EDGE, 1)
-fn finish_pixel(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !is_in_raster(pixel) {
+fn finish_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
+    let first = vec2<u32>(id.x * CODED_PIXELS, id.y);
+    if !is_in_raster(vec2<i32>(first)) {
         return;
     }
-    let at = place_of(pixel);
-    let light = light_of(at);
-    var packed = 0u;
-    for (var channel = 0u; channel < 3u; channel++) {
-        packed |= code_of(channel, light[channel], id.xy) << (8u * channel);
+    var words = vec3<u32>(0u);
+    for (var i = 0u; i < CODED_PIXELS; i++) {
+        let pixel = first + vec2<u32>(i, 0u);
+        if !is_in_raster(vec2<i32>(pixel)) {
+            break;
+        }
+        let light = light_of(place_of(vec2<i32>(pixel)));
+        for (var channel = 0u; channel < 3u; channel++) {
+            let byte = 3u * i + channel;
+            words[byte / 4u] |= code_of(channel, light[channel], pixel) << (8u * (byte % 4u));
+        }
     }
-    codes[at] = packed;
+    let across = (present.raster.x + CODED_PIXELS - 1u) / CODED_PIXELS;
+    let at = 3u * (id.y * across + id.x);
+    codes[at] = words.x;
+    codes[at + 1u] = words.y;
+    codes[at + 2u] = words.z;
 }

@@ -8,14 +8,21 @@ fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
     let shifted = point - 0.5;
     let base = floor(shifted);
     let f = shifted - base;
-    let i = vec3<i32>(origin) + vec3<i32>(base);
-    let low = vec4<f32>(texel_at(i, 0, 0, 0), texel_at(i, 0, 1, 0), texel_at(i, 0, 0, 1), texel_at(i, 0, 1, 1));
-    let high = vec4<f32>(texel_at(i, 1, 0, 0), texel_at(i, 1, 1, 0), texel_at(i, 1, 0, 1), texel_at(i, 1, 1, 1));
+    let near = quad_at(origin + base);
+    let far = quad_at(origin + base + vec3<f32>(0.0, 0.0, 1.0));
+    let low = vec4<f32>(near.xz, far.xz);
+    let high = vec4<f32>(near.yw, far.yw);
     let along_x = low + (high - low) * f.x;
     let along_y = along_x.xz + (along_x.yw - along_x.xz) * f.y;
     return along_y.x + (along_y.y - along_y.x) * f.z;
 }
 
-fn texel_at(base: vec3<i32>, x: i32, y: i32, z: i32) -> f32 {
-    return textureLoad(atlas, base + vec3<i32>(x, y, z), 0).x;
+// Four texels of a layer, from the lowest one on: 00, 10, 01, 11 along x and y.
+fn quad_at(texel: vec3<f32>) -> vec4<f32> {
+    let i = vec3<i32>(texel);
+    return vec4<f32>(texel_at(i, 0, 0), texel_at(i, 1, 0), texel_at(i, 0, 1), texel_at(i, 1, 1));
+}
+
+fn texel_at(first: vec3<i32>, x: i32, y: i32) -> f32 {
+    return textureLoad(atlas, first + vec3<i32>(x, y, 0), 0).x;
 }

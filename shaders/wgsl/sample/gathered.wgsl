@@ -10,14 +10,17 @@ fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
     let shifted = point - 0.5;
     let base = floor(shifted);
     let f = shifted - base;
-    // Between the four: exact, as whole texels are in an atlas of 2^n along each axis.
-    let corner = (origin.xy + base.xy + 1.0) * scene.texel.xy;
-    let layer = i32(origin.z) + i32(base.z);
-    let near = textureGather(0, atlas, nearest, corner, layer);
-    let far = textureGather(0, atlas, nearest, corner, layer + 1);
-    let low = vec4<f32>(near.wx, far.wx);
-    let high = vec4<f32>(near.zy, far.zy);
+    let near = quad_at(origin + base);
+    let far = quad_at(origin + base + vec3<f32>(0.0, 0.0, 1.0));
+    let low = vec4<f32>(near.xz, far.xz);
+    let high = vec4<f32>(near.yw, far.yw);
     let along_x = low + (high - low) * f.x;
     let along_y = along_x.xz + (along_x.yw - along_x.xz) * f.y;
     return along_y.x + (along_y.y - along_y.x) * f.z;
+}
+
+// Four texels of a layer, from the lowest one on: 00, 10, 01, 11 along x and y.
+fn quad_at(texel: vec3<f32>) -> vec4<f32> {
+    // Between the four: exact, as whole texels are in an atlas of 2^n along each axis.
+    return textureGather(0, atlas, nearest, (texel.xy + 1.0) * scene.texel.xy, i32(texel.z)).wzxy;
 }

@@ -12,3 +12,13 @@ fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
     let exact = origin + round(point * GRID) / GRID;
     return textureSampleLevel(atlas, trilinear, exact * scene.texel.xyz, 0.0).x;
 }
+
+// Differences of the samples one texel ahead and one behind, along each axis.
+fn differences(origin: vec3<f32>, point: vec3<f32>) -> vec3<f32> {
+    let x = vec3<f32>(1.0, 0.0, 0.0);
+    let y = vec3<f32>(0.0, 1.0, 0.0);
+    let z = vec3<f32>(0.0, 0.0, 1.0);
+    return vec3<f32>(sample_atlas(origin, point + x) - sample_atlas(origin, point - x),
+        sample_atlas(origin, point + y) - sample_atlas(origin, point - y),
+        sample_atlas(origin, point + z) - sample_atlas(origin, point - z));
+}

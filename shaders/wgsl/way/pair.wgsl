@@ -63,11 +63,23 @@ fn take_pair(walk: ptr<function, Walk>, node: NodeRecord, brick: Brick, longest:
         return Taken(false, is_turned);
     }
     var front = (*walk).front;
-    let between = add_pair(&front, brick, ray, t0, next_brick, (*walk).bent.ray, t1, step, laid.s0, laid.s1, s2, range,
-        spreads);
+    let next_ray = (*walk).bent.ray;
+    let pair = add_pair(&front, brick, ray, t0, next_brick, next_ray, t1, step, laid.s0, laid.s1, s2, range, spreads);
+    var between = 0u;
+    if pair.parts > 1.0 {
+        between += add_parts(&front, brick, ray, pair.first, pair.parts);
+        between += add_parts(&front, next_brick, next_ray, pair.second, pair.parts);
+    }
     (*walk).front = front;
     (*walk).count += between;
     return Taken(still_to_come(front) < scene.quality.y, is_turned);
+}
+
+// Adds all parts of a step that can be seen. Yields the number of samples taken between its ends.
+fn add_parts(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, step: Step, parts: f32) -> u32 {
+    var cut = cut_into(step, parts);
+    while add_part(front, &cut, brick, ray) {}
+    return cut.samples;
 }
 
 // Lays a pair straight on, halved while the index changes much between its ends, or its slope since the last turn; where a

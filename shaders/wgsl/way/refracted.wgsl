@@ -30,14 +30,8 @@ struct Leaving {
 
 // Where the ray, which is inside, leaves the volume.
 fn exit_of_volume(ray: Ray) -> f32 {
-    var t = FAR;
-    for (var axis = 0u; axis < 3u; axis++) {
-        if !is_parallel(ray, axis) {
-            let face = select(0.0, scene.volume[axis], is_forward(ray, axis));
-            t = min(t, (face - ray.origin_in_volume[axis]) * ray.inverse[axis]);
-        }
-    }
-    return t;
+    let t = ways_to(select(vec3<f32>(0.0), scene.volume.xyz, are_forward(ray)), ray);
+    return min(t.x, min(t.y, t.z));
 }
 
 fn is_in_node(node: NodeRecord, point: vec3<f32>) -> bool {
@@ -156,7 +150,7 @@ fn leave(walk: ptr<function, Walk>, node: NodeRecord, leaving: Leaving) -> bool 
         return false;
     }
     let ray = (*walk).bent.ray;
-    (*walk).at = leaf_beyond(node, leaving.exit.axis, point_on(ray, (*walk).bent.t), ray);
+    (*walk).at = leaf_beyond((*walk).at, node, leaving.exit.axis, point_on(ray, (*walk).bent.t), ray);
     return true;
 }
 

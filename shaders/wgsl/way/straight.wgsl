@@ -19,7 +19,24 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
     var known = false;
     var s2 = 0.0;
     var i = 0.0;
-    while i < pairs {
+    // Rays whose neighbours cut their steps do not wait for them: a part is added, or a pair begun, at a time.
+    var steps_left = 0u;
+    var cut: Cut;
+    var second: Step;
+    while i < pairs || steps_left > 0u {
+        if steps_left > 0u {
+            if !add_part(&front, &cut, brick, ray) {
+                marched.samples += cut.samples;
+                steps_left -= 1u;
+                if steps_left > 0u {
+                    cut = cut_into(second, cut.parts);
+                } else if still_to_come(front) < scene.quality.y {
+                    marched.is_done = true;
+                    break;
+                }
+            }
+            continue;
+        }
         let t0 = from_t + 2.0 * i * step;
         // Steps too short for t to grow by them are counted instead, or there would be no end.
         if has_fractions(brick) && t0 > from_t {
@@ -50,8 +67,12 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         if is_vacant_around(range, max(spreads.x, spreads.y)) {
             continue;
         }
-        marched.samples += add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
-        if still_to_come(front) < scene.quality.y {
+        let pair = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
+        if pair.parts > 1.0 {
+            cut = cut_into(pair.first, pair.parts);
+            second = pair.second;
+            steps_left = 2u;
+        } else if still_to_come(front) < scene.quality.y {
             marched.is_done = true;
             break;
         }
@@ -98,7 +119,7 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
             break;
         }
         t = t_out;
-        at = leaf_beyond(node, exit.axis, point_on(ray, t), ray);
+        at = leaf_beyond(at, node, exit.axis, point_on(ray, t), ray);
     }
     return vec4<f32>(front.rgb, front.alpha);
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 const SHOWS: &str = "it casts no rays: the CPU device shows with it, and nobody asks for it in f64";
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 31] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 33] = [
     ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
@@ -24,8 +24,14 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 31] = [
     ("levels/two", Some("shaders/twin/src/levels/three.rs"), "the twin of three without its grandparent"),
     ("material/one", Some("shaders/twin/src/material.rs"), "a branch in the twin"),
     ("material/table", Some("shaders/twin/src/material.rs"), "a branch in the twin"),
+    (
+        "listed",
+        Some("backend/renderer/src/device/tile_list.rs"),
+        "the CPU device goes through the lists themselves",
+    ),
     ("place/halved", Some("shaders/twin/src/tables.rs"), "a branch in the twin"),
     ("place/listed", Some("shaders/twin/src/tables.rs"), "a branch in the twin"),
+    ("sample/differences", Some("shaders/twin/src/sample.rs"), "it lies beside the twin's way to sample"),
     (
         "sample/exact",
         Some("shaders/twin/src/sample.rs"),

@@ -9,7 +9,8 @@ use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::twin_scene::{TwinScene, View, view};
 use protocol::{AdapterWish, DeviceChoice, FilterChoice};
 use renderer::device::{
-    CacheWish, CastJob, CastOutcome, Device, DevicePicture, FeedbackTag, Gather, NEVER, Part, open_device,
+    CacheWish, CastJob, CastOutcome, Device, DevicePicture, FeedbackTag, Gather, NEVER, Part, TileList,
+    open_device,
 };
 use std::time::{Duration, Instant};
 use twin::Lattice;
@@ -174,7 +175,7 @@ fn views_cast_together_are_views_cast_one_by_one() {
             );
         }
         // A view without tiles keeps its picture.
-        let tiles = [vec![], vec![0]];
+        let tiles = [TileList::default(), TileList::all(1)];
         let job = CastJob {
             views: &[views[1], views[0]],
             part: Part::Tiles { lattice: Lattice::ALL, tiles: &tiles },

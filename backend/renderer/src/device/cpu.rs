@@ -119,7 +119,7 @@ impl CpuDevice {
         let mut outcome = CastOutcome::nothing(job);
         for (index, view) in job.view_jobs() {
             let found = cast_tiles(&casting, &view, job.stop, &mut self.pictures[view.picture]);
-            for (&tile, found) in view.tiles.iter().zip(found) {
+            for (tile, found) in view.tiles.iter().zip(found) {
                 let Some(TileFound { rays, samples, is_missing }) = found else {
                     outcome.left[index].push(tile);
                     continue;

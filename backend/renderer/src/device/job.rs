@@ -1,11 +1,13 @@
 //! One cast: which rays, with which kernel, and what they found.
 
+use super::TileList;
 use layout::{FeedbackEntry, TILE_EDGE};
 use needs::Needs;
 use optics::Enhancer;
 use planes::Fans;
 use protocol::StopAsked;
 use std::borrow::Cow;
+use std::ops::Range;
 use twin::{Lattice, ProjectorRays, SceneNumbers, ShortRay};
 
 /// The tiles of a raster: squares of 8 × 8 cast pixels.
@@ -31,13 +33,16 @@ impl TileGrid {
         self.across * self.down
     }
 
-    /// How many pixels a tile casts, within a raster of `width` × `height`.
-    pub fn rays(&self, tile: u32, width: u32, height: u32) -> u64 {
-        let along = |place: u32, pixels: u32, axis: usize| {
-            let rays = cast_along(&self.lattice, axis, pixels);
-            u64::from(rays.saturating_sub(place * TILE_EDGE).min(TILE_EDGE))
+    /// How many pixels neighbouring tiles cast, within a raster of `width` × `height`.
+    pub fn rays(&self, tiles: &Range<u32>, width: u32, height: u32) -> u64 {
+        let [columns, rows] = [(0, width), (1, height)].map(|(axis, n)| cast_along(&self.lattice, axis, n));
+        // Those before a tile, in its row and in all above.
+        let before = |tile: u32| {
+            let [x, y] = [tile % self.across, tile / self.across].map(|place| place * TILE_EDGE);
+            let row = u64::from(rows.saturating_sub(y).min(TILE_EDGE));
+            u64::from(y.min(rows)) * u64::from(columns) + u64::from(x.min(columns)) * row
         };
-        along(tile % self.across, width, 0) * along(tile / self.across, height, 1)
+        if tiles.is_empty() { 0 } else { before(tiles.end) - before(tiles.start) }
     }
 
     /// The pixels that a tile casts, within a raster of `width` × `height`.
@@ -82,7 +87,7 @@ pub enum Part<'a> {
         /// The lattice.
         lattice: Lattice,
         /// View by view.
-        tiles: &'a [Vec<u32>],
+        tiles: &'a [TileList],
     },
 }
 
@@ -154,7 +159,7 @@ pub(super) struct ViewJob<'a> {
     /// Its tiles.
     pub(super) grid: TileGrid,
     /// Those to cast; at least one.
-    pub(super) tiles: Cow<'a, [u32]>,
+    pub(super) tiles: Cow<'a, TileList>,
 }
 
 impl CastJob<'_> {
@@ -170,11 +175,11 @@ impl CastJob<'_> {
         match self.part {
             Part::Every(lattice) => {
                 let grid = TileGrid::new(width, height, lattice);
-                ViewJob { picture, rays, grid, tiles: (0..grid.count()).collect() }
+                ViewJob { picture, rays, grid, tiles: Cow::Owned(TileList::all(grid.count())) }
             }
             Part::Tiles { lattice, tiles } => {
-                let tiles = tiles.get(index).map_or(&[][..], Vec::as_slice);
-                ViewJob { picture, rays, grid: TileGrid::new(width, height, lattice), tiles: tiles.into() }
+                let tiles = tiles.get(index).map_or_else(Cow::default, Cow::Borrowed);
+                ViewJob { picture, rays, grid: TileGrid::new(width, height, lattice), tiles }
             }
         }
     }
@@ -192,7 +197,7 @@ impl ViewJob<'_> {
     #[cfg(feature = "gpu")]
     pub(super) fn ray_count(&self) -> u64 {
         let [width, height] = self.rays.raster;
-        self.tiles.iter().map(|&tile| self.grid.rays(tile, width, height)).sum()
+        self.tiles.runs().iter().map(|run| self.grid.rays(run, width, height)).sum()
     }
 
     /// The pixels that a tile casts.
@@ -211,9 +216,9 @@ pub struct CastOutcome {
     /// One per place of the index; empty if the frame's table has it.
     pub feedback: Vec<FeedbackEntry>,
     /// View by view, the tiles of which a ray met a node that is too coarse; empty where they were not asked for.
-    pub missing_tiles: Vec<Vec<u32>>,
+    pub missing_tiles: Vec<TileList>,
     /// View by view, the tiles that were left.
-    pub left: Vec<Vec<u32>>,
+    pub left: Vec<TileList>,
     /// View by view, pixels that were mended.
     pub mended: Vec<Patch>,
     /// Rays cast.
@@ -226,9 +231,9 @@ impl CastOutcome {
     /// Before anything is found.
     pub(super) fn nothing(job: &CastJob) -> Self {
         let lists = if job.counts { job.views.len() } else { 0 };
-        let left = vec![Vec::new(); job.views.len()];
+        let left = vec![TileList::default(); job.views.len()];
         let mended = vec![Patch::default(); if job.mends { job.views.len() } else { 0 }];
-        Self { missing_tiles: vec![Vec::new(); lists], left, mended, ..Self::default() }
+        Self { missing_tiles: vec![TileList::default(); lists], left, mended, ..Self::default() }
     }
 }
 
@@ -243,9 +248,16 @@ mod tests {
             let rows = Lattice { step: [1, 2], first: [0, 1] };
             for lattice in [Lattice::ALL, coarse(3), coarse(16), odd, rows] {
                 let grid = TileGrid::new(width, height, lattice);
+                let casts = |tile| grid.pixels(tile, width, height).count() as u64;
+                let all = 0..grid.count();
+                assert_eq!(grid.rays(&all, width, height), all.map(casts).sum::<u64>());
                 for tile in 0..grid.count() {
-                    let cast = grid.pixels(tile, width, height).count() as u64;
-                    assert_eq!(grid.rays(tile, width, height), cast, "{width} {height} {lattice:?} {tile}");
+                    let cast = casts(tile);
+                    assert_eq!(
+                        grid.rays(&(tile..tile + 1), width, height),
+                        cast,
+                        "{width} {height} {lattice:?} {tile}"
+                    );
                 }
             }
         }

@@ -22,9 +22,10 @@ pub(super) fn mend(casting: &Casting<f32>, job: &CastJob, fans: &Fans, pictures:
             continue;
         }
         let bends = Bends::of(&pictures[index], warp, MOST_BEND * casting.scene.tolerance);
-        let cast = |&tile: &u32| (!(job.stop)()).then(|| mend_tile(casting, &view, &bends, tile));
-        let found: Vec<Option<(Patch, bool)>> = view.tiles.par_iter().map(cast).collect();
-        for (&tile, found) in view.tiles.iter().zip(found) {
+        let cast = |tile: u32| (!(job.stop)()).then(|| mend_tile(casting, &view, &bends, tile));
+        let tiles: Vec<u32> = view.tiles.iter().collect();
+        let found: Vec<Option<(Patch, bool)>> = tiles.into_par_iter().map(cast).collect();
+        for (tile, found) in view.tiles.iter().zip(found) {
             match found {
                 None => outcome.left[index].push(tile),
                 Some((patch, is_missing)) => {

@@ -13,6 +13,7 @@ mod mend;
 mod rows;
 mod show;
 mod tag;
+mod tile_list;
 mod tiles;
 mod under_way;
 
@@ -25,3 +26,4 @@ pub use job::{
 };
 pub use show::{DevicePicture, FinishJob, ShowJob};
 pub use tag::{FeedbackTag, TaggedFeedback};
+pub use tile_list::TileList;

@@ -1,6 +1,6 @@
 //! Rows of all views at once, on all cores of the CPU.
 
-use super::{CastJob, CastOutcome, Sharing};
+use super::{CastJob, CastOutcome, Sharing, TileList};
 use layout::TILE_EDGE;
 use optics::Enhancer;
 use planes::{Fan, Planes, RowCast, Scratch};
@@ -71,8 +71,8 @@ fn cast_fan(
         let rows_of = |of: &dyn Fn(&Option<RowCast>) -> bool| -> BTreeSet<u32> {
             found.iter().filter(|(_, cast)| of(cast)).map(|&(at, _)| at).collect()
         };
-        let tiles_in = |rows: BTreeSet<u32>| -> Vec<u32> {
-            view.tiles.iter().copied().filter(|tile| rows.contains(&(tile / view.grid.across))).collect()
+        let tiles_in = |rows: BTreeSet<u32>| -> TileList {
+            view.tiles.iter().filter(|tile| rows.contains(&(tile / view.grid.across))).collect()
         };
         outcome.left[*index] = tiles_in(rows_of(&Option::is_none));
         if job.counts {

@@ -26,20 +26,22 @@ pub(super) fn cast_tiles(
     let [width, height] = view.rays.raster.map(|n| n as usize);
     picture.resize(4 * width * height, 0.0);
     let rows = (TILE_EDGE * view.grid.lattice.step[1]) as usize;
-    let places = places_by_row(view);
+    let tiles: Vec<u32> = view.tiles.iter().collect();
+    let places = places_by_row(view, &tiles);
     let rgba = picture.par_chunks_mut(4 * width * rows);
     let bands = places.into_par_iter().zip(rgba).enumerate();
-    let cast = |(at, (places, rgba))| Band { above: at * rows, places, rgba }.cast(casting, view, stop);
+    let cast =
+        |(at, (places, rgba))| Band { above: at * rows, places, rgba }.cast(casting, (view, &tiles), stop);
     let all: Vec<Vec<(usize, TileFound)>> = bands.map(cast).collect();
-    let mut found = vec![None; view.tiles.len()];
+    let mut found = vec![None; tiles.len()];
     all.into_iter().flatten().for_each(|(place, of)| found[place] = Some(of));
     found
 }
 
 /// The places in a view's list of the tiles of each row of tiles.
-fn places_by_row(view: &ViewJob) -> Vec<Vec<usize>> {
+fn places_by_row(view: &ViewJob, tiles: &[u32]) -> Vec<Vec<usize>> {
     let mut rows = vec![Vec::new(); view.grid.down as usize];
-    for (place, tile) in view.tiles.iter().enumerate() {
+    for (place, tile) in tiles.iter().enumerate() {
         rows[(tile / view.grid.across) as usize].push(place);
     }
     rows
@@ -56,8 +58,13 @@ struct Band<'a> {
 
 impl Band<'_> {
     /// What each tile that was cast found, by its place.
-    fn cast(mut self, casting: &Casting<f32>, view: &ViewJob, stop: StopAsked) -> Vec<(usize, TileFound)> {
-        let cast = |&place: &usize| (!stop()).then(|| (place, cast_tile(casting, view, view.tiles[place])));
+    fn cast(
+        mut self,
+        casting: &Casting<f32>,
+        (view, tiles): (&ViewJob, &[u32]),
+        stop: StopAsked,
+    ) -> Vec<(usize, TileFound)> {
+        let cast = |&place: &usize| (!stop()).then(|| (place, cast_tile(casting, view, tiles[place])));
         let casts: Vec<(usize, TileCasts)> = self.places.par_iter().filter_map(cast).collect();
         let width = view.rays.raster[0] as usize;
         casts.into_iter().map(|(place, casts)| (place, self.put_down(&casts, width))).collect()

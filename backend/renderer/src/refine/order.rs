@@ -1,6 +1,6 @@
 //! In which order the pixels of a picture are cast: first few of them all over it, then those between.
 
-use crate::device::TileGrid;
+use crate::device::{TileGrid, TileList};
 use protocol::Refinement;
 use std::ops::Range;
 use twin::Lattice;
@@ -93,9 +93,10 @@ impl Order {
 
     /// What some units cast: tiles of lattices, one lattice after the other. Which lattices these are does not depend on the
     /// raster; of a small one there may be no tiles.
-    pub fn casts(&self, units: &Range<u32>) -> Vec<(Lattice, Vec<u32>)> {
+    pub fn casts(&self, units: &Range<u32>) -> Vec<(Lattice, TileList)> {
         let is_asked = |step: &&Step| step.units.start < units.end && units.start < step.units.end;
-        self.steps.iter().filter(is_asked).map(|step| (step.lattice, step.tiles_of(units).to_vec())).collect()
+        let tiles = |step: &Step| step.tiles_of(units).iter().copied().collect();
+        self.steps.iter().filter(is_asked).map(|step| (step.lattice, tiles(step))).collect()
     }
 
     /// The pixels of the first unit, which lie all over the picture.
@@ -159,7 +160,7 @@ mod tests {
                 for unit in 0..UNITS {
                     for (lattice, tiles) in order.casts(&(unit..unit + 1)) {
                         let grid = TileGrid::new(size[0], size[1], lattice);
-                        for (x, y) in tiles.iter().flat_map(|&tile| grid.pixels(tile, size[0], size[1])) {
+                        for (x, y) in tiles.iter().flat_map(|tile| grid.pixels(tile, size[0], size[1])) {
                             let at = (y * size[0] + x) as usize;
                             times[at] += 1;
                             assert!(!order.is_cast(at, unit) && order.is_cast(at, unit + 1));
@@ -181,7 +182,7 @@ mod tests {
                 .into_iter()
                 .map(|(lattice, tiles)| {
                     let grid = TileGrid::new(size[0], size[1], lattice);
-                    tiles.into_iter().map(|tile| grid.rays(tile, size[0], size[1])).sum::<u64>()
+                    tiles.runs().iter().map(|run| grid.rays(run, size[0], size[1])).sum::<u64>()
                 })
                 .sum();
             let mean = 800.0 * 600.0 / f64::from(UNITS);
@@ -197,7 +198,7 @@ mod tests {
         let distance = |unit: u32| {
             let casts = order.casts(&(unit..unit + 1));
             let grid = TileGrid::new(256, 256, casts[0].0);
-            let farthest = casts[0].1.iter().flat_map(|&tile| grid.pixels(tile, 256, 256));
+            let farthest = casts[0].1.iter().flat_map(|tile| grid.pixels(tile, 256, 256));
             farthest.map(|(x, y)| x.abs_diff(128).max(y.abs_diff(128))).max()
         };
         assert!(distance(16) < distance(24) && distance(24) < distance(31));

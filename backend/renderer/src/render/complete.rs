@@ -9,7 +9,7 @@ use super::engine::Engine;
 use super::feedback::{feedback_of, keys_of};
 use super::stock::{Clerk, Delivery};
 use super::work::{Pending, Work};
-use crate::device::coarse;
+use crate::device::{TileList, coarse};
 use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
@@ -182,7 +182,7 @@ impl Complete {
     }
 
     /// Casts few rays, all, or some tiles again.
-    fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<Vec<u32>>>) {
+    fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<TileList>>) {
         self.stage = stage;
         let views = self.view..self.view + work.views_at_once();
         let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { work.lattice() };

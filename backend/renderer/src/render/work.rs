@@ -4,7 +4,7 @@ use super::RenderError;
 use super::account::{Account, milliseconds};
 use super::engine::Engine;
 use super::setting::Setting;
-use crate::device::{CastJob, Gather, Part, Patch, TileGrid};
+use crate::device::{CastJob, Gather, Part, Patch, TileGrid, TileList};
 use crate::present::{Classes, lattice_of};
 use layout::FeedbackEntry;
 use needs::Needs;
@@ -25,7 +25,7 @@ pub(super) struct Pending {
     /// Whether they mend what was resampled; the pixels are then those of the projectors' own rasters.
     pub(super) mends: bool,
     /// These tiles of each.
-    pub(super) tiles: Vec<Vec<u32>>,
+    pub(super) tiles: Vec<TileList>,
 }
 
 impl Pending {
@@ -53,13 +53,13 @@ impl Pending {
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.tiles.iter().all(Vec::is_empty)
+        self.tiles.iter().all(TileList::is_empty)
     }
 }
 
 /// All tiles of some rasters, those of each in a list.
-fn every_tile(rasters: impl Iterator<Item = [u32; 2]>, lattice: Lattice) -> Vec<Vec<u32>> {
-    rasters.map(|[width, height]| (0..TileGrid::new(width, height, lattice).count()).collect()).collect()
+fn every_tile(rasters: impl Iterator<Item = [u32; 2]>, lattice: Lattice) -> Vec<TileList> {
+    rasters.map(|[width, height]| TileList::all(TileGrid::new(width, height, lattice).count())).collect()
 }
 
 /// A frame under work.
@@ -74,7 +74,7 @@ pub(super) struct Work {
     /// View by view, the pixels of final pictures that were mended; none before.
     pub(super) mended: Option<Vec<Patch>>,
     /// Tiles of the cast under way of which a ray met a node that is too coarse, view by view.
-    pub(super) missing: Vec<Vec<u32>>,
+    pub(super) missing: Vec<TileList>,
     /// Projectors whose pictures are final and have not been presented.
     pub(super) finals: Vec<u32>,
     /// Their pixels that are as rays see them now; the others are to be reconstructed.
@@ -194,9 +194,9 @@ impl Work {
         }
         self.account.rays += outcome.rays;
         self.account.samples += outcome.samples;
-        self.missing.resize(self.pending.tiles.len(), Vec::new());
+        self.missing.resize(self.pending.tiles.len(), TileList::default());
         for (known, found) in self.missing.iter_mut().zip(outcome.missing_tiles) {
-            known.extend(found);
+            known.extend(found.iter());
         }
         self.pending.tiles = outcome.left;
         self.account.stages.cast_ms += milliseconds(started);

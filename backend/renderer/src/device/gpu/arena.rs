@@ -5,7 +5,7 @@ use super::context::Context;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
 use super::storage::{Storage, Stretch};
-use layout::{TALLIED_TILES, ViewBlock, binding};
+use layout::{TALLIED_TILES, TileTally, ViewBlock, binding};
 
 /// Pictures begin at whole multiples of so many pixels: of 256 bytes of colours, as parts of buffers that are bound have to.
 const APART: u64 = 16;
@@ -21,7 +21,7 @@ pub(super) struct Arena {
     pub(super) counts: Storage,
     /// A [`ViewBlock`] for each view of a dispatch.
     pub(super) views: Storage,
-    /// How many tiles or rays a dispatch casts, and the words of each.
+    /// What a dispatch casts: see [`binding::LISTED`].
     pub(super) listed: Storage,
     tallies: Storage,
 }
@@ -49,16 +49,16 @@ impl Arena {
         }
     }
 
-    /// Writes what the next dispatch casts: the items of a list, of some words each, of these views.
-    pub(super) fn list<const WORDS: usize>(
+    /// Writes what the next dispatch casts: numbers of it, then the items of a list, of these views.
+    pub(super) fn list(
         &mut self,
         context: &Context,
         views: &[ViewBlock],
-        items: &[[u32; WORDS]],
+        numbers: &[u32],
+        items: &[[u32; 3]],
     ) {
         self.views.write(context, views);
-        let count = [items.len() as u32];
-        let words: Vec<u32> = count.iter().chain(items.as_flattened()).copied().collect();
+        let words: Vec<u32> = numbers.iter().chain(items.as_flattened()).copied().collect();
         self.listed.write(context, &words);
     }
 
@@ -73,14 +73,17 @@ impl Arena {
         self.pixels.stretch(COLOUR_BYTES * room.first, COLOUR_BYTES * pixels)
     }
 
-    /// Notes that the counts of the tiles that are listed are added up. What will hold a word for each.
+    /// Notes that the counts of the tiles that are listed are added up. What will hold a [`TileTally`] for every
+    /// [`TALLIED_TILES`] of them.
     pub(super) fn tally(
         &mut self,
         context: &Context,
         encoder: &mut wgpu::CommandEncoder,
         tiles: u32,
     ) -> Stretch<'_> {
-        self.tallies.reserve(context, 4 * u64::from(tiles));
+        let groups = tiles.div_ceil(TALLIED_TILES);
+        let bytes = tally_bytes(tiles);
+        self.tallies.reserve(context, bytes);
         let pipeline = context.kernel(Kernel::Tally);
         let buffers = [
             (binding::VIEWS, &self.views),
@@ -95,9 +98,14 @@ impl Arena {
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        note_pass(encoder, &pipeline, &bind_group, in_rows(tiles.div_ceil(TALLIED_TILES)));
-        self.tallies.stretch(0, 4 * u64::from(tiles))
+        note_pass(encoder, &pipeline, &bind_group, in_rows(groups));
+        self.tallies.stretch(0, bytes)
     }
+}
+
+/// Bytes of the tallies of so many tiles.
+pub(super) fn tally_bytes(tiles: u32) -> u64 {
+    u64::from(tiles.div_ceil(TALLIED_TILES)) * size_of::<TileTally>() as u64
 }
 
 /// Finds room for pictures in buffers of at most so many pixels each.

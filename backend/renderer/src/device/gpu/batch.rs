@@ -61,10 +61,15 @@ impl BatchSize {
 
     /// A batch in the order in which it is handed over. A driver in software gives each thread one stretch of it: neighbours,
     /// which take about as long as each other, go to different ones.
-    pub fn dealt<T: Copy>(&self, tiles: &[T]) -> Vec<T> {
+    pub fn dealt(&self, runs: Vec<(u32, Range<u32>)>) -> Vec<(u32, Range<u32>)> {
+        if self.threads == 1 {
+            return runs;
+        }
+        let alone = |(view, run): (u32, Range<u32>)| run.map(move |tile| (view, tile..tile + 1));
+        let tiles: Vec<_> = runs.into_iter().flat_map(alone).collect();
         (0..self.threads)
             .flat_map(|thread| tiles.iter().skip(thread).step_by(self.threads))
-            .copied()
+            .cloned()
             .collect()
     }
 
@@ -139,10 +144,12 @@ mod tests {
 
     #[test]
     fn each_thread_gets_a_share_of_every_neighbourhood() {
-        let dealt = |threads| BatchSize { threads, ..BatchSize::new(true) }.dealt(&[10, 11, 12, 13, 14]);
-        assert_eq!(dealt(1), [10, 11, 12, 13, 14]);
-        assert_eq!(dealt(2), [10, 12, 14, 11, 13]);
-        assert_eq!(dealt(8), [10, 11, 12, 13, 14]);
+        let runs = vec![(0, 10..13), (1, 3..5)];
+        let dealt = |threads| BatchSize { threads, ..BatchSize::new(true) }.dealt(runs.clone());
+        let alone = |tiles: [(u32, u32); 5]| tiles.map(|(view, tile)| (view, tile..tile + 1));
+        assert_eq!(dealt(1), runs);
+        assert_eq!(dealt(2), alone([(0, 10), (0, 12), (1, 4), (0, 11), (1, 3)]));
+        assert_eq!(dealt(8), alone([(0, 10), (0, 11), (0, 12), (1, 3), (1, 4)]));
     }
 
     #[test]

@@ -1,20 +1,45 @@
 //! Casting whole pictures on the GPU: batches of tiles of any views, of which the next is handed over before the one before
 //! is done.
 
-use super::arena::Room;
+use super::arena::{Arena, Room, tally_bytes};
 use super::batch::Piece;
+use super::context::Context;
 use super::device::GpuDevice;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
 use crate::device::job::{TileGrid, ViewJob};
-use crate::device::{CastJob, CastOutcome, DeviceError, Gather};
-use layout::{FeedbackEntry, MISSING, ViewBlock};
+use crate::device::{CastJob, CastOutcome, DeviceError, Gather, TileList};
+use layout::{FeedbackEntry, TALLIED_TILES, TileTally, ViewBlock};
 use shaders::compose::{KernelKey, KernelRays};
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 use twin::Tiling;
+
+/// Tiles of some views whose pictures lie in one arena.
+#[derive(Default)]
+struct Listing {
+    views: Vec<ViewBlock>,
+    /// Runs of them, each of a view.
+    runs: Vec<(u32, Range<u32>)>,
+    tiles: u32,
+}
+
+impl Listing {
+    /// Writes it as [`binding::LISTED`](layout::binding::LISTED) says.
+    fn write(&self, context: &Context, arena: &mut Arena) {
+        let mut place = 0;
+        let runs = self.runs.iter().map(|(view, run)| {
+            let first = place;
+            place += run.len() as u32;
+            [first, *view, run.start]
+        });
+        let items: Vec<[u32; 3]> = runs.collect();
+        arena.list(context, &self.views, &[self.tiles, items.len() as u32], &items);
+    }
+}
 
 /// A batch that the device has.
 struct UnderWay {
@@ -40,10 +65,10 @@ impl GpuDevice {
         let mut outcome = CastOutcome::nothing(job);
         let mut cast = Vec::new();
         for ((index, view), done) in views.into_iter().zip(done) {
-            let (tiles, left) = view.tiles.split_at(done);
-            outcome.left[index] = left.to_vec();
+            outcome.left[index] = view.tiles.part(done..view.tiles.len());
             if done > 0 {
-                cast.push((index, ViewJob { tiles: tiles.to_vec().into(), ..view.clone() }));
+                let tiles = Cow::Owned(view.tiles.part(0..done));
+                cast.push((index, ViewJob { tiles, ..view.clone() }));
             }
         }
         self.bring_back(job, &cast, outcome)
@@ -66,7 +91,10 @@ impl GpuDevice {
                 }
                 let started = Instant::now();
                 let mut encoder = context.new_encoder();
-                let parts = pieces.iter().map(|Piece { list, range }| (&views[*list].1, range.clone()));
+                let parts = pieces.iter().map(|Piece { list, range }| {
+                    let view = &views[*list].1;
+                    (view, view.tiles.part(range.clone()))
+                });
                 self.dispatch(&mut encoder, &pipeline, key, job.gather, &parts.collect::<Vec<_>>());
                 pieces.iter().for_each(|piece| done[piece.list] = piece.range.end);
                 let tiles = pieces.iter().map(|piece| piece.range.len()).sum();
@@ -88,36 +116,38 @@ impl GpuDevice {
         pipeline: &wgpu::ComputePipeline,
         key: KernelKey,
         gather: Gather,
-        parts: &[(&ViewJob, Range<usize>)],
+        parts: &[(&ViewJob, TileList)],
     ) {
         for arena in 0..self.pictures.arenas.len() {
-            let (views, tiles) = self.listed(arena, parts);
-            if tiles.is_empty() {
+            let mut listing = self.listing(arena, parts);
+            if listing.tiles == 0 {
                 continue;
             }
-            self.pictures.arenas[arena].list(&self.context, &views, &self.batch.dealt(&tiles));
+            listing.runs = self.batch.dealt(listing.runs);
+            listing.write(&self.context, &mut self.pictures.arenas[arena]);
             let feedback = match gather {
                 Gather::Own => &self.feedback,
                 Gather::Frame => self.frame_feedback.table(),
             };
             let bind_group = self.bind(pipeline, key, &self.pictures.arenas[arena], feedback);
-            note_pass(encoder, pipeline, &bind_group, in_rows(tiles.len() as u32));
+            note_pass(encoder, pipeline, &bind_group, in_rows(listing.tiles));
         }
     }
 
-    /// Those of some tiles of views that lie in an arena, each with the place of its view's block.
-    fn listed(&self, arena: usize, parts: &[(&ViewJob, Range<usize>)]) -> (Vec<ViewBlock>, Vec<[u32; 2]>) {
-        let (mut views, mut tiles) = (Vec::new(), Vec::new());
-        for (view, range) in parts {
-            let Room { arena: lies_in, first, .. } = self.pictures.room(view.picture);
-            if lies_in == arena {
+    /// Those of some tiles of views that lie in an arena.
+    fn listing(&self, arena: usize, parts: &[(&ViewJob, TileList)]) -> Listing {
+        let mut listing = Listing::default();
+        for (view, tiles) in parts {
+            if self.lies_in(view, arena) {
+                let Room { first, .. } = self.pictures.room(view.picture);
                 let TileGrid { lattice, across, .. } = view.grid;
-                let place = views.len() as u32;
-                views.push(view.rays.block(&Tiling { lattice, across, first_pixel: first as u32 }));
-                tiles.extend(view.tiles[range.clone()].iter().map(|&tile| [place, tile]));
+                let place = listing.views.len() as u32;
+                listing.views.push(view.rays.block(&Tiling { lattice, across, first_pixel: first as u32 }));
+                listing.runs.extend(tiles.runs().iter().map(|run| (place, run.clone())));
+                listing.tiles += tiles.len() as u32;
             }
         }
-        (views, tiles)
+        listing
     }
 
     /// Brings back what a cast found: feedback, and a tally of each tile, view by view.
@@ -130,41 +160,55 @@ impl GpuDevice {
         outcome.rays = cast.iter().map(|(_, view)| view.ray_count()).sum();
         let entries = if job.gather == Gather::Own { self.places } else { 0 };
         let feedback_bytes = (entries * size_of::<FeedbackEntry>()) as u64;
-        // Arena by arena, as they are tallied.
-        let mut tallied = if job.counts { cast.iter().collect() } else { Vec::new() };
-        tallied.sort_by_key(|(_, view)| self.pictures.room(view.picture).arena);
         let context = Arc::clone(&self.context);
         let mut encoder = context.new_encoder();
-        let tiles: usize = tallied.iter().map(|(_, view)| view.tiles.len()).sum();
-        self.found_back.begin(&context, feedback_bytes + 4 * tiles as u64);
+        let listings = if job.counts { self.listings(cast) } else { Vec::new() };
+        let tally_bytes = listings.iter().map(|(_, listing)| tally_bytes(listing.tiles));
+        self.found_back.begin(&context, feedback_bytes + tally_bytes.sum::<u64>());
         if entries > 0 {
             self.found_back.copy(&mut encoder, &self.feedback.stretch(0, feedback_bytes));
         }
-        let parts: Vec<_> = tallied.iter().map(|(_, view)| (view, 0..view.tiles.len())).collect();
-        for arena in 0..self.pictures.arenas.len() {
+        for (arena, listing) in &listings {
             // They may have been cast in several batches, and in another order.
-            let (views, tiles) = self.listed(arena, &parts);
-            if !tiles.is_empty() {
-                let arena = &mut self.pictures.arenas[arena];
-                arena.list(&context, &views, &tiles);
-                let tallies = arena.tally(&context, &mut encoder, tiles.len() as u32);
-                self.found_back.copy(&mut encoder, &tallies);
-            }
+            let arena = &mut self.pictures.arenas[*arena];
+            listing.write(&context, arena);
+            let tallies = arena.tally(&context, &mut encoder, listing.tiles);
+            self.found_back.copy(&mut encoder, &tallies);
         }
         context.submit(encoder);
-        self.found_back.read(&context, |bytes| {
+        let tallies: Vec<TileTally> = self.found_back.read(&context, |bytes| {
             let (feedback, tallies) = bytes.split_at(feedback_bytes as usize);
             outcome.feedback = bytemuck::pod_collect_to_vec(feedback);
-            let mut tallies = tallies.chunks_exact(4).map(bytemuck::pod_read_unaligned::<u32>);
-            for (index, view) in &tallied {
-                for (&tile, tally) in view.tiles.iter().zip(&mut tallies) {
-                    outcome.samples += u64::from(tally & !MISSING);
-                    if tally & MISSING != 0 {
-                        outcome.missing_tiles[*index].push(tile);
+            bytemuck::pod_collect_to_vec(tallies)
+        })?;
+        outcome.samples = tallies.iter().map(|tally| u64::from(tally.samples)).sum();
+        let mut tallies = tallies.as_slice();
+        for (arena, listing) in &listings {
+            let groups = listing.tiles.div_ceil(TALLIED_TILES) as usize;
+            let of_arena = tallies.split_off(..groups).expect("there is one for each group");
+            if of_arena.iter().any(|tally| tally.missing != [0; 2]) {
+                let in_arena = cast.iter().filter(|(_, view)| self.lies_in(view, *arena));
+                let tiles = in_arena.flat_map(|(index, view)| view.tiles.iter().map(|tile| (*index, tile)));
+                for (place, (index, tile)) in tiles.enumerate() {
+                    let all = TALLIED_TILES as usize;
+                    if of_arena[place / all].is_missing(place % all) {
+                        outcome.missing_tiles[index].push(tile);
                     }
                 }
             }
-        })?;
+        }
         Ok(outcome)
+    }
+
+    /// All that was cast, arena by arena.
+    fn listings(&self, cast: &[(usize, ViewJob)]) -> Vec<(usize, Listing)> {
+        let parts: Vec<_> = cast.iter().map(|(_, view)| (view, view.tiles.clone().into_owned())).collect();
+        let arenas = 0..self.pictures.arenas.len();
+        let listings = arenas.map(|arena| (arena, self.listing(arena, &parts)));
+        listings.filter(|(_, listing)| listing.tiles > 0).collect()
+    }
+
+    fn lies_in(&self, view: &ViewJob, arena: usize) -> bool {
+        self.pictures.room(view.picture).arena == arena
     }
 }

@@ -53,7 +53,7 @@ impl GpuDevice {
             .collect();
         let count = listed.len() as u64;
         self.short.grow(&context, count);
-        self.short.list(&context, &views, &listed);
+        self.short.list(&context, &views, &[listed.len() as u32], &listed);
         self.short_back.begin(&context, COLOUR_BYTES * count);
         let mut encoder = context.new_encoder();
         // What they meet is noted where nobody looks: the whole rays of their pixels have told it.

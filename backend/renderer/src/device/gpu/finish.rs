@@ -5,7 +5,7 @@ use super::present::PresentPass;
 use super::storage::{Storage, Stretch};
 use crate::device::FinishJob;
 use crate::present::Finisher;
-use layout::present::{HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED};
+use layout::present::{CODED_PIXELS, HAS_BLACK_MAP, HAS_BLEND, HAS_WARP, IS_DITHERED};
 use layout::{PresentBlock, binding};
 use shaders::compose::PresentKernel;
 use std::collections::HashMap;
@@ -41,7 +41,7 @@ impl Finishing {
         self.codes.stretch(0, self.used_bytes)
     }
 
-    /// Notes the codes of a picture, the `place`th of a submission: a word for each pixel, behind those of the one before.
+    /// Notes the codes of a picture, the `place`th of a submission, behind those of the one before.
     pub(super) fn note(
         &mut self,
         (context, encoder): (&Context, &mut wgpu::CommandEncoder),
@@ -68,9 +68,14 @@ impl Finishing {
     }
 }
 
-/// Bytes of a picture's codes on the device: a word for each pixel.
-pub(super) fn code_bytes(job: &FinishJob) -> u64 {
-    4 * (job.raster.width * job.raster.height) as u64
+/// Bytes of a row of codes on the device.
+fn row_bytes(job: &FinishJob) -> usize {
+    3 * job.raster.width.next_multiple_of(CODED_PIXELS as usize)
+}
+
+/// Bytes of a picture's codes on the device.
+fn code_bytes(job: &FinishJob) -> u64 {
+    (row_bytes(job) * job.raster.height) as u64
 }
 
 /// The same, until the next picture's may begin: at whole multiples of as many bytes as parts of buffers that are bound have to.
@@ -78,9 +83,15 @@ pub(super) fn code_room(job: &FinishJob) -> u64 {
     code_bytes(job).next_multiple_of(256)
 }
 
-/// Red, green and blue of each pixel of them.
-pub(super) fn unpacked(words: &[u8]) -> Vec<u8> {
-    words.chunks_exact(4).flat_map(|word| [word[0], word[1], word[2]]).collect()
+/// Red, green and blue of each pixel, from what the device has in a picture's room.
+pub(super) fn unpacked(bytes: &[u8], job: &FinishJob) -> Vec<u8> {
+    let (row, width) = (row_bytes(job), 3 * job.raster.width);
+    let bytes = &bytes[..row * job.raster.height];
+    if row == width {
+        bytes.to_vec()
+    } else {
+        bytes.chunks(row).flat_map(|row| &row[..width]).copied().collect()
+    }
 }
 
 /// What a finisher knows, on the device.

@@ -45,7 +45,8 @@ impl PresentPass {
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        let [width, height, ..] = block.raster.map(|along| along.div_ceil(TILE_EDGE));
-        note_pass(encoder, &pipeline, &bind_group, [width, height]);
+        let [width, height, ..] = block.raster;
+        let groups = [width.div_ceil(TILE_EDGE * self.kernel.pixels_at_once()), height.div_ceil(TILE_EDGE)];
+        note_pass(encoder, &pipeline, &bind_group, groups);
     }
 }
