@@ -8,7 +8,6 @@ use protocol::{
     VolumeRef, Wall,
 };
 use renderer::Renderer;
-use screens::OutputWall;
 use std::sync::Arc;
 use transport::Opened;
 use transport::local_rank;
@@ -94,8 +93,7 @@ impl Render for Changing {
 }
 
 fn open_wall(setup: &Setup) -> Result<Box<dyn Wall>, String> {
-    let wall = OutputWall::open(&setup.options.display, &setup.options.projectors);
-    Ok(Box::new(wall.map_err(|error| error.to_string())?))
+    screens::open_wall(&setup.options.display, &setup.options.projectors).map_err(|error| error.to_string())
 }
 
 /// Opens a volume.

@@ -2,9 +2,11 @@
 //!
 //! `cargo run --release -p lightloom-tests --example driving -- [--device cpu|gpu] [--seconds N]`
 
+use lightloom_tests::four_outputs::display_on_outputs;
 use lightloom_tests::program::{cluster, lightloom, run};
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::x_server::{XServer, display_on_outputs};
+use lightloom_tests::wayland_desktop::WaylandDesktop;
+use lightloom_tests::x_server::XServer;
 use serde_json::Value;
 use std::process::Command;
 
@@ -98,22 +100,33 @@ fn latency(fixed: &[String]) -> Result<(), String> {
     results.line("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let small = lightloom_tests::program::small_display(folder.path());
-    let place = |backend| (backend, "x_px = 0, y_px = 0".to_owned());
-    let on_outputs = display_on_outputs(folder.path(), &[0, 1, 2, 3].map(place));
+    let x_folder = folder.path().join("x");
+    let wayland_folder = folder.path().join("wayland");
+    for folder in [&x_folder, &wayland_folder] {
+        std::fs::create_dir(folder).map_err(|error| error.to_string())?;
+    }
+    let place = |name: String, backend| (backend, format!("name = \"{name}\", x_px = 0, y_px = 0"));
+    let on_x = [0, 1, 2, 3].map(|backend| place(format!("DUMMY{backend}"), backend));
+    let on_x = display_on_outputs(&x_folder, &on_x);
+    let on_wayland = [0, 1, 2, 3].map(|backend| place(format!("HEADLESS-{}", backend + 1), backend));
+    let on_wayland = display_on_outputs(&wayland_folder, &on_wayland);
     let server = XServer::four_outputs(folder.path());
-    let nothing = ("nothing", "none", &small, None);
-    let outputs = server.as_ref().map(|server| ("four outputs", "outputs", &on_outputs, Some(server)));
-    let shows = [nothing].into_iter().chain(outputs);
-    for ((onto, output, display, server), rate) in shows.flat_map(|s| RATES_HZ.map(|rate| (s, rate))) {
+    let desktop = WaylandDesktop::four_outputs();
+    let nothing: (_, _, _, &dyn Fn(Command) -> Command) = ("nothing", "none", &small, &|command| command);
+    let x = |command| server.iter().fold(command, |command, server| server.on(command));
+    let wayland = |command| desktop.iter().fold(command, |command, desktop| desktop.on(command));
+    let shows = [
+        Some(nothing),
+        server.as_ref().map(|_| ("four outputs of X", "outputs", &on_x, &x as _)),
+        desktop.as_ref().map(|_| ("four outputs of Wayland", "outputs", &on_wayland, &wayland as _)),
+    ];
+    let shows = shows.into_iter().flatten();
+    for ((onto, output, display, on), rate) in shows.flat_map(|s| RATES_HZ.map(|rate| (s, rate))) {
         let words = ["drive", "procedural:shells@16", "--display", display, "--output", output];
         let words = words.into_iter().chain(["--quality", "draft", "--rate", rate]);
         let words: Vec<String> = words.map(str::to_owned).chain(fixed.iter().cloned()).collect();
         let Some(command) = cluster(&words, 4) else { return Ok(()) };
-        let mut command = match server {
-            Some(server) => server.on(command),
-            None => command,
-        };
-        let report = report(&mut command)?;
+        let report = report(&mut on(command))?;
         let beat = &report["beat"];
         let late: f64 =
             beat["backends"].as_array().into_iter().flatten().map(|one| number(&one["late"])).sum();

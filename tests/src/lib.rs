@@ -12,6 +12,8 @@ pub mod compare;
 pub mod data;
 pub mod draw;
 pub mod faulty_source;
+#[cfg(unix)]
+pub mod four_outputs;
 pub mod head;
 pub mod ideal_cut;
 #[cfg(unix)]
@@ -38,5 +40,7 @@ pub mod scanned_head;
 pub mod scenes;
 pub mod techniques;
 pub mod twin_scene;
+#[cfg(unix)]
+pub mod wayland_desktop;
 #[cfg(unix)]
 pub mod x_server;

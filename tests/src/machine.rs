@@ -93,6 +93,13 @@ pub(crate) fn beside_others() {
     });
 }
 
+/// There is no such window system: said aloud, and a failure with LIGHTLOOM_REQUIRE_WINDOWS=1.
+pub fn lacks_windows(what: &str) {
+    println!("SKIPPED: {what}");
+    let is_required = std::env::var("LIGHTLOOM_REQUIRE_WINDOWS").as_deref() == Ok("1");
+    assert!(!is_required, "LIGHTLOOM_REQUIRE_WINDOWS=1, and {what}");
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! X servers without a screen: one desktop, or several named outputs.
 
 use crate::machine;
-use crate::program::{LIMIT, Running, SMALL_DISPLAY, lightloom, run};
+use crate::program::{LIMIT, Running};
 use serde_json::Value;
 use std::fs;
 use std::io::Read;
@@ -52,13 +52,6 @@ pub struct XServer {
     pub root: Window,
 }
 
-/// Said aloud, and a failure with LIGHTLOOM_REQUIRE_WINDOWS=1.
-fn lacks(what: &str) {
-    println!("SKIPPED: {what}");
-    let is_required = std::env::var("LIGHTLOOM_REQUIRE_WINDOWS").as_deref() == Ok("1");
-    assert!(!is_required, "LIGHTLOOM_REQUIRE_WINDOWS=1, and {what}");
-}
-
 impl XServer {
     /// One desktop of 800 × 600; None where there is no Xvfb.
     pub fn desktop() -> Option<Self> {
@@ -88,7 +81,7 @@ impl XServer {
         machine::alone();
         let program = command.get_program().to_string_lossy().into_owned();
         let Ok(mut server) = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn() else {
-            lacks(&format!("there is no {program} on the path"));
+            machine::lacks_windows(&format!("there is no {program} on the path"));
             return None;
         };
         // It writes its number once it takes connections.
@@ -99,7 +92,7 @@ impl XServer {
             number.push(byte[0]);
         }
         if number.is_empty() {
-            lacks(&format!("{program} does not start: {:?}", server.wait()));
+            machine::lacks_windows(&format!("{program} does not start: {:?}", server.wait()));
             return None;
         }
         let name = format!(":{}", String::from_utf8(number).expect("a number is text").trim());
@@ -152,46 +145,6 @@ impl Drop for XServer {
     fn drop(&mut self) {
         self.kill();
     }
-}
-
-/// Writes a display into a folder whose projectors, of 96 × 72 pixels, are each on an output of [`XServer::four_outputs`]:
-/// each with its back-end, and the keys of its place.
-pub fn display_on_outputs(folder: &Path, places: &[(usize, String)]) -> String {
-    let (head, _) = SMALL_DISPLAY.split_once("[projector_line]").expect("its projectors are on a line");
-    let projector = |(index, (backend, place)): (usize, &(usize, String))| {
-        format!(
-            "[[projector]]\nname = \"p{index}\"\ncentre_m = [{}, 0.0, -1.5]\nwidth_px = 96\nheight_px = 72\n\
-             screen_rect_m = [-0.3, -0.225, 0.6, 0.45]\nbackend = {backend}\n\
-             output = {{ name = \"DUMMY{index}\", {place} }}\n",
-            -0.36 + 0.24 * index as f64,
-        )
-    };
-    let path = folder.join("outputs.toml");
-    let text = head.to_owned() + &places.iter().enumerate().map(projector).collect::<String>();
-    fs::write(&path, text).expect("a temporary folder can be written");
-    path.to_string_lossy().into_owned()
-}
-
-/// The pixels of a PNG file as a server has them: 0x00RRGGBB, by rows.
-pub fn pixels_of(path: &Path) -> Vec<u32> {
-    let pixels = image::open(path).expect("it was written").to_rgb8();
-    pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
-}
-
-/// What `simulate` draws of shells: the pixels of each of so many projectors, 0x00RRGGBB.
-pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Vec<u32>> {
-    let folder = out.to_string_lossy();
-    let fixed = ["simulate", "procedural:shells@32", "--display", display, "--device", "cpu"];
-    run(&mut lightloom(&[&fixed[..], &["--out", &folder, "--quiet"]].concat())).succeeded();
-    let picture = |projector: usize| {
-        // As many digits as the last projector has, two at least.
-        let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
-        pixels_of(&path)
-    };
-    let pictures: Vec<Vec<u32>> = (0..projectors).map(picture).collect();
-    let is_lit = |picture: &Vec<u32>| picture.iter().any(|&pixel| pixel != 0);
-    assert!(pictures.iter().all(is_lit), "something is to be seen");
-    pictures
 }
 
 /// The report of a show that ended well.

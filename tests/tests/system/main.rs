@@ -29,6 +29,7 @@ mod same_bytes;
 mod stopped;
 mod store_commands;
 mod tapes;
+mod wayland;
 mod whole_store;
 mod window;
 mod wiring;

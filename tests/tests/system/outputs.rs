@@ -1,50 +1,27 @@
 //! Windows on the named outputs of a real X server without a screen.
 
+use lightloom_tests::four_outputs::{complete_pictures, on_outputs, pixels_of, turned_back, turned_display};
 use lightloom_tests::program::{LIMIT, Running, cluster, lightloom, run, start};
-use lightloom_tests::x_server::{XServer, complete_pictures, display_on_outputs, pixels_of, report};
+use lightloom_tests::x_server::{XServer, report};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ConnectionExt as _, MapState};
 
-/// Four projectors of 96 × 72 pixels, an output each, each turned otherwise; two back-ends.
-const PLACES: [(i16, i16, u32, bool); 4] =
-    [(0, 0, 0, false), (17, 30, 90, false), (300, 400, 180, true), (568, 5, 270, true)];
-const SIZE: (usize, usize) = (96, 72);
 /// Where the outputs are on the desktop.
 const OUTPUTS: [(i16, i16); 4] = [(0, 0), (640, 0), (0, 480), (640, 480)];
 
+const NAMES: [&str; 4] = ["DUMMY0", "DUMMY1", "DUMMY2", "DUMMY3"];
+
 fn display(folder: &Path) -> String {
-    let place = |(index, (x, y, turn, mirrored)): (usize, (i16, i16, u32, bool))| {
-        let backend = index / 2;
-        (backend, format!("x_px = {x}, y_px = {y}, turn_deg = {turn}, mirrored = {mirrored}"))
-    };
-    display_on_outputs(folder, &PLACES.into_iter().enumerate().map(place).collect::<Vec<_>>())
+    turned_display(folder, NAMES)
 }
 
-/// What is seen of a projector, turned back: rows of the picture from its top.
+/// What is seen of a projector, turned back.
 fn picture(server: &XServer, projector: usize) -> Vec<u32> {
-    let ((x, y, turn, is_mirrored), (left, top)) = (PLACES[projector], OUTPUTS[projector]);
-    let (width, height) = if turn % 180 == 0 { SIZE } else { (SIZE.1, SIZE.0) };
-    let seen = server.pixels(left + x, top + y, width as u16, height as u16);
-    // The place of each of its pixels, found by walking the picture: to its right and down, as turned.
-    let at = |column: usize, row: usize| {
-        let column = if is_mirrored { SIZE.0 - 1 - column } else { column };
-        let (u, v) = match turn {
-            0 => (column, row),
-            90 => (width - 1 - row, column),
-            180 => (width - 1 - column, height - 1 - row),
-            _ => (row, height - 1 - column),
-        };
-        seen[v * width + u]
-    };
-    (0..SIZE.1).flat_map(|row| (0..SIZE.0).map(move |column| (column, row))).map(|(c, r)| at(c, r)).collect()
-}
-
-fn arguments<'a>(display: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let fixed = ["drive", "procedural:shells@32", "--display", display, "--device", "cpu", "--fade", "0"];
-    [&fixed[..], &["--output", "outputs", "--rate", "20", "--caster", "rays", "--json"], more].concat()
+    let (left, top) = OUTPUTS[projector];
+    turned_back(projector, |x, y, width, height| server.pixels(left + x, top + y, width, height))
 }
 
 fn ended(running: Running) -> String {
@@ -61,7 +38,7 @@ fn four_outputs_show_the_complete_pictures_whoever_draws_them() {
     let complete = complete_pictures(&display, &folder.path().join("out"), 4);
     let shows = |server: &XServer, projector: usize| picture(server, projector) == complete[projector];
     let dump = folder.path().join("dump").to_string_lossy().into_owned();
-    let command = lightloom(&arguments(&display, &["--backends", "2", "--dump", &dump]));
+    let command = lightloom(&on_outputs(&display, &["--backends", "2", "--dump", &dump]));
     let running = start(&mut server.on(command));
     server.wait_for("the complete pictures, to the code", |server| (0..4).all(|p| shows(server, p)));
     // Around them all is black.
@@ -74,7 +51,7 @@ fn four_outputs_show_the_complete_pictures_whoever_draws_them() {
         pixels_of(&last.join(format!("projector-{projector:02}.png")))
     };
     assert!((0..4).all(|projector| shown(projector) == complete[projector]), "the dump is what was seen");
-    if let Some(command) = cluster(&arguments(&display, &["--for", "6"]), 2) {
+    if let Some(command) = cluster(&on_outputs(&display, &["--for", "6"]), 2) {
         let running = start(&mut server.on(command));
         server.wait_for("the same by two processes", |server| (0..4).all(|p| shows(server, p)));
         assert_eq!(report(running)["end"], "planned");
@@ -87,7 +64,7 @@ fn outputs_that_change_and_windows_that_close_are_followed() {
     let Some(server) = XServer::four_outputs(folder.path()) else { return };
     let display = display(folder.path());
     let complete = complete_pictures(&display, &folder.path().join("out"), 4);
-    let running = start(&mut server.on(lightloom(&arguments(&display, &["--backends", "2"]))));
+    let running = start(&mut server.on(lightloom(&on_outputs(&display, &["--backends", "2"]))));
     let shows = |projector: usize| {
         let wanted = &complete[projector];
         server.wait_for(&format!("projector {projector}"), |server| picture(server, projector) == *wanted);
@@ -142,7 +119,7 @@ fn what_outputs_cannot_show_is_refused_in_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     let display = display(folder.path());
     let bare = |display: &str, more: &[&str]| {
-        let mut command = lightloom(&arguments(display, more));
+        let mut command = lightloom(&on_outputs(display, more));
         command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
         command
     };
@@ -155,6 +132,6 @@ fn what_outputs_cannot_show_is_refused_in_a_sentence() {
     assert!(listed.contains("output = { name = \"DUMMY3\", x_px = 0, y_px = 0 }    # 640 × 480"), "{listed}");
     let other = fs::read_to_string(&display).unwrap().replace("DUMMY", "HDMI-");
     fs::write(&display, other).unwrap();
-    run(&mut server.on(lightloom(&arguments(&display, &[]))))
+    run(&mut server.on(lightloom(&on_outputs(&display, &[]))))
         .refused(&["none of the outputs HDMI-0, HDMI-1, HDMI-2, HDMI-3 is connected"]);
 }

@@ -1,7 +1,8 @@
 //! A real window of a real window system, without a screen.
 
+use lightloom_tests::four_outputs::complete_pictures;
 use lightloom_tests::program::{LIMIT, Running, lightloom, small_display, start};
-use lightloom_tests::x_server::{XServer, complete_pictures, report};
+use lightloom_tests::x_server::{XServer, report};
 use std::thread::sleep;
 use std::time::Duration;
 use x11rb::connection::Connection;

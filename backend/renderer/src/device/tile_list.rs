@@ -1,6 +1,5 @@
 //! Lists of tiles: mostly all of a raster, seldom some.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 /// Numbers of tiles, in an order. Neighbours that follow each other are one run, so that all tiles of a raster take no more
@@ -86,12 +85,6 @@ impl FromIterator<u32> for TileList {
 impl Extend<u32> for TileList {
     fn extend<I: IntoIterator<Item = u32>>(&mut self, tiles: I) {
         tiles.into_iter().for_each(|tile| self.push(tile));
-    }
-}
-
-impl<'a> From<&'a TileList> for Cow<'a, TileList> {
-    fn from(list: &'a TileList) -> Self {
-        Cow::Borrowed(list)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Pixels as an X server takes them.
+//! Pixels as window systems take them.
 
 use crate::ScreenError;
 use display_config::Turn;
@@ -9,7 +9,7 @@ use x11rb::protocol::xproto::{ImageOrder, Screen, Setup, VisualClass};
 /// Red, green and blue of a pixel.
 const MASKS: [u32; 3] = [0xff_0000, 0xff00, 0xff];
 
-/// How a server lays a pixel out: 32 bits, 8 for each colour. Every desktop of today has it so.
+/// How a pixel is laid out: 32 bits, 8 for each colour. Every desktop of today has it so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// Bits that count.
@@ -19,7 +19,10 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// That of a screen.
+    /// Bytes are blue, green, red and nothing: XRGB8888 of Wayland, and X servers on most processors.
+    pub const BLUE_FIRST: Self = Self { depth: 24, is_blue_first: true };
+
+    /// That of a screen of an X server.
     ///
     /// # Errors
     /// It has another one.
@@ -71,7 +74,7 @@ mod tests {
     fn bytes_are_as_the_server_orders_them() {
         let image = ScreenImage { projector: 0, width: 2, height: 1, rgb: vec![1, 2, 3, 4, 5, 6] };
         let upright = Turn::default();
-        let little = Layout { depth: 24, is_blue_first: true };
+        let little = Layout::BLUE_FIRST;
         assert_eq!(little.bytes(&image, upright), [3, 2, 1, 0, 6, 5, 4, 0]);
         assert_eq!(
             Layout { is_blue_first: false, ..little }.bytes(&image, upright),

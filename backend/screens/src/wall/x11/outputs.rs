@@ -1,8 +1,7 @@
 //! The video outputs of an X server, as its RandR extension tells them.
 
-use crate::ScreenError;
-use crate::edid::product_name;
-use serde::Serialize;
+use super::edid::product_name;
+use crate::{Mode, OutputInfo, Rectangle, ScreenError};
 use std::collections::HashMap;
 use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::randr::{self, ConnectionExt as _};
@@ -11,45 +10,6 @@ use x11rb::rust_connection::RustConnection;
 
 /// A block of EDID has 128 bytes, in words of 4.
 const EDID_WORDS: u32 = 32;
-
-/// Pixels of the desktop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Rectangle {
-    /// Of its top left pixel.
-    pub x: i16,
-    /// Of its top left pixel.
-    pub y: i16,
-    /// Pixels along x.
-    pub width: u16,
-    /// Pixels along y.
-    pub height: u16,
-}
-
-/// A way to drive an output.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Mode {
-    /// Pixels along x.
-    pub width: u16,
-    /// Pixels along y.
-    pub height: u16,
-    /// Pictures per second; 0 where the server does not say.
-    pub rate_hz: f64,
-}
-
-/// A video output.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct OutputInfo {
-    /// The connector's name.
-    pub connector: String,
-    /// Whether anything is connected to it, as far as the server knows.
-    pub is_connected: bool,
-    /// What calls itself what there.
-    pub product: Option<String>,
-    /// The part of the desktop that it shows, and how; None where it is off.
-    pub shows: Option<(Rectangle, Mode)>,
-    /// The modes that it offers, the best first as the server sorts them.
-    pub modes: Vec<Mode>,
-}
 
 /// The outputs of the X server that DISPLAY names.
 ///

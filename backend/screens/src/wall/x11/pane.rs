@@ -2,26 +2,15 @@
 
 use super::server::Server;
 use super::surface::Surface;
+use crate::wall::group::{Group, Part};
 use crate::{OutputInfo, Rectangle, ScreenError};
-use display_config::Output;
-use glam::UVec2;
 use protocol::ScreenImage;
 use x11rb::protocol::xproto::{ConnectionExt as _, Pixmap, Screen, Window};
 
-/// A projector of an output.
-#[derive(Clone, Debug)]
-pub struct Part {
-    pub projector: u32,
-    pub name: String,
-    pub picture: UVec2,
-    pub output: Output,
-}
-
 /// The window of an output, or of the whole desktop.
 pub struct Pane {
-    /// None is the whole desktop.
-    pub connector: Option<String>,
-    parts: Vec<Part>,
+    /// Whose pictures it shows, and where.
+    pub group: Group,
     /// None while there is no such output.
     open: Option<Surface>,
     /// Whether anybody was told that there is none.
@@ -29,14 +18,9 @@ pub struct Pane {
 }
 
 impl Pane {
-    /// That of a connector, which has no window yet.
-    pub fn new(connector: Option<String>, parts: Vec<Part>) -> Self {
-        Self { connector, parts, open: None, is_missed: false }
-    }
-
-    /// What people call it.
-    pub fn name(&self) -> String {
-        self.connector.as_ref().map_or_else(|| "the desktop".to_owned(), |name| format!("output {name}"))
+    /// That of some projectors, which has no window yet.
+    pub fn new(group: Group) -> Self {
+        Self { group, open: None, is_missed: false }
     }
 
     /// Whether it has a window.
@@ -59,21 +43,21 @@ impl Pane {
         self.close(server)?;
         let Some(place) = place else {
             self.is_missed = true;
-            return Ok(vec![self.absence(outputs)]);
+            return Ok(vec![self.group.absence(outputs)]);
         };
-        self.open = Some(Surface::new(server, &self.name(), place)?);
+        self.open = Some(Surface::new(server, &self.group.name(), place)?);
         let Rectangle { width, height, x, y } = place;
         let mut said = Vec::new();
         if before.is_some() || std::mem::take(&mut self.is_missed) {
-            said.push(format!("{} now shows {width} × {height} pixels from {x}, {y}", self.name()));
+            said.push(format!("{} now shows {width} × {height} pixels from {x}, {y}", self.group.name()));
         }
-        said.extend(self.parts.iter().filter_map(|part| self.cut(part, place)));
+        said.extend(self.group.cuts(width.into(), height.into()));
         Ok(said)
     }
 
     /// Where its output is on the desktop; None where it is off.
     fn place(&self, server: &Server, outputs: &[OutputInfo]) -> Option<Rectangle> {
-        let Some(connector) = &self.connector else {
+        let Some(connector) = &self.group.connector else {
             let Screen { width_in_pixels: width, height_in_pixels: height, .. } = server.screen;
             return Some(Rectangle { x: 0, y: 0, width, height });
         };
@@ -81,45 +65,13 @@ impl Pane {
         output.shows.map(|(place, _)| place)
     }
 
-    /// Why there is no window.
-    fn absence(&self, outputs: &[OutputInfo]) -> String {
-        let names: Vec<&str> = self.parts.iter().map(|part| part.name.as_str()).collect();
-        let output = outputs.iter().find(|output| Some(&output.connector) == self.connector.as_ref());
-        let why = match output {
-            None => "does not exist: check its name with `lightloom outputs`",
-            Some(output) if !output.is_connected => "has nothing connected to it: check the cable",
-            Some(_) => "is off: switch it on, for instance with xrandr",
-        };
-        format!("{} {why}; until then {} shows nothing", self.name(), names.join(", "))
-    }
-
-    /// A sentence where a picture does not fit.
-    fn cut(&self, part: &Part, place: Rectangle) -> Option<String> {
-        let (first, size) = (part.output.first_px, part.output.turn.size(part.picture));
-        let end = first + size;
-        let fits = end.x <= u32::from(place.width) && end.y <= u32::from(place.height);
-        (!fits).then(|| {
-            format!(
-                "{} has {} × {} pixels, and the picture of {} takes {} × {} from {}, {}: it loses an edge",
-                self.name(),
-                place.width,
-                place.height,
-                part.name,
-                size.x,
-                size.y,
-                first.x,
-                first.y
-            )
-        })
-    }
-
     /// Its window was closed by somebody: opens it again.
     pub fn reopen(&mut self, server: &Server) -> Result<String, ScreenError> {
         if let Some(open) = self.open.take() {
             open.forget(server)?;
-            self.open = Some(Surface::new(server, &self.name(), open.place())?);
+            self.open = Some(Surface::new(server, &self.group.name(), open.place())?);
         }
-        Ok(format!("somebody closed the window on {}; it is open again", self.name()))
+        Ok(format!("somebody closed the window on {}; it is open again", self.group.name()))
     }
 
     /// Whether the server is done with a picture that another has taken the place of, so that it can take the next.
@@ -131,8 +83,8 @@ impl Pane {
     pub fn ready(&mut self, server: &Server, images: &[ScreenImage]) -> Result<(), ScreenError> {
         let Some(open) = &mut self.open else { return Ok(()) };
         let image_of = |part: &Part| images.iter().find(|image| image.projector == part.projector);
-        open.begin(server, self.parts.iter().any(|part| image_of(part).is_none()))?;
-        for part in &self.parts {
+        open.begin(server, self.group.parts.iter().any(|part| image_of(part).is_none()))?;
+        for part in &self.group.parts {
             if let Some(image) = image_of(part) {
                 open.put(server, image, &part.output)?;
             }

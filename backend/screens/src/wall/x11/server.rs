@@ -1,6 +1,6 @@
 //! The X server that a wall's windows are on.
 
-use super::pixels::Layout;
+use crate::wall::pixels::Layout;
 use x11rb::protocol::xproto::{Cursor, Screen};
 use x11rb::rust_connection::RustConnection;
 
