@@ -52,7 +52,7 @@ fn turned(from_ray: Ray, direction_in_display: vec3<f32>) -> Ray {
     return ray;
 }
 
-// Whether it is along each axis: vectors are never indexed by a variable, or they would lie in memory.
+// Whether it is along each axis. All axes at once: a vector that is indexed by a variable lies in memory.
 fn are_parallel(ray: Ray) -> vec3<bool> {
     return abs(ray.direction_in_volume) < vec3<f32>(PARALLEL);
 }

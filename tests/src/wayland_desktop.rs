@@ -2,6 +2,8 @@
 
 use crate::machine;
 use crate::x_server::XServer;
+use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
 use std::os::unix::process::CommandExt;
@@ -110,6 +112,22 @@ impl WaylandDesktop {
         command.arg("-s").arg(&self.orders).arg(words).stdout(Stdio::null());
         let done = self.on(command).status();
         assert!(done.is_ok_and(|status| status.success()), "swaymsg {words}");
+    }
+
+    /// The windows of lightloom there, by the desktop's numbers.
+    pub fn windows(&self) -> BTreeSet<u64> {
+        let mut command = Command::new("swaymsg");
+        command.arg("-s").arg(&self.orders).args(["-r", "-t", "get_tree"]);
+        let told = self.on(command).output().expect("it comes with sway").stdout;
+        let tree: Value = serde_json::from_slice(&told).expect("the tree is JSON");
+        let (mut windows, mut left) = (BTreeSet::new(), vec![&tree]);
+        while let Some(node) = left.pop() {
+            if node["app_id"] == "lightloom" {
+                windows.extend(node["id"].as_u64());
+            }
+            left.extend(["nodes", "floating_nodes"].iter().filter_map(|of| node[of].as_array()).flatten());
+        }
+        windows
     }
 
     /// Takes an output away: closes its window on the X server.

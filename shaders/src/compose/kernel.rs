@@ -91,7 +91,7 @@ fn spread_wgsl(needs: &Needs) -> Vec<&'static str> {
     vec![module!("spread/level"), levels]
 }
 
-fn gradient_wgsl(needs: &Needs, filter: Filter) -> Vec<&'static str> {
+fn gradient_wgsl(needs: &Needs) -> Vec<&'static str> {
     if !needs.reads_gradients() {
         return vec![module!("gradient/none")];
     }
@@ -101,8 +101,7 @@ fn gradient_wgsl(needs: &Needs, filter: Filter) -> Vec<&'static str> {
         (false, Levels::Single, true) => module!("gradient/toward_parent"),
         (false, Levels::Single, false) => module!("gradient/own"),
     };
-    let differences = if filter == Filter::Hardware { "" } else { module!("sample/differences") };
-    vec![differences, module!("gradient/central"), which]
+    vec![module!("gradient/central"), which]
 }
 
 fn shade_wgsl(needs: &Needs) -> Vec<&'static str> {
@@ -148,9 +147,9 @@ impl KernelKey {
     pub fn wgsl(&self) -> String {
         let needs = &self.needs;
         let sample = match self.filter {
-            Filter::Hardware => module!("sample/hardware"),
-            Filter::Gathered => module!("sample/gathered"),
-            Filter::Exact => module!("sample/exact"),
+            Filter::Hardware => &[module!("sample/hardware")][..],
+            Filter::Gathered => &[module!("sample/gathered"), module!("sample/quads")],
+            Filter::Exact => &[module!("sample/exact"), module!("sample/quads")],
         };
         let way = match needs.way {
             Way::Straight => &[module!("way/straight")][..],
@@ -168,11 +167,11 @@ impl KernelKey {
             module!("traverse"),
             module!("tables"),
             place,
-            sample,
         ];
+        modules.extend(sample);
         modules.extend(levels_wgsl(needs));
         modules.extend(spread_wgsl(needs));
-        modules.extend(gradient_wgsl(needs, self.filter));
+        modules.extend(gradient_wgsl(needs));
         modules.extend(composite_wgsl(needs));
         modules.extend(shade_wgsl(needs));
         let chain = chain::wgsl(&needs.chain, needs.reads_importance());

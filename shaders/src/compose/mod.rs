@@ -3,7 +3,7 @@
 //! | slot | modules |
 //! | --- | --- |
 //! | rays | `listed` and `cast`, or `short` |
-//! | filter | `sample/hardware`, or `gathered` or `exact` with `differences` |
+//! | filter | `sample/hardware`, or `gathered` or `exact` with `quads` |
 //! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
 //! | weights | `levels/no_weights`, `levels/weights` |

@@ -1,4 +1,4 @@
-//! The stored sample at a point of a brick: the twin of `wgsl/sample/exact.wgsl`. The texture unit has no twin.
+//! The stored sample at a point of a brick: the twin of `wgsl/sample/quads.wgsl`. The texture unit has no twin.
 
 use super::four::{between_corners, each, mix};
 use super::{Real, vector::Vec3};

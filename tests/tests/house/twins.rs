@@ -31,7 +31,7 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 33] = [
     ),
     ("place/halved", Some("shaders/twin/src/tables.rs"), "a branch in the twin"),
     ("place/listed", Some("shaders/twin/src/tables.rs"), "a branch in the twin"),
-    ("sample/differences", Some("shaders/twin/src/sample.rs"), "it lies beside the twin's way to sample"),
+    ("sample/quads", Some("shaders/twin/src/sample.rs"), "the twin has one way to sample"),
     (
         "sample/exact",
         Some("shaders/twin/src/sample.rs"),

@@ -93,9 +93,12 @@ fn outputs_of_wayland_that_change_and_windows_that_close_are_followed() {
     desktop.unplug(&server, "X11-2");
     desktop.wait_for("one output less", |desktop| desktop.pixels("X11-2").is_none());
     shows("with an output less", &[0, 2, 3]);
+    let before = desktop.windows();
     desktop.order("[app_id=lightloom] kill");
-    // The windows that are opened again show the same.
-    sleep(Duration::from_millis(500));
+    desktop.wait_for("new windows", |desktop| {
+        let now = desktop.windows();
+        now.len() == before.len() && now.is_disjoint(&before)
+    });
     shows("in new windows", &[0, 2, 3]);
     let said = ended(running);
     let lines = [

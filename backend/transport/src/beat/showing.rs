@@ -164,6 +164,8 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
     let (mut stage, mut windows) = (Stage::default(), Windows::default());
     let mut tended = Instant::now();
     loop {
+        // All that was said meanwhile: a window system may take longer to show a frame than the next one takes to come.
+        inbox.try_iter().for_each(|cue| take(cue, &mut stage, &mut windows));
         let mut wait = windows.wall.as_ref().map(|_| TEND_INTERVAL.saturating_sub(tended.elapsed()));
         if let Some((frame, when)) = stage.due(now_us()) {
             let left = Duration::from_micros(when.saturating_sub(now_us()));
@@ -184,17 +186,7 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
             None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
         };
         match cue {
-            Ok(Cue::Wall(wall)) => windows.wall = Some(wall),
-            Ok(Cue::Picture(image)) => windows.coming.push(image),
-            Ok(Cue::Drawn(frame)) => {
-                windows.drawn(frame);
-                stage.drawn(frame);
-            }
-            Ok(Cue::Asked) => {
-                stage.asked();
-                windows.drawn.retain(|&frame, _| stage.awaits(frame));
-            }
-            Ok(Cue::Show { frame, at_us }) => stage.order(frame, at_us),
+            Ok(cue) => take(cue, &mut stage, &mut windows),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         }
@@ -202,6 +194,22 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
             wall.tend()?.into_iter().for_each(|sentence| tell(outbox, Told::Said(sentence)));
             tended = Instant::now();
         }
+    }
+}
+
+fn take(cue: Cue, stage: &mut Stage, windows: &mut Windows) {
+    match cue {
+        Cue::Wall(wall) => windows.wall = Some(wall),
+        Cue::Picture(image) => windows.coming.push(image),
+        Cue::Drawn(frame) => {
+            windows.drawn(frame);
+            stage.drawn(frame);
+        }
+        Cue::Asked => {
+            stage.asked();
+            windows.drawn.retain(|&frame, _| stage.awaits(frame));
+        }
+        Cue::Show { frame, at_us } => stage.order(frame, at_us),
     }
 }
 
@@ -244,6 +252,43 @@ mod tests {
         fn tend(&mut self) -> Result<Vec<String>, WallError> {
             Err(WallError("the server is gone".to_owned()))
         }
+    }
+
+    /// One whose window system takes its time.
+    struct Slow(Duration);
+
+    impl Wall for Slow {
+        fn ready(&mut self, _: &[ScreenImage]) -> Result<(), WallError> {
+            Ok(())
+        }
+
+        fn show(&mut self) -> Result<(), WallError> {
+            std::thread::sleep(self.0);
+            Ok(())
+        }
+
+        fn tend(&mut self) -> Result<Vec<String>, WallError> {
+            Ok(Vec::new())
+        }
+    }
+
+    #[test]
+    fn a_slow_window_system_leaves_frames_out_and_never_falls_behind() {
+        let thread = ShowThread::start().unwrap();
+        thread.equip(Box::new(Slow(Duration::from_millis(100))));
+        let last = 39;
+        for frame in 0..=last {
+            thread.drawn(frame);
+            thread.show(frame, None);
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let since = Instant::now();
+        let mut shown = 0;
+        while !matches!(next(&thread), Told::Shown { frame, .. } if frame == last) {
+            shown += 1;
+        }
+        // What it is at when the last frame comes, and that one; all others would take four seconds.
+        assert!(since.elapsed() < Duration::from_secs(1) && shown < last, "{:?}, {shown}", since.elapsed());
     }
 
     #[test]

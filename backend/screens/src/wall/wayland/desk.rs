@@ -21,6 +21,8 @@ pub struct Desk {
     pub news: Vec<String>,
     /// Whether any output may have changed, or a window was closed.
     pub has_moved: bool,
+    /// Whether it has ever said when it showed something. Some offer to and never do.
+    pub tells: bool,
     /// Why it cannot go on, where an event told.
     pub failure: Option<ScreenError>,
 }
@@ -37,8 +39,15 @@ impl Desk {
     ) -> Result<Self, ScreenError> {
         let globals = Globals::bind(offered, queue)?;
         let registry = offered.registry();
-        let mut desk =
-            Self { globals, screens: Vec::new(), panes, news: Vec::new(), has_moved: true, failure: None };
+        let mut desk = Self {
+            globals,
+            screens: Vec::new(),
+            panes,
+            news: Vec::new(),
+            has_moved: true,
+            tells: false,
+            failure: None,
+        };
         offered.contents().with_list(|list| {
             for global in list.iter().filter(|global| global.interface == "wl_output") {
                 desk.add_screen(registry, global.name, global.version);

@@ -5,6 +5,7 @@ use super::globals::Hears;
 use super::surface::Surface;
 use wayland_client::globals::GlobalListContents;
 use wayland_client::protocol::wl_buffer::{self, WlBuffer};
+use wayland_client::protocol::wl_callback::{self, WlCallback};
 use wayland_client::protocol::wl_compositor::WlCompositor;
 use wayland_client::protocol::wl_output::{self, WlOutput};
 use wayland_client::protocol::wl_pointer::{self, WlPointer};
@@ -177,8 +178,25 @@ impl Dispatch<WpPresentationFeedback, (usize, u32)> for Desk {
         _: &QueueHandle<Self>,
     ) {
         use wp_presentation_feedback::Event::{Discarded, Presented};
+        desk.tells |= matches!(event, Presented { .. });
         if let (Presented { .. } | Discarded, Some(surface)) = (event, desk.surface(index)) {
             surface.shown(serial);
+        }
+    }
+}
+
+impl Dispatch<WlCallback, (usize, u32)> for Desk {
+    /// It is a good time for another picture: this one is on its way to the output, where nothing better is ever told.
+    fn event(
+        desk: &mut Self,
+        _: &WlCallback,
+        _: wl_callback::Event,
+        &(index, serial): &(usize, u32),
+        _: &Connection,
+        _: &QueueHandle<Self>,
+    ) {
+        if !desk.tells {
+            desk.surface(index).into_iter().for_each(|surface| surface.shown(serial));
         }
     }
 }

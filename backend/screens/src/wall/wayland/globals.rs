@@ -3,6 +3,7 @@
 use crate::ScreenError;
 use wayland_client::globals::{BindError, GlobalList};
 use wayland_client::protocol::wl_buffer::WlBuffer;
+use wayland_client::protocol::wl_callback::WlCallback;
 use wayland_client::protocol::wl_compositor::WlCompositor;
 use wayland_client::protocol::wl_seat::WlSeat;
 use wayland_client::protocol::wl_shm::WlShm;
@@ -37,6 +38,7 @@ pub trait Hears:
     + Dispatch<ZwpIdleInhibitorV1, ()>
     + Dispatch<WlShmPool, ()>
     + Dispatch<WlBuffer, usize>
+    + Dispatch<WlCallback, (usize, u32)>
     + Dispatch<WpPresentationFeedback, (usize, u32)>
     + 'static
 {

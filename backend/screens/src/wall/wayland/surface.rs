@@ -193,10 +193,12 @@ impl Surface {
         self.surface.attach(Some(&picture.buffer), 0, 0);
         self.surface.damage_buffer(0, 0, i32::MAX, i32::MAX);
         self.serial = self.serial.wrapping_add(1);
+        let number = (self.index, self.serial);
         if let Some(presentation) = &globals.presentation {
-            presentation.feedback(&self.surface, &globals.queue, (self.index, self.serial));
-            self.has_shown = false;
+            presentation.feedback(&self.surface, &globals.queue, number);
         }
+        self.surface.frame(&globals.queue, number);
+        self.has_shown = false;
         self.surface.commit();
     }
 

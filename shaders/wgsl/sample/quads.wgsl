@@ -1,3 +1,20 @@
+// The stored sample at a point of a brick, and its differences, interpolated in f32 from fours of neighbours.
+
+// `origin` is the slot's first texel, `point` in texels of the brick, sample centres at integer + 0.5. The slot enters as
+// whole numbers alone, so that the same point of a brick gives the same bits in any slot.
+fn sample_atlas(origin: vec3<f32>, point: vec3<f32>) -> f32 {
+    let shifted = point - 0.5;
+    let base = floor(shifted);
+    let f = shifted - base;
+    let near = quad_at(origin + base);
+    let far = quad_at(origin + base + vec3<f32>(0.0, 0.0, 1.0));
+    let low = vec4<f32>(near.xz, far.xz);
+    let high = vec4<f32>(near.yw, far.yw);
+    let along_x = low + (high - low) * f.x;
+    let along_y = along_x.xz + (along_x.yw - along_x.xz) * f.y;
+    return along_y.x + (along_y.y - along_y.x) * f.z;
+}
+
 // Differences of the samples one texel ahead and one behind, along each axis: the same as six samples. Neighbours a whole texel
 // apart share their weights, so texels are subtracted before they are weighed.
 fn differences(origin: vec3<f32>, point: vec3<f32>) -> vec3<f32> {
