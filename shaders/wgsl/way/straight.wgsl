@@ -6,6 +6,10 @@ struct Marched {
     is_done: bool,
 }
 
+// Whether a ray adds one part of a step, or begins one pair, at a time, so that those beside it that cut their steps finer do
+// not hold it up. On a processor in place of a GPU each turn takes as long as both.
+override INTERLEAVES: bool = true;
+
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out too
 // long for the tolerance, each of them is split into equal parts. If samples blend levels, the rest of the way is
 // divided anew after each pair, into pairs as long as the level there allows.
@@ -19,22 +23,28 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
     var known = false;
     var s2 = 0.0;
     var i = 0.0;
-    // Rays whose neighbours cut their steps do not wait for them: a part is added, or a pair begun, at a time.
     var steps_left = 0u;
     var cut: Cut;
     var second: Step;
     while i < pairs || steps_left > 0u {
-        if steps_left > 0u {
+        while steps_left > 0u {
             if !add_part(&front, &cut, brick, ray) {
                 marched.samples += cut.samples;
                 steps_left -= 1u;
                 if steps_left > 0u {
                     cut = cut_into(second, cut.parts);
-                } else if still_to_come(front) < scene.quality.y {
-                    marched.is_done = true;
-                    break;
+                } else {
+                    marched.is_done = still_to_come(front) < scene.quality.y;
                 }
             }
+            if INTERLEAVES {
+                break;
+            }
+        }
+        if marched.is_done {
+            break;
+        }
+        if steps_left > 0u || i >= pairs {
             continue;
         }
         let t0 = from_t + 2.0 * i * step;

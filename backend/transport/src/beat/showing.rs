@@ -164,8 +164,6 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
     let (mut stage, mut windows) = (Stage::default(), Windows::default());
     let mut tended = Instant::now();
     loop {
-        // All that was said meanwhile: a window system may take longer to show a frame than the next one takes to come.
-        inbox.try_iter().for_each(|cue| take(cue, &mut stage, &mut windows));
         let mut wait = windows.wall.as_ref().map(|_| TEND_INTERVAL.saturating_sub(tended.elapsed()));
         if let Some((frame, when)) = stage.due(now_us()) {
             let left = Duration::from_micros(when.saturating_sub(now_us()));
@@ -173,6 +171,8 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
                 windows.show(frame)?;
                 stage.shown(frame);
                 tell(outbox, Told::Shown { frame, at_us: now_us() });
+                // A window system may take longer to show a frame than others take to come: of those, the newest is next.
+                inbox.try_iter().for_each(|cue| take(cue, &mut stage, &mut windows));
                 continue;
             }
             let sleep = left.saturating_sub(WAKES_BEFORE).max(left.min(DOZE));
