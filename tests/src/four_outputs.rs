@@ -1,6 +1,7 @@
 //! Four projectors on four outputs, each turned otherwise, and what is to be seen there.
 
-use crate::program::{SMALL_DISPLAY, lightloom, run};
+use crate::program::{LIMIT, Running, SMALL_DISPLAY, lightloom, run};
+use image::RgbImage;
 use std::fs;
 use std::path::Path;
 
@@ -67,8 +68,25 @@ pub fn display_on_outputs(folder: &Path, places: &[(usize, String)]) -> String {
 
 /// The pixels of a PNG file as a server has them: 0x00RRGGBB, by rows.
 pub fn pixels_of(path: &Path) -> Vec<u32> {
-    let pixels = image::open(path).expect("it was written").to_rgb8();
-    pixels.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
+    packed(&image::open(path).expect("it was written").to_rgb8())
+}
+
+/// The pixels of a picture in the same way.
+pub fn packed(picture: &RgbImage) -> Vec<u32> {
+    picture.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
+}
+
+/// What so many projectors show in the last frame of a dump.
+pub fn last_dumped(dump: &str, projectors: usize) -> Vec<Vec<u32>> {
+    let frames = fs::read_dir(dump).expect("it was written");
+    let last = frames.map(|entry| entry.expect("it can be read").path()).max().expect("it has frames");
+    (0..projectors).map(|projector| pixels_of(&last.join(format!("projector-{projector:02}.png")))).collect()
+}
+
+/// Interrupts a show, which ends well, and yields what it has said.
+pub fn ended(running: Running) -> String {
+    running.interrupt();
+    running.finish(LIMIT).succeeded().stderr
 }
 
 /// What `simulate` draws of shells: the pixels of each of so many projectors, 0x00RRGGBB.

@@ -7,6 +7,7 @@
 use std::cell::Cell;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::thread;
+use std::time::{Duration, Instant};
 
 /// How a thread has the machine.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -91,6 +92,16 @@ pub(crate) fn beside_others() {
             hold.take(Company::Beside);
         }
     });
+}
+
+/// Looks until what is wanted is to be seen, and fails if it is not within a while.
+#[track_caller]
+pub fn wait_for(what: &str, is_there: impl Fn() -> bool) {
+    let since = Instant::now();
+    while !is_there() {
+        assert!(since.elapsed() < Duration::from_secs(60), "there is no sign of {what}");
+        thread::sleep(Duration::from_millis(100));
+    }
 }
 
 /// There is no such window system: said aloud, and a failure with LIGHTLOOM_REQUIRE_WINDOWS=1.

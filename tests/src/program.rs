@@ -223,6 +223,12 @@ impl Running {
         self.child.id()
     }
 
+    /// Interrupts it, as Ctrl-C does; the test fails where it has ended by itself.
+    pub fn interrupt(&self) {
+        let sent = Command::new("kill").args(["-INT", &self.process().to_string()]).status();
+        assert!(sent.is_ok_and(|status| status.success()), "it had ended by itself");
+    }
+
     /// Waits for its end; the test fails where that is not within `limit` of its start.
     pub fn finish(mut self, limit: Duration) -> Ran {
         let status = self.wait(limit);

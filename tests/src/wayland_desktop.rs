@@ -1,5 +1,6 @@
 //! A Wayland desktop without a screen: sway with several named outputs.
 
+use crate::four_outputs::packed;
 use crate::machine;
 use crate::x_server::XServer;
 use serde_json::Value;
@@ -9,8 +10,6 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use x11rb::errors::ReplyError;
 use x11rb::protocol::xproto::{Atom, AtomEnum, ClientMessageEvent, ConnectionExt as _, EventMask};
@@ -141,22 +140,13 @@ impl WaylandDesktop {
         command.args(["-o", output, "-t", "png", "-"]).stderr(Stdio::null());
         let taken = self.on(command).output().expect("it is on the path");
         let picture = image::load_from_memory(&taken.stdout).ok()?.to_rgb8();
-        let width = picture.width() as usize;
-        let pixels = picture.pixels();
-        Some((
-            width,
-            pixels.map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect(),
-        ))
+        Some((picture.width() as usize, packed(&picture)))
     }
 
     /// Looks until what is wanted is to be seen, and fails if it is not within a while.
     #[track_caller]
     pub fn wait_for(&self, what: &str, is_there: impl Fn(&Self) -> bool) {
-        let since = Instant::now();
-        while !is_there(self) {
-            assert!(since.elapsed() < Duration::from_secs(60), "there is no sign of {what}");
-            sleep(Duration::from_millis(100));
-        }
+        machine::wait_for(what, || is_there(self));
     }
 }
 

@@ -7,8 +7,6 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, Window};
 use x11rb::rust_connection::RustConnection;
@@ -127,11 +125,7 @@ impl XServer {
     /// Looks until what is wanted is to be seen, and fails if it is not within a while.
     #[track_caller]
     pub fn wait_for(&self, what: &str, is_there: impl Fn(&Self) -> bool) {
-        let since = Instant::now();
-        while !is_there(self) {
-            assert!(since.elapsed() < Duration::from_secs(60), "there is no sign of {what}");
-            sleep(Duration::from_millis(100));
-        }
+        machine::wait_for(what, || is_there(self));
     }
 
     /// Ends it at once.

@@ -3,7 +3,6 @@
 use lightloom_tests::program::{Ran, files, lightloom, run, small_display, start};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 /// From the signal to the end: a second or so, and a busy machine.
@@ -92,8 +91,7 @@ fn a_signal_ends_it_soon_and_nothing_is_left() {
     let running = start(&mut lightloom(&arguments(folder.path(), "procedural:shells@48", &rest)));
     std::thread::sleep(Duration::from_secs(2));
     let signalled = Instant::now();
-    let kill = Command::new("kill").args(["-INT", &running.process().to_string()]).status();
-    assert!(kill.is_ok_and(|status| status.success()), "it had ended by itself");
+    running.interrupt();
     let ran = running.finish(Duration::from_secs(60));
     assert!(signalled.elapsed() < SOON, "{:?}", signalled.elapsed());
     assert_eq!(ran.code, Some(130), "{ran:?}");

@@ -7,7 +7,6 @@ use lightloom_tests::program::{
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -175,7 +174,7 @@ fn a_signal_ends_a_show_well() {
     ];
     let running = start(&mut lightloom(&arguments));
     sleep(Duration::from_secs(2));
-    Command::new("kill").args(["-INT", &running.process().to_string()]).status().unwrap();
+    running.interrupt();
     let ran = running.finish(LIMIT).succeeded();
     let report: Value = serde_json::from_str(&ran.stdout).expect("the report is JSON");
     assert_eq!(report["end"], "stopped");

@@ -7,7 +7,6 @@ use serde_json::{Value, json};
 use std::fs;
 use std::os::unix::net::UnixDatagram;
 use std::path::Path;
-use std::process::Command;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -265,7 +264,7 @@ fn a_supervisor_reads_how_it_goes() {
     assert!(now["state"] == "open" || now["state"] == "attract", "{now}");
     assert_eq!(now["process"], running.process());
     assert_eq!(now["inputs"].as_array().unwrap().len(), 2, "{now}");
-    assert!(Command::new("kill").args(["-INT", &running.process().to_string()]).status().unwrap().success());
+    running.interrupt();
     running.finish(LIMIT).succeeded();
     assert_eq!(read().unwrap()["state"], json!("ended"));
     assert!(fs::read_to_string(&log).unwrap().lines().count() >= 2);
@@ -292,7 +291,7 @@ fn a_service_manager_hears_that_it_begins_goes_on_and_ends() {
         assert!(said.contains("WATCHDOG=1") && said.contains("STATUS=") && !said.contains("READY"), "{said}");
     }
     assert!(began.elapsed() > Duration::from_secs(1), "once a second is enough");
-    assert!(Command::new("kill").args(["-INT", &running.process().to_string()]).status().unwrap().success());
+    running.interrupt();
     running.finish(LIMIT).succeeded();
     let last = std::iter::from_fn(|| Some(next())).find(|said| said.contains("STOPPING=1"));
     assert!(last.is_some());

@@ -2,7 +2,6 @@
 
 use lightloom_tests::program::{lightloom, run, start};
 use serde_json::{Value, json};
-use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -29,7 +28,7 @@ fn a_scripted_wand_is_reported() {
 fn who_interrupts_it_gets_the_table() {
     let running = start(&mut lightloom(&["inputs", EXAMPLE]));
     sleep(Duration::from_secs(1));
-    assert!(Command::new("kill").args(["-INT", &running.process().to_string()]).status().unwrap().success());
+    running.interrupt();
     let ran = running.finish(STOPS_WITHIN).succeeded();
     assert!(
         ran.stdout.contains("wand: its script runs") && ran.stdout.contains("sensor 0"),

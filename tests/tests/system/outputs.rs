@@ -1,11 +1,12 @@
 //! Windows on the named outputs of a real X server without a screen.
 
-use lightloom_tests::four_outputs::{complete_pictures, on_outputs, pixels_of, turned_back, turned_display};
-use lightloom_tests::program::{LIMIT, Running, cluster, lightloom, run, start};
+use lightloom_tests::four_outputs::{
+    complete_pictures, ended, last_dumped, on_outputs, turned_back, turned_display,
+};
+use lightloom_tests::program::{cluster, lightloom, run, start};
 use lightloom_tests::x_server::{XServer, report};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ConnectionExt as _, MapState};
 
@@ -24,12 +25,6 @@ fn picture(server: &XServer, projector: usize) -> Vec<u32> {
     turned_back(projector, |x, y, width, height| server.pixels(left + x, top + y, width, height))
 }
 
-fn ended(running: Running) -> String {
-    let process = running.process().to_string();
-    Command::new("kill").args(["-INT", &process]).status().unwrap();
-    running.finish(LIMIT).succeeded().stderr
-}
-
 #[test]
 fn four_outputs_show_the_complete_pictures_whoever_draws_them() {
     let folder = tempfile::tempdir().unwrap();
@@ -46,11 +41,7 @@ fn four_outputs_show_the_complete_pictures_whoever_draws_them() {
     let lit = |pixels: &[u32]| pixels.iter().filter(|&&pixel| pixel != 0).count();
     assert_eq!(lit(&all), complete.iter().map(|picture| lit(picture)).sum::<usize>());
     ended(running);
-    let shown = |projector: usize| {
-        let last = fs::read_dir(&dump).unwrap().map(|entry| entry.unwrap().path()).max().unwrap();
-        pixels_of(&last.join(format!("projector-{projector:02}.png")))
-    };
-    assert!((0..4).all(|projector| shown(projector) == complete[projector]), "the dump is what was seen");
+    assert!(last_dumped(&dump, 4) == complete, "the dump is what was seen");
     if let Some(command) = cluster(&on_outputs(&display, &["--for", "6"]), 2) {
         let running = start(&mut server.on(command));
         server.wait_for("the same by two processes", |server| (0..4).all(|p| shows(server, p)));

@@ -1,11 +1,12 @@
 //! Windows on the named outputs of a real Wayland desktop without a screen.
 
-use lightloom_tests::four_outputs::{complete_pictures, on_outputs, pixels_of, turned_back, turned_display};
-use lightloom_tests::program::{LIMIT, Running, cluster, lightloom, run, start};
+use lightloom_tests::four_outputs::{
+    complete_pictures, ended, last_dumped, on_outputs, turned_back, turned_display,
+};
+use lightloom_tests::program::{cluster, lightloom, run, start};
 use lightloom_tests::wayland_desktop::WaylandDesktop;
 use lightloom_tests::x_server::{XServer, report};
 use std::fs;
-use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -25,12 +26,6 @@ fn picture(desktop: &WaylandDesktop, name: &str, projector: usize) -> Vec<u32> {
     })
 }
 
-fn ended(running: Running) -> String {
-    let process = running.process().to_string();
-    Command::new("kill").args(["-INT", &process]).status().unwrap();
-    running.finish(LIMIT).succeeded().stderr
-}
-
 #[test]
 fn four_outputs_of_wayland_show_the_complete_pictures_whoever_draws_them() {
     let folder = tempfile::tempdir().unwrap();
@@ -44,7 +39,7 @@ fn four_outputs_of_wayland_show_the_complete_pictures_whoever_draws_them() {
     let command = lightloom(&on_outputs(&display, &["--backends", "2", "--dump", &dump]));
     let running = start(&mut desktop.on(command));
     desktop.wait_for("the complete pictures, to the code", |desktop| (0..4).all(|p| shows(desktop, p)));
-    // Around them all is black: no border, no title, no pointer.
+    // Around them all is black: no border, no title.
     let lit = |pixels: &[u32]| pixels.iter().filter(|&&pixel| pixel != 0).count();
     for (name, complete) in NAMES.iter().zip(&complete) {
         assert_eq!(lit(&desktop.pixels(name).unwrap().1), lit(complete), "{name}");
@@ -61,9 +56,7 @@ fn four_outputs_of_wayland_show_the_complete_pictures_whoever_draws_them() {
     desktop.order("output HEADLESS-4 scale 1");
     let said = ended(running);
     assert!(said.contains("output HEADLESS-1 now shows 800 × 600 pixels"), "{said}");
-    let last = fs::read_dir(&dump).unwrap().map(|entry| entry.unwrap().path()).max().unwrap();
-    let shown = |projector: usize| pixels_of(&last.join(format!("projector-{projector:02}.png")));
-    assert!((0..4).all(|projector| shown(projector) == complete[projector]), "the dump is what was seen");
+    assert!(last_dumped(&dump, 4) == complete, "the dump is what was seen");
     if let Some(command) = cluster(&on_outputs(&display, &["--for", "6"]), 2) {
         let running = start(&mut desktop.on(command));
         desktop.wait_for("the same by two processes", |desktop| (0..4).all(|p| shows(desktop, p)));

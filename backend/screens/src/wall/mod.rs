@@ -4,6 +4,7 @@
 
 mod group;
 mod pixels;
+mod waiting;
 mod wayland;
 mod x11;
 

@@ -119,7 +119,7 @@ impl GpuDevice {
         parts: &[(&ViewJob, TileList)],
     ) {
         for arena in 0..self.pictures.arenas.len() {
-            let mut listing = self.listing(arena, parts);
+            let mut listing = self.listing(arena, parts.iter().map(|(view, tiles)| (*view, tiles)));
             if listing.tiles == 0 {
                 continue;
             }
@@ -135,7 +135,11 @@ impl GpuDevice {
     }
 
     /// Those of some tiles of views that lie in an arena.
-    fn listing(&self, arena: usize, parts: &[(&ViewJob, TileList)]) -> Listing {
+    fn listing<'a>(
+        &self,
+        arena: usize,
+        parts: impl Iterator<Item = (&'a ViewJob<'a>, &'a TileList)>,
+    ) -> Listing {
         let mut listing = Listing::default();
         for (view, tiles) in parts {
             if self.lies_in(view, arena) {
@@ -202,9 +206,9 @@ impl GpuDevice {
 
     /// All that was cast, arena by arena.
     fn listings(&self, cast: &[(usize, ViewJob)]) -> Vec<(usize, Listing)> {
-        let parts: Vec<_> = cast.iter().map(|(_, view)| (view, view.tiles.clone().into_owned())).collect();
         let arenas = 0..self.pictures.arenas.len();
-        let listings = arenas.map(|arena| (arena, self.listing(arena, &parts)));
+        let parts = || cast.iter().map(|(_, view)| (view, &*view.tiles));
+        let listings = arenas.map(|arena| (arena, self.listing(arena, parts())));
         listings.filter(|(_, listing)| listing.tiles > 0).collect()
     }
 

@@ -8,6 +8,7 @@ mod screen;
 mod surface;
 
 use super::group::groups;
+use super::waiting::{LOOK_INTERVAL, SHOWN_WITHIN};
 use crate::{OutputInfo, ScreenError};
 use desk::Desk;
 use display_config::Display;
@@ -17,12 +18,6 @@ use std::time::{Duration, Instant};
 use wayland_client::backend::WaylandError;
 use wayland_client::globals::registry_queue_init;
 use wayland_client::{Connection, EventQueue};
-
-/// A refresh takes less. What takes longer, as on an output that sleeps, is not waited for.
-const SHOWN_WITHIN: Duration = Duration::from_millis(100);
-
-/// How often it is looked whether the desktop has shown something.
-const LOOK_INTERVAL: Duration = Duration::from_micros(100);
 
 /// How long the desktop may take to open a window.
 const OPENS_WITHIN: Duration = Duration::from_secs(5);

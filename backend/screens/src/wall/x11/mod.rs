@@ -13,6 +13,7 @@ pub use outputs::outputs;
 
 use super::group::groups;
 use super::pixels::Layout;
+use super::waiting::{LOOK_INTERVAL, SHOWN_WITHIN};
 use crate::{OutputInfo, ScreenError};
 use display_config::Display;
 use pane::Pane;
@@ -28,12 +29,6 @@ use x11rb::rust_connection::RustConnection;
 
 /// How often the server is told that somebody looks, so that it does not blank its outputs: it does so after minutes.
 const WAKE_INTERVAL: Duration = Duration::from_secs(20);
-
-/// A refresh takes less. What takes longer, as on an output that sleeps, is not waited for.
-const SHOWN_WITHIN: Duration = Duration::from_millis(100);
-
-/// How often it is looked whether the server has shown something.
-const LOOK_INTERVAL: Duration = Duration::from_micros(100);
 
 /// The windows of a back-end.
 pub struct XWall {
