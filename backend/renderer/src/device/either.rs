@@ -7,6 +7,7 @@ use super::{
 use layout::NodeRecord;
 use needs::tables::Tables;
 use std::borrow::Cow;
+use twin::ProjectorRays;
 
 /// A device with its brick cache.
 #[derive(Debug)]
@@ -121,6 +122,15 @@ impl Device {
     /// Where nothing was cast into one yet.
     pub fn show(&mut self, jobs: &[ShowJob]) -> Result<Vec<bool>, DeviceError> {
         on_device!(self, device => device.show(jobs))
+    }
+
+    /// How many of some views a complete frame casts together, one at least.
+    pub fn views_at_once(&self, views: &[ProjectorRays<f32>]) -> usize {
+        match self {
+            Self::Cpu(_) => 1,
+            #[cfg(feature = "gpu")]
+            Self::Gpu(device) => device.views_at_once(views),
+        }
     }
 
     /// How many pictures are best shown and handed over together: on the CPU one after the other, which is in its cache then.

@@ -1,7 +1,9 @@
 //! A complete frame: view by view, rounds of casting and loading until nothing is missing.
 //!
 //! Each view has the cache to itself: what only others saw makes room for it. A coarse look by few rays comes first, and
-//! fetches most of what is needed; then every pixel is cast, and again the tiles that missed something.
+//! fetches most of what is needed; then every pixel is cast, and again the tiles that missed something. A device that would
+//! be idle between views casts some of them together, as long as the cache has room for all that these see: so it shows what
+//! each would show alone.
 
 use super::RenderError;
 use super::account::milliseconds;
@@ -14,6 +16,7 @@ use crate::working_set::{Feedback, Moment, Showing};
 use bricks::NodeKey;
 use protocol::{FrameReport, StopAsked};
 use std::collections::HashSet;
+use std::ops::Range;
 use std::time::Instant;
 
 /// The coarse look casts every 16th pixel along x and y.
@@ -56,6 +59,8 @@ pub(super) struct Complete {
     union: HashSet<NodeKey>,
     /// The same of each view, added up.
     sum: u64,
+    /// Whether views were cast together, so that nobody knows what each of them sampled.
+    has_joined_views: bool,
     /// Nodes that stayed too coarse for want of room, over all views.
     short: HashSet<NodeKey>,
     /// Bricks that would have made them fine enough.
@@ -184,7 +189,7 @@ impl Complete {
     /// Casts few rays, all, or some tiles again.
     fn cast(&mut self, work: &mut Work, stage: Stage, tiles: Option<Vec<TileList>>) {
         self.stage = stage;
-        let views = self.view..self.view + work.views_at_once();
+        let views = self.views(work);
         let lattice = if stage == Stage::Looking { coarse(COARSE_STRIDE) } else { work.lattice() };
         let mut pending = Pending::all(&work.setting, views, lattice);
         if stage == Stage::Looking {
@@ -209,6 +214,11 @@ impl Complete {
         self.sampled.iter().any(|&key| cut.node(cut.find_shown(key)).key != key)
     }
 
+    /// The views that are cast together now.
+    fn views(&self, work: &Work) -> Range<usize> {
+        self.view..work.setting.rays.len().min(self.view + work.views_at_once)
+    }
+
     fn end_views(&mut self, work: &mut Work, engine: &mut Engine) {
         let cut = engine.set.cut();
         let is_leaf = |key: &NodeKey| {
@@ -216,16 +226,28 @@ impl Complete {
             (node.key == *key && node.shown_child().is_none()).then_some(node)
         };
         let leaves: Vec<_> = self.sampled.iter().filter_map(is_leaf).collect();
-        self.sum += leaves.len() as u64;
-        self.union.extend(leaves.iter().map(|node| node.key));
-        for node in leaves.into_iter().filter(|node| node.is_visible && node.deficit > 0.0) {
+        let mut short = Vec::new();
+        for node in leaves.iter().filter(|node| node.is_visible && node.deficit > 0.0) {
             let family: Vec<NodeKey> = (0..8).map(|octant| node.key.child(octant)).collect();
             if !engine.stock.damage.note_missed(&family) {
-                self.short.insert(node.key);
-                self.without_room.extend(engine.stock.shown(&family, &work.frame.optics));
+                short.push((node.key, family));
             }
         }
-        let views = self.view..self.view + work.views_at_once();
+        let views = self.views(work);
+        let is_full = !short.is_empty() || self.rounds == MOST_ROUNDS;
+        if is_full && views.len() > 1 && work.setting.caster.fans.is_none() {
+            // Each may have room enough where all have not: they begin again, one by one.
+            work.views_at_once = 1;
+            self.begin(views.start);
+            return;
+        }
+        self.has_joined_views |= views.len() > 1;
+        self.sum += leaves.len() as u64;
+        self.union.extend(leaves.iter().map(|node| node.key));
+        for (key, family) in short {
+            self.short.insert(key);
+            self.without_room.extend(engine.stock.shown(&family, &work.frame.optics));
+        }
         for view in views.clone() {
             let [width, height] = work.setting.rays[view].raster;
             work.account.done += u64::from(width) * u64::from(height);
@@ -233,8 +255,13 @@ impl Complete {
                 work.finals.push(work.setting.projectors[view]);
             }
         }
+        self.begin(views.end);
+    }
+
+    /// A view is next.
+    fn begin(&mut self, view: usize) {
         self.sampled.clear();
-        (self.view, self.stage, self.rounds) = (views.end, Stage::Begun, 0);
+        (self.view, self.stage, self.rounds) = (view, Stage::Begun, 0);
     }
 
     fn report(&self, work: &Work, engine: &mut Engine) -> FrameReport {
@@ -249,7 +276,7 @@ impl Complete {
         FrameReport {
             bricks_wanted: resident + self.without_room.len() as u64,
             working_set_union: self.union.len() as u64,
-            working_set_sum: (work.views_at_once() == 1).then_some(self.sum),
+            working_set_sum: (!self.has_joined_views).then_some(self.sum),
             ..report
         }
     }

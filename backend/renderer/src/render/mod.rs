@@ -47,6 +47,8 @@ mod sub_frame_tests;
 mod table_cache;
 #[cfg(test)]
 mod test_scene;
+#[cfg(test)]
+mod together_tests;
 mod views;
 mod work;
 

@@ -146,7 +146,7 @@ impl Engine {
         self.tables.write_if_new(&mut self.device);
         let account = Account::new(setting.rays());
         let frame = FrameState { sub_frame: None, refinement: None, ..newest };
-        let mut look = Work { glance: Some(lattice), ..Work::new(frame, setting, account) };
+        let mut look = Work { glance: Some(lattice), ..Work::new(frame, setting, account, &self.device) };
         let mut course = Complete::default();
         self.refining.is_disturbed = true;
         loop {

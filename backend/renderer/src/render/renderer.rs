@@ -81,7 +81,7 @@ impl Renderer {
         let Engine { tables, device, .. } = &mut self.engine;
         tables.write_if_new(device);
         let account = Account::new(setting.rays());
-        self.course = Some(Course::new(Work::new(frame, setting, account)));
+        self.course = Some(Course::new(Work::new(frame, setting, account, device)));
         Ok(())
     }
 
@@ -130,6 +130,12 @@ impl Renderer {
     #[cfg(test)]
     pub(super) fn rays_cast(&self) -> u64 {
         self.course.as_ref().map_or(0, |course| course.work.account.rays)
+    }
+
+    /// As a device that casts so many views of a complete frame together.
+    #[cfg(test)]
+    pub(super) fn cast_together(&mut self, views: usize) {
+        self.course.iter_mut().for_each(|course| course.work.views_at_once = views);
     }
 
     /// Hands over the pictures that have become final since it was last called.

@@ -4,7 +4,7 @@ use super::RenderError;
 use super::account::{Account, milliseconds};
 use super::engine::Engine;
 use super::setting::Setting;
-use crate::device::{CastJob, Gather, Part, Patch, TileGrid, TileList};
+use crate::device::{CastJob, Device, Gather, Part, Patch, TileGrid, TileList};
 use crate::present::{Classes, lattice_of};
 use layout::FeedbackEntry;
 use needs::Needs;
@@ -85,12 +85,18 @@ pub(super) struct Work {
     pub(super) newest: Option<FrameState>,
     /// What is known of its pictures, where they are a part of the way to complete ones.
     pub(super) refined: Option<Refined>,
+    /// Views of a complete frame that are cast together.
+    pub(super) views_at_once: usize,
     /// Whether it only looks at a few pixels, which go to pictures of their own and are not shown: these.
     pub(super) glance: Option<Lattice>,
 }
 
 impl Work {
-    pub(super) fn new(frame: FrameState, setting: Setting, account: Account) -> Self {
+    pub(super) fn new(frame: FrameState, setting: Setting, account: Account, device: &Device) -> Self {
+        let views_at_once = match setting.caster.fans {
+            Some(_) => setting.rays.len(),
+            None => device.views_at_once(&setting.rays),
+        };
         Self {
             frame,
             setting,
@@ -104,6 +110,7 @@ impl Work {
             eases: false,
             newest: None,
             refined: None,
+            views_at_once,
             glance: None,
         }
     }
@@ -113,13 +120,13 @@ impl Work {
         (self.account.done, self.account.total)
     }
 
-    /// The device's picture of a view: those of a complete frame that are cast one by one follow each other in one, each
-    /// presented before the next is begun. A coarse look at views whose pixels are kept goes to others.
+    /// The device's picture of a view: those of a complete frame that are cast together follow others in the same pictures,
+    /// which have been presented before. A coarse look at views whose pixels are kept goes to others.
     pub(super) fn picture_of(&self, view: usize) -> usize {
         match self.glance {
             Some(_) => self.setting.rays.len() + view,
             None if self.is_of_many() => view,
-            None => view % self.views_at_once(),
+            None => view % self.views_at_once,
         }
     }
 
@@ -137,11 +144,6 @@ impl Work {
     /// The view of a projector.
     pub(super) fn view_of(&self, projector: u32) -> Option<usize> {
         self.setting.projectors.iter().position(|&known| known == projector)
-    }
-
-    /// Views of a complete frame that are cast together.
-    pub(super) fn views_at_once(&self) -> usize {
-        if self.setting.caster.fans.is_some() { self.setting.rays.len() } else { 1 }
     }
 
     /// Begins to mend what is resampled of pictures that are completely cast. Whether there is anything to mend that is not yet.

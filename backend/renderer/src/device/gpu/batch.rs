@@ -10,6 +10,19 @@ const FIRST: usize = 256;
 /// After a batch that took longer the next are smaller, however few tiles it had: a driver's watchdog waits for some seconds.
 const LONGEST: Duration = Duration::from_millis(500);
 
+/// Pixels of the views that a complete frame casts together, which no other frame is asked for: a GPU would wait for the longest
+/// rays of each view alone. These are 17 views of 800 × 600, and 160 MiB.
+const PIXELS_AT_ONCE: u64 = 1 << 23;
+
+/// How many views of such rasters a complete frame casts together, one at least. A driver in software has no reason to.
+pub(super) fn views_at_once(rasters: impl Iterator<Item = [u32; 2]>, is_software: bool) -> usize {
+    let largest = rasters.map(|[width, height]| u64::from(width) * u64::from(height)).max();
+    match largest {
+        Some(pixels) if !is_software => (PIXELS_AT_ONCE / pixels.max(1)).max(1) as usize,
+        _ => 1,
+    }
+}
+
 /// Some neighbouring items of one of many lists.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Piece {

@@ -2,7 +2,7 @@
 
 use super::arena::Arena;
 use super::atlas::{Atlas, Depth};
-use super::batch::BatchSize;
+use super::batch::{BatchSize, views_at_once};
 use super::context::Context;
 use super::feedback::FrameFeedback;
 use super::pictures::Pictures;
@@ -18,6 +18,7 @@ use protocol::{DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, Lookup};
 use std::borrow::Cow;
 use std::sync::Arc;
+use twin::ProjectorRays;
 
 /// A device with its brick cache.
 #[derive(Debug)]
@@ -141,6 +142,10 @@ impl GpuDevice {
 
     pub(in crate::device) fn slots(&self) -> u32 {
         self.atlas.count()
+    }
+
+    pub(in crate::device) fn views_at_once(&self, views: &[ProjectorRays<f32>]) -> usize {
+        views_at_once(views.iter().map(|rays| rays.raster), self.context.is_software)
     }
 
     pub(in crate::device) fn write_brick(&mut self, slot: u32, samples: &[u16]) {
