@@ -15,28 +15,29 @@ fn pairs_across(brick: Brick, middle: vec3<f32>, length: f32) -> f32 {
     return clamp(ceil(min(way.x, min(way.y, way.z)) / length), 1.0, 1e6);
 }
 
+// A step of a voxel is no longer than this much more.
+const ROUNDED_VOXELS: f32 = 1e-3;
+
 // Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something. A cell
-// is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points of a pair
-// are asked as leave none of it farther than a voxel.
+// is kept with a margin of one voxel, and as many points of a pair are asked as leave none of it farther than a voxel, but for
+// rounding.
 fn pairs_unseen(brick: Brick, t: f32, length: f32) -> f32 {
-    if has_fractions(brick) {
-        let slope = abs(brick.own.slope);
-        let points = max(1.0, ceil(length * max(slope.x, max(slope.y, slope.z))));
-        var unseen = 1e6;
-        for (var j = 0.5; j < points; j += 1.0) {
-            let point = point_in(brick.own, t + 2.0 * length * (j / points));
-            if is_visible_at(brick, point) {
-                return 0.0;
-            }
-            unseen = min(unseen, pairs_across(brick, point, 2.0 * length));
-        }
-        return unseen;
-    }
-    let middle = point_in(brick.own, t + length);
-    if is_visible_at(brick, middle) {
+    let slope = abs(brick.own.slope);
+    let points = max(1.0, ceil(length * max(slope.x, max(slope.y, slope.z)) - ROUNDED_VOXELS));
+    let each = 2.0 * length / points;
+    let first = point_in(brick.own, t + 0.5 * each);
+    if is_visible_at(brick, first) {
         return 0.0;
     }
-    return pairs_across(brick, middle, 2.0 * length);
+    var unseen = pairs_across(brick, first, 2.0 * length);
+    for (var j = 1.5; j < points; j += 1.0) {
+        let point = point_in(brick.own, t + each * j);
+        if is_visible_at(brick, point) {
+            return 0.0;
+        }
+        unseen = min(unseen, pairs_across(brick, point, 2.0 * length));
+    }
+    return unseen;
 }
 
 // What light makes of a colour: τ c · body + τ · highlight.
@@ -82,65 +83,50 @@ struct Step {
     length: f32,
 }
 
-// A step that is cut into parts, some of which are added.
-struct Cut {
-    step: Step,
-    parts: f32,
-    // The next one, from 1.
-    next: f32,
-    // The scalar where it begins.
-    from_s: f32,
-    from_located: Located,
-    // What the parts show among themselves.
-    alone: vec4<f32>,
-    // Samples taken between the ends of the step.
-    samples: u32,
-}
-
-fn cut_into(step: Step, parts: f32) -> Cut {
-    return Cut(step, parts, 1.0, step.s0, locate(step.s0), vec4<f32>(0.0), 0u);
-}
-
-// Adds the next part of a step. Whether there is another one that can be seen.
-fn add_part(accumulated: ptr<function, Accumulated>, cut: ptr<function, Cut>, brick: Brick, ray: Ray) -> bool {
-    let step = (*cut).step;
-    let parts = (*cut).parts;
-    let j = (*cut).next;
+// Adds a step in equal parts, as many of them as can be seen. Yields the number of samples taken between its ends.
+fn add_parts(accumulated: ptr<function, Accumulated>, brick: Brick, ray: Ray, step: Step, parts: f32) -> u32 {
     let part = step.length / parts;
-    let t = step.t0 + j * part;
-    var to_s = step.s1;
-    if j < parts {
-        to_s = scalar_at(brick, ray, t);
-        (*cut).samples += 1u;
-    }
-    let from_s = (*cut).from_s;
-    let to_located = locate(to_s);
-    let middle = t - 0.5 * part;
-    let plain = sample_over((*cut).from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
-    (*cut).from_s = to_s;
-    (*cut).from_located = to_located;
-    (*cut).next = j + 1.0;
-    var goes_on = j < parts;
-    if !is_clear(plain.k.w) {
-        var gradients = NO_GRADIENTS;
-        if plain.k.w > 0.0 && (SHADES || chain_looks(middle)) {
-            gradients = gradients_at(brick, ray, middle);
+    var front = *accumulated;
+    // What the parts show among themselves.
+    var alone = vec4<f32>(0.0);
+    var samples = 0u;
+    var from_s = step.s0;
+    var from_located = locate(from_s);
+    var goes_on = true;
+    for (var j = 1.0; goes_on; j += 1.0) {
+        goes_on = j < parts;
+        let t = step.t0 + j * part;
+        var to_s = step.s1;
+        if goes_on {
+            to_s = scalar_at(brick, ray, t);
+            samples += 1u;
         }
-        let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
-        let lit = light_on(sample, gradients, ray, from_s, to_s);
-        let light = debug_light(segment_light(sample, scene.quality.z * part, lit), ray, middle);
-        if ONCE_PER_STEP {
-            (*cut).alone += light * (1.0 - (*cut).alone.w);
-        } else {
-            let front = composite(*accumulated, light, sample);
-            *accumulated = front;
-            goes_on &= still_to_come(front) >= scene.quality.y;
+        let to_located = locate(to_s);
+        let middle = t - 0.5 * part;
+        let plain = sample_over(from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
+        if !is_clear(plain.k.w) {
+            var gradients = NO_GRADIENTS;
+            if plain.k.w > 0.0 && (SHADES || chain_looks(middle)) {
+                gradients = gradients_at(brick, ray, middle);
+            }
+            let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
+            let lit = light_on(sample, gradients, ray, from_s, to_s);
+            let light = debug_light(segment_light(sample, scene.quality.z * part, lit), ray, middle);
+            if ONCE_PER_STEP {
+                alone += light * (1.0 - alone.w);
+            } else {
+                front = composite(front, light, sample);
+                goes_on &= still_to_come(front) >= scene.quality.y;
+            }
         }
+        from_s = to_s;
+        from_located = to_located;
     }
-    if ONCE_PER_STEP && !goes_on {
-        *accumulated = composite(*accumulated, (*cut).alone, step.whole);
+    if ONCE_PER_STEP {
+        front = composite(front, alone, step.whole);
     }
-    return goes_on;
+    *accumulated = front;
+    return samples;
 }
 
 // A pair of steps, each to be cut into so many parts; with one part, they have been added.

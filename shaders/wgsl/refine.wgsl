@@ -4,19 +4,31 @@
 const MOST_PARTS: f32 = 16.0;
 // The same for a pair whose parts are opaque: light comes from the first few of them.
 const MOST_DEEP_PARTS: f32 = 1024.0;
-// Steps grow to this many voxels at most.
+// Steps grow to this many voxels at most; see `looseness`.
 const LONGEST_STEP: f32 = 1.0;
+// A tolerance as tight as this, or tighter, has steps grow no further.
+const TIGHT: f32 = 1e-4;
+// Others have them grow so many times as far, at most.
+const MOST_LOOSE: f32 = 4.0;
 // Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
 const UNSEEN: f32 = 0.25;
+
+// How many times as far steps may grow as at a tight tolerance: what hides between samples grows with the square of how far apart
+// they are.
+fn looseness() -> f32 {
+    return clamp(sqrt(scene.quality.w * (1.0 / TIGHT)), 1.0, MOST_LOOSE);
+}
 
 // The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
 // optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no tolerance) do not grow.
 fn step_voxels(depth: f32) -> f32 {
     let shortest = scene.quality.x;
-    if scene.quality.w >= 1.0 || depth * shortest >= SAFE_DEPTH {
+    let loose = looseness();
+    let safe = SAFE_DEPTH * loose;
+    if scene.quality.w >= 1.0 || depth * shortest >= safe {
         return shortest;
     }
-    return min(SAFE_DEPTH / max(depth, 1e-30), max(shortest, LONGEST_STEP));
+    return min(safe / max(depth, 1e-30), max(shortest, LONGEST_STEP * loose));
 }
 
 // A voxel of a node, as a ray meets it.

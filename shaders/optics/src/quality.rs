@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
     /// Integration step, in voxels of the node being sampled, where the optical depth of such a step is not small; above 0.
-    /// In thinner media steps grow, up to one voxel; where the error calls for it, they are split.
+    /// In thinner media steps grow, up to one voxel, or up to four where `tolerance` is loose; where the error calls for it, they
+    /// are split.
     pub step_voxels: f64,
     /// Estimated error of colour and opacity above which a step is split into parts; above 0, and 1 or more for steps of
     /// one length.

@@ -263,7 +263,7 @@ impl Line<'_> {
         while column < last {
             let t = ruler.x_of(column) - half;
             let (shows, count) = if self.brick.has_fractions::<K>() {
-                let unseen = self.brick.pairs_unseen::<K>(t, half);
+                let unseen = self.brick.pairs_unseen(t, half);
                 (unseen == 0, unseen.max(1))
             } else {
                 self.brick.pairs_alike(t, half)

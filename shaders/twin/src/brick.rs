@@ -18,6 +18,8 @@ use layout::{CELL_EDGE, CELLS_ACROSS};
 
 /// Texels along the edge of a cell.
 const CELL: f64 = CELL_EDGE as f64;
+/// A step of a voxel is no longer than this much more.
+const ROUNDED_VOXELS: f64 = 1e-3;
 /// Cells along the edge of a brick.
 const ACROSS: u32 = CELLS_ACROSS as u32;
 
@@ -54,26 +56,23 @@ impl<F: Real> Brick<'_, F> {
     }
 
     /// Pairs from `t` on that show nothing, where the first has steps of `length` metres; 0 if it may show something.
-    /// A cell is kept with a margin of one voxel. Steps over coarser levels are up to four times as long, so as many points
-    /// of a pair are asked as leave none of it farther than a voxel.
+    /// A cell is kept with a margin of one voxel, and as many points of a pair are asked as leave none of it farther than a
+    /// voxel, but for rounding.
     #[inline(always)]
-    pub fn pairs_unseen<K: Kernel>(&self, t: F, length: F) -> u32 {
+    pub fn pairs_unseen(&self, t: F, length: F) -> u32 {
         let both = F::of(2.0) * length;
-        if self.has_fractions::<K>() {
-            let [x, y, z] = self.own.slope.0.map(F::abs);
-            let points = (length * x.most(y).most(z)).ceil().most(F::ONE);
-            let mut unseen = u32::MAX;
-            for j in 0..points.to_index() {
-                let point = self.own.point(t + both * ((F::of_u32(j) + F::of(0.5)) / points));
-                if self.is_visible_at(point) {
-                    return 0;
-                }
-                unseen = unseen.min(self.pairs_across(point, both));
+        let [x, y, z] = self.own.slope.0.map(F::abs);
+        let points = (length * x.most(y).most(z) - F::of(ROUNDED_VOXELS)).ceil().most(F::ONE);
+        let each = both / points;
+        let mut unseen = u32::MAX;
+        for j in 0..points.to_index() {
+            let point = self.own.point(t + each * (F::of_u32(j) + F::of(0.5)));
+            if self.is_visible_at(point) {
+                return 0;
             }
-            return unseen;
+            unseen = unseen.min(self.pairs_across(point, both));
         }
-        let middle = self.own.point(t + length);
-        if self.is_visible_at(middle) { 0 } else { self.pairs_across(middle, both) }
+        unseen
     }
 }
 

@@ -14,17 +14,30 @@ use layout::NodeRecord;
 
 /// The same for a pair whose parts are opaque: light comes from the first few of them.
 const MOST_DEEP_PARTS: f64 = 1024.0;
-/// Steps grow to this many voxels at most.
+/// Steps grow to this many voxels at most; see [`looseness`].
 const LONGEST_STEP: f64 = 1.0;
+/// A tolerance as tight as this, or tighter, has steps grow no further.
+const TIGHT: f64 = 1e-4;
+/// Others have them grow so many times as far, at most.
+const MOST_LOOSE: f64 = 4.0;
+
+/// How many times as far steps may grow at a tolerance as at a tight one: what hides between samples grows with the square of
+/// how far apart they are.
+#[inline(always)]
+fn looseness<F: Real>(tolerance: F) -> F {
+    (tolerance * F::of(1.0 / TIGHT)).sqrt().most(F::ONE).least(F::of(MOST_LOOSE))
+}
 
 /// The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
 /// optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no `tolerance`) do not grow.
 #[inline(always)]
 pub fn step_voxels<F: Real>(shortest: F, depth: F, safe: F, tolerance: F) -> F {
+    let loose = looseness(tolerance);
+    let safe = safe * loose;
     if tolerance >= F::ONE || depth * shortest >= safe {
         return shortest;
     }
-    (safe / depth.most(F::of(1e-30))).least(shortest.most(F::of(LONGEST_STEP)))
+    (safe / depth.most(F::of(1e-30))).least(shortest.most(F::of(LONGEST_STEP) * loose))
 }
 
 /// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.

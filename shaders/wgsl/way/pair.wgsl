@@ -75,13 +75,6 @@ fn take_pair(walk: ptr<function, Walk>, node: NodeRecord, brick: Brick, longest:
     return Taken(still_to_come(front) < scene.quality.y, is_turned);
 }
 
-// Adds all parts of a step that can be seen. Yields the number of samples taken between its ends.
-fn add_parts(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, step: Step, parts: f32) -> u32 {
-    var cut = cut_into(step, parts);
-    while add_part(front, &cut, brick, ray) {}
-    return cut.samples;
-}
-
 // Lays a pair straight on, halved while the index changes much between its ends, or its slope since the last turn; where a
 // surface lies on it, its middle is there.
 fn lay(walk: ptr<function, Walk>, brick: Brick, longest: f32) -> Laid {

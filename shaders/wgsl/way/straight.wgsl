@@ -6,10 +6,6 @@ struct Marched {
     is_done: bool,
 }
 
-// Whether a ray adds one part of a step, or begins one pair, at a time, so that those beside it that cut their steps finer do
-// not hold it up. On a processor in place of a GPU each turn takes as long as both.
-override INTERLEAVES: bool = true;
-
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out too
 // long for the tolerance, each of them is split into equal parts. If samples blend levels, the rest of the way is
 // divided anew after each pair, into pairs as long as the level there allows.
@@ -23,30 +19,7 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
     var known = false;
     var s2 = 0.0;
     var i = 0.0;
-    var steps_left = 0u;
-    var cut: Cut;
-    var second: Step;
-    while i < pairs || steps_left > 0u {
-        while steps_left > 0u {
-            if !add_part(&front, &cut, brick, ray) {
-                marched.samples += cut.samples;
-                steps_left -= 1u;
-                if steps_left > 0u {
-                    cut = cut_into(second, cut.parts);
-                } else {
-                    marched.is_done = still_to_come(front) < scene.quality.y;
-                }
-            }
-            if INTERLEAVES {
-                break;
-            }
-        }
-        if marched.is_done {
-            break;
-        }
-        if steps_left > 0u || i >= pairs {
-            continue;
-        }
+    while i < pairs {
         let t0 = from_t + 2.0 * i * step;
         // Steps too short for t to grow by them are counted instead, or there would be no end.
         if has_fractions(brick) && t0 > from_t {
@@ -79,10 +52,14 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         }
         let pair = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
         if pair.parts > 1.0 {
-            cut = cut_into(pair.first, pair.parts);
-            second = pair.second;
-            steps_left = 2u;
-        } else if still_to_come(front) < scene.quality.y {
+            // One after the other in a loop: a driver in software runs what stands here for rays, too, that cut nothing.
+            var half = pair.first;
+            for (var k = 0u; k < 2u; k++) {
+                marched.samples += add_parts(&front, brick, ray, half, pair.parts);
+                half = pair.second;
+            }
+        }
+        if still_to_come(front) < scene.quality.y {
             marched.is_done = true;
             break;
         }

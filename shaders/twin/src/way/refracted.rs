@@ -115,7 +115,7 @@ impl<F: Real> Walk<F> {
         self.note(casting, node);
         let brick = Brick::new::<K>(casting, node, &self.bent.ray);
         let (step, pairs) = self.lay_out::<K>(casting, node, &brick, leaving.t_out);
-        let unseen = brick.pairs_unseen::<K>(self.bent.t, step);
+        let unseen = brick.pairs_unseen(self.bent.t, step);
         if unseen > 0 {
             self.known = None;
             self.bent.advance(F::of_u32(unseen).least(pairs) * F::of(2.0) * step);

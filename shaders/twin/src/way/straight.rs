@@ -49,7 +49,7 @@ fn march<F: Real, K: Kernel>(
             (step, count) = lay_out(from);
             i = 0;
         }
-        let unseen = brick.pairs_unseen::<K>(t0, step);
+        let unseen = brick.pairs_unseen(t0, step);
         if unseen > 0 {
             i += unseen;
             known = None;

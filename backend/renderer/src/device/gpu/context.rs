@@ -109,7 +109,7 @@ impl Context {
     /// A kernel, compiled by whichever device first asks for it.
     pub(super) fn kernel(&self, kernel: Kernel) -> wgpu::ComputePipeline {
         let mut kernels = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
-        kernels.get((&self.device, self.is_software), self.pipelines.as_ref(), kernel)
+        kernels.get(&self.device, self.pipelines.as_ref(), kernel)
     }
 
     /// Waits for this thread's turn on the queue.

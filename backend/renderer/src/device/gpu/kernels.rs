@@ -1,7 +1,6 @@
 //! Compiled kernels, each made when a device of the process first needs it.
 
 use super::pipeline_cache::PipelineCache;
-use needs::Way;
 use shaders::compose::{KernelKey, PresentKernel, TALLY_ENTRY_POINT, tally_wgsl};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -41,14 +40,6 @@ impl Kernel {
         }
     }
 
-    /// What it is told of the device when it is compiled.
-    fn constants(&self, is_software: bool) -> &'static [(&'static str, f64)] {
-        match self {
-            Self::Cast(key) if is_software && key.needs.way == Way::Straight => &[("INTERLEAVES", 0.0)],
-            _ => &[],
-        }
-    }
-
     fn entry_point(&self) -> &'static str {
         match self {
             Self::Cast(key) => key.entry_point(),
@@ -66,24 +57,19 @@ pub(super) struct Kernels {
 }
 
 impl Kernels {
-    /// A kernel of `device`, which may be the processor.
+    /// A kernel of `device`.
     pub(super) fn get(
         &mut self,
-        (device, is_software): (&wgpu::Device, bool),
+        device: &wgpu::Device,
         cache: Option<&PipelineCache>,
         kernel: Kernel,
     ) -> wgpu::ComputePipeline {
-        let made = self.compiled.entry(kernel);
-        made.or_insert_with(|| compile((device, is_software), cache, kernel)).clone()
+        self.compiled.entry(kernel).or_insert_with(|| compile(device, cache, kernel)).clone()
     }
 }
 
 /// Its bind group layout follows from what it reads.
-fn compile(
-    (device, is_software): (&wgpu::Device, bool),
-    cache: Option<&PipelineCache>,
-    kernel: Kernel,
-) -> wgpu::ComputePipeline {
+fn compile(device: &wgpu::Device, cache: Option<&PipelineCache>, kernel: Kernel) -> wgpu::ComputePipeline {
     let label = format!("{kernel:?}");
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(&label),
@@ -94,10 +80,7 @@ fn compile(
         layout: None,
         module: &module,
         entry_point: Some(kernel.entry_point()),
-        compilation_options: wgpu::PipelineCompilationOptions {
-            constants: kernel.constants(is_software),
-            ..Default::default()
-        },
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: cache.map(PipelineCache::cache),
     });
     cache.inspect(|cache| cache.keep());
