@@ -1,10 +1,10 @@
 //! The renderer that a back-end opens when it is set up.
 
-use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
 use bricks::store::Store;
+use bricks::{BrickSource, NodeKey};
 use protocol::{
-    Advance, DeviceInfo, DrawError, FrameState, ProjectorImage, Render, ScreenImage, Setup, StopAsked,
+    Advance, DeviceInfo, DrawError, FrameState, Held, ProjectorImage, Render, ScreenImage, Setup, StopAsked,
     VolumeRef, Wall,
 };
 use renderer::Renderer;
@@ -21,16 +21,21 @@ pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
     setup.options.adapter.turn = local_rank().unwrap_or(setup.options.adapter.turn);
     // First, so that outputs are black while a large volume opens.
     let wall = if setup.screens.outputs { Some(open_wall(&setup)?) } else { None };
-    let (mut renderer, info) = renderer_of(&setup, &setup.volume)?;
+    let volume = setup.volume.clone();
+    let (mut renderer, info) = renderer_of(&mut setup, &volume)?;
     if let Some(path) = &setup.trace {
         renderer.record(path.clone(), &setup.volume);
     }
-    let volume = setup.volume.clone();
     Ok(Opened { wall, ..Opened::new(Box::new(Changing { setup, volume, renderer: Some(renderer) }), info) })
 }
 
-fn renderer_of(setup: &Setup, volume: &VolumeRef) -> Result<(Renderer, DeviceInfo), String> {
-    Renderer::new(&setup.options, open_volume(volume)?).map_err(|error| error.to_string())
+fn renderer_of(setup: &mut Setup, volume: &VolumeRef) -> Result<(Renderer, DeviceInfo), String> {
+    let (mut renderer, info) =
+        Renderer::new(&setup.options, open_volume(volume)?).map_err(|error| error.to_string())?;
+    if let Some(held) = setup.held.take_if(|held| held.volume == *volume) {
+        renderer.expect(held.nodes.into_iter().map(|(depth, cell)| NodeKey { depth, cell }).collect());
+    }
+    Ok((renderer, info))
 }
 
 /// A renderer of one volume after the other, as frames say.
@@ -52,7 +57,7 @@ impl Changing {
         if let Some(mut renderer) = self.renderer.take() {
             renderer.finish()?;
         }
-        self.renderer = Some(renderer_of(&self.setup, volume).map_err(DrawError)?.0);
+        self.renderer = Some(renderer_of(&mut self.setup, volume).map_err(DrawError)?.0);
         self.volume = volume.clone();
         Ok(())
     }
@@ -85,6 +90,12 @@ impl Render for Changing {
         if let Some(renderer) = self.renderer.as_mut().filter(|_| *volume == self.volume) {
             renderer.compare_with(newest);
         }
+    }
+
+    fn held(&mut self) -> Option<Held> {
+        let nodes = self.renderer.as_mut()?.shown_bricks()?;
+        let nodes = nodes.into_iter().map(|NodeKey { depth, cell }| (depth, cell)).collect();
+        Some(Held { volume: self.volume.clone(), nodes })
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

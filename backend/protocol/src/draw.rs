@@ -1,6 +1,6 @@
 //! What draws frames, whole or in pieces, and what happens while it does.
 
-use crate::{FrameReport, FrameState, ProjectorImage, ScreenImage};
+use crate::{FrameReport, FrameState, Held, ProjectorImage, ScreenImage};
 
 /// What happens while a frame is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +88,11 @@ pub trait Render {
     /// # Errors
     /// A picture cannot be read back.
     fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError>;
+
+    /// What it shows, where that may be something else than when it was last asked, for one that takes its place.
+    fn held(&mut self) -> Option<Held> {
+        None
+    }
 
     /// No frame follows: completes what is written beside the pictures.
     ///

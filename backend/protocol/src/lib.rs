@@ -18,7 +18,7 @@ pub use mark::{Mark, MarkShape, Paint};
 pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{Caster, FrameReport, Refined, Stages, Upkeep};
 pub use setup::{
-    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Hello, RendererOptions, Screens,
+    AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Held, Hello, RendererOptions, Screens,
     Setup, VolumeRef,
 };
 pub use wall::{Wall, WallError};

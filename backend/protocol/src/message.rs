@@ -1,10 +1,10 @@
 //! The messages themselves.
 
-use super::{DeviceInfo, FrameReport, FrameState, Hello, ProjectorImage, ScreenImage, Setup};
+use super::{DeviceInfo, FrameReport, FrameState, Held, Hello, ProjectorImage, ScreenImage, Setup};
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 14;
+pub const PROTOCOL_VERSION: u32 = 15;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,6 +79,8 @@ pub enum FromBackend {
     },
     /// Something has happened that whoever runs the show should know, and the show goes on: one sentence.
     Said(String),
+    /// What it shows by now, for whoever takes its place: whoever would start that one again keeps it, and tells nobody else.
+    Held(Box<Held>),
     /// What it wrote beside the pictures is complete.
     Finished,
     /// It cannot go on: one sentence.

@@ -129,6 +129,17 @@ pub struct Setup {
     pub screens: Screens,
     /// Whether its rank keeps it as a process of its own, which is started again when it ends. Threads are anyway.
     pub is_kept: bool,
+    /// What the one before it showed, where it takes the place of one.
+    pub held: Option<Box<Held>>,
+}
+
+/// The bricks of a volume that a back-end shows, for whoever takes its place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Held {
+    /// The volume.
+    pub volume: VolumeRef,
+    /// Depth and cell of each node.
+    pub nodes: Vec<(u8, UVec3)>,
 }
 
 /// What a back-end says of itself when it starts.

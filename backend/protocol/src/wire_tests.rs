@@ -124,6 +124,11 @@ prop_compose! {
     }
 }
 
+fn held(n: u64) -> Held {
+    let nodes = (0..n % 9).map(|i| (i as u8, UVec3::new(n as u32, i as u32, 0))).collect();
+    Held { volume: VolumeRef::Store("held.lloom".into()), nodes }
+}
+
 prop_compose! {
     fn setup()(name in ".*", projectors in vec(projector(), 0..5), indices in vec(any::<u32>(), 0..80), n in any::<u64>())
         -> FromFrontend {
@@ -142,7 +147,7 @@ prop_compose! {
         };
         FromFrontend::Setup(Box::new(Setup {
             options, volume, screens: Screens { frontend: n % 2 == 0, outputs: n % 3 == 1 }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
-            is_kept: n % 7 == 0,
+            is_kept: n % 7 == 0, held: (n % 11 == 0).then(|| Box::new(held(n))),
         }))
     }
 }
@@ -205,6 +210,7 @@ fn from_backend() -> impl Strategy<Value = FromBackend> {
             FromBackend::Ready(DeviceInfo { adapter, reason, filter, cache_bytes })
         }),
         Just(FromBackend::Alive),
+        any::<u64>().prop_map(|n| FromBackend::Held(Box::new(held(n)))),
         (any::<u64>(), any::<u64>()).prop_map(|(done, total)| FromBackend::Progress { done, total }),
         image(),
         screen(),

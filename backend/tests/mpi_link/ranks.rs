@@ -170,6 +170,7 @@ fn setups(count: usize, width: u32) -> Vec<Setup> {
         trace: None,
         screens: Screens::default(),
         is_kept: false,
+        held: None,
     };
     (0..count as u32).map(setup).collect()
 }

@@ -62,6 +62,9 @@ const MOST_AHEAD: usize = 2;
 /// Progress is reported this often while a frame is drawn.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
 
+/// What it holds is told this often, after a frame of the beat.
+const HELD_INTERVAL: Duration = Duration::from_millis(if cfg!(test) { 50 } else { 1000 });
+
 /// The messages' thread's handle on it. Dropped, it has the thread leave off and waits until the renderer is gone.
 pub(super) struct RenderThread {
     commands: Option<Sender<Command>>,
@@ -90,6 +93,7 @@ impl RenderThread {
             stepped_us: Arc::clone(&stepped_us),
             taken: 0,
             screens: Screens::default(),
+            told_at: Instant::now(),
         };
         let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
         Ok(Self {
@@ -144,6 +148,8 @@ struct Studio {
     taken: u64,
     /// Where the pictures of the beat go.
     screens: Screens,
+    /// When it last told what it holds.
+    told_at: Instant,
 }
 
 /// What a studio is at.
@@ -251,7 +257,7 @@ impl Studio {
     }
 
     /// Goes on with a frame of the beat until it is done or a command comes, and begins the next.
-    fn go_on_beating(&self, renderer: &mut dyn Render, next: Option<Asked>) -> Result<Work, End> {
+    fn go_on_beating(&mut self, renderer: &mut dyn Render, next: Option<Asked>) -> Result<Work, End> {
         let advance = renderer.advance(&|| self.has_command())?;
         let mut sent = Ok(());
         renderer.present_on_screens(&mut |image| {
@@ -261,6 +267,10 @@ impl Studio {
         })?;
         sent?;
         let Some(report) = advance.report else { return Ok(Work::Beat { next }) };
+        if self.told_at.elapsed() > HELD_INTERVAL {
+            self.told_at = Instant::now();
+            renderer.held().map_or(Ok(()), |held| self.tell(FromBackend::Held(Box::new(held)), false))?;
+        }
         self.tell(FromBackend::Drawn(report), next.is_none())?;
         let Some(asked) = next else { return Ok(Work::Idle) };
         asked.begin(renderer)?;

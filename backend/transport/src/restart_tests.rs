@@ -1,12 +1,12 @@
-//! A frame that another takes the place of, while it is drawn.
+//! A frame that another takes the place of, while it is drawn; a back-end that takes the place of another.
 
 use crate::Opened;
-use crate::session_fixtures::{device, frame, report, setups};
+use crate::session_fixtures::{device, device_after, frame, held, report, setups};
 use crate::threads;
 use crate::{Link, LinkError};
 use protocol::{
-    Advance, DrawError, FrameState, FromBackend, FromFrontend, ProjectorImage, Render, ScreenImage, Setup,
-    StopAsked,
+    Advance, DrawError, FrameState, FromBackend, FromFrontend, Held, ProjectorImage, Render, ScreenImage,
+    Setup, StopAsked,
 };
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -111,4 +111,60 @@ fn a_busy_back_end_quits_within_a_tile() {
     link.send(0, &FromFrontend::Quit).unwrap();
     assert_eq!(link.finish(), Ok::<(), LinkError>(()));
     assert!(seen.lock().unwrap().len() < 10);
+}
+
+/// Panics in frame 2, and holds something before.
+struct Fragile(u32);
+
+impl Render for Fragile {
+    fn restart(&mut self, frame: &FrameState) -> Result<(), DrawError> {
+        self.0 = frame.index;
+        Ok(())
+    }
+
+    fn advance(&mut self, _: StopAsked) -> Result<Advance, DrawError> {
+        assert_ne!(self.0, 2, "a fault");
+        Ok(Advance { done: 1, total: 1, lacking_bricks: 0, report: Some(Box::new(report(self.0, 0))) })
+    }
+
+    fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
+        Ok(())
+    }
+
+    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+        Ok(())
+    }
+
+    fn held(&mut self) -> Option<Held> {
+        Some(held())
+    }
+}
+
+#[test]
+fn a_thread_that_comes_back_knows_what_the_one_before_it_showed() {
+    let open = |setup: Setup| Ok(Opened::new(Box::new(Fragile(0)), device_after(setup.held)));
+    let mut link = threads::spawn(1, open).unwrap();
+    let setup = FromFrontend::Setup(Box::new(setups(1).remove(0)));
+    link.send(0, &setup).unwrap();
+    assert_eq!(answer(&mut link), FromBackend::Ready(device()));
+    // It is told after a while.
+    std::thread::sleep(Duration::from_millis(100));
+    let beat = |index| FromFrontend::Beat { frame: Box::new(frame(index)), newest: None };
+    link.send(0, &beat(1)).unwrap();
+    assert_eq!(answer(&mut link), FromBackend::Drawn(Box::new(report(1, 0))));
+    link.send(0, &beat(2)).unwrap();
+    let FromBackend::Failed(why) = answer(&mut link) else { panic!("it goes on") };
+    assert!(why.contains("a fault"), "{why}");
+    assert_eq!(link.revive(0), Ok(true));
+    link.send(0, &setup).unwrap();
+    let said = loop {
+        match link.receive(Duration::from_secs(20)) {
+            // The last of the one before it, and the first of this one.
+            Err(LinkError::Ended { .. }) | Ok((_, FromBackend::Hello(_) | FromBackend::Alive)) => {}
+            said => break said,
+        }
+    };
+    assert_eq!(said, Ok((0, FromBackend::Ready(device_after(Some(Box::new(held())))))));
+    link.send(0, &FromFrontend::Quit).unwrap();
+    link.finish().unwrap();
 }

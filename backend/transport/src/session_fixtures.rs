@@ -1,9 +1,11 @@
 //! A display of no projectors, a frame and a report, for the tests of sessions.
 
 use display_config::Display;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, UVec3};
 use optics::{Curve, Optics};
-use protocol::{DeviceInfo, FrameReport, FrameState, RendererOptions, Screens, Setup, Stages, VolumeRef};
+use protocol::{
+    DeviceInfo, FrameReport, FrameState, Held, RendererOptions, Screens, Setup, Stages, VolumeRef,
+};
 
 pub(crate) fn setups(count: u32) -> Vec<Setup> {
     let display = Display {
@@ -27,8 +29,21 @@ pub(crate) fn setups(count: u32) -> Vec<Setup> {
         trace: None,
         screens: Screens::default(),
         is_kept: false,
+        held: None,
     };
     (0..count).map(setup).collect()
+}
+
+/// The device of a back-end that takes the place of one, of which it knows this.
+pub(crate) fn device_after(held: Option<Box<Held>>) -> DeviceInfo {
+    let reason = held.map_or_else(|| device().reason, |held| format!("{held:?}"));
+    DeviceInfo { reason, ..device() }
+}
+
+/// What one shows.
+pub(crate) fn held() -> Held {
+    let nodes = vec![(0, UVec3::ZERO), (1, UVec3::X)];
+    Held { volume: VolumeRef::Store("fake.lloom".into()), nodes }
 }
 
 pub(crate) fn frame(index: u32) -> FrameState {

@@ -6,7 +6,7 @@ use super::render_loop::panic_sentence;
 use super::restarts::Restarts;
 use super::worker::serve;
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, never, unbounded};
-use protocol::{FromBackend, FromFrontend, Setup};
+use protocol::{FromBackend, FromFrontend, Held, Setup};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
@@ -29,6 +29,8 @@ pub struct ThreadLink {
     inbox: Receiver<(usize, Parcel)>,
     threads: Vec<JoinHandle<()>>,
     restarts: Vec<Restarts>,
+    /// What each showed last.
+    held: Vec<Option<Box<Held>>>,
     /// Starts a back-end, with a link of its own.
     start: Box<dyn Fn(ThreadWorkerLink) -> std::io::Result<JoinHandle<()>> + Send>,
     /// Where what they say goes.
@@ -61,6 +63,7 @@ where
         inbox,
         threads: Vec::new(),
         restarts: Vec::new(),
+        held: vec![None; count],
         start: Box::new(start),
         outbox: Some(outbox),
     };
@@ -113,7 +116,11 @@ impl Link for ThreadLink {
 
     /// A thread that is gone has sent, or will send, a parcel that says so: that is reported, not this.
     fn send(&mut self, backend: usize, message: &FromFrontend) -> Result<(), LinkError> {
-        let _ = self.outboxes[backend].send(message.clone());
+        let mut message = message.clone();
+        if let FromFrontend::Setup(setup) = &mut message {
+            setup.held = self.held[backend].clone();
+        }
+        let _ = self.outboxes[backend].send(message);
         Ok(())
     }
 
@@ -123,6 +130,10 @@ impl Link for ThreadLink {
 
     fn receive(&mut self, timeout: Duration) -> Result<(usize, FromBackend), LinkError> {
         match self.inbox.recv_timeout(timeout) {
+            Ok((backend, Parcel::Message(FromBackend::Held(held)))) => {
+                self.held[backend] = Some(held);
+                self.receive(timeout)
+            }
             Ok((backend, Parcel::Message(message))) => {
                 if let FromBackend::Ready(_) = message {
                     self.restarts[backend].ready(Instant::now());

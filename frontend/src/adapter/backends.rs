@@ -134,6 +134,7 @@ impl Backends {
             trace: options.traces.as_deref().map(|folder| trace::path(folder, backend)),
             screens: shown_at.unwrap_or_default(),
             is_kept: shown_at.is_some(),
+            held: None,
         });
         setups.collect()
     }

@@ -17,6 +17,8 @@ mod damage_tests;
 mod easing;
 mod engine;
 mod error;
+#[cfg(test)]
+mod expect_tests;
 mod feedback;
 mod finals;
 #[cfg(test)]

@@ -23,6 +23,8 @@ use std::sync::Arc;
 pub struct Renderer {
     pub(super) engine: Engine,
     course: Option<Course>,
+    /// The revision of the working set that was told last.
+    told: Option<u64>,
 }
 
 impl Renderer {
@@ -35,7 +37,19 @@ impl Renderer {
         source: Arc<dyn BrickSource>,
     ) -> Result<(Self, DeviceInfo), RenderError> {
         let (engine, info) = Engine::new(options, source)?;
-        Ok((Self { engine, course: None }, info))
+        Ok((Self { engine, course: None, told: None }, info))
+    }
+
+    /// The bricks that live frames show, where these may be others than when it was last asked.
+    pub fn shown_bricks(&mut self) -> Option<Vec<NodeKey>> {
+        let revision = self.engine.set.revision();
+        let is_new = self.told.replace(revision) != Some(revision);
+        is_new.then(|| self.engine.set.shown_bricks().collect())
+    }
+
+    /// It takes the place of one that showed these bricks of its volume: live frames fetch them before rays ask for them.
+    pub fn expect(&mut self, bricks: Vec<NodeKey>) {
+        self.engine.set.expect(bricks);
     }
 
     /// From the next live frame on, writes a trace of what rays ask for, under this name once it is complete. Whoever

@@ -4,6 +4,7 @@ mod beside;
 #[cfg(test)]
 mod continuity_tests;
 mod cut;
+mod expected;
 mod feedback;
 mod holdings;
 mod in_flight;

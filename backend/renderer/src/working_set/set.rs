@@ -4,6 +4,7 @@
 //! met, asks a [`Supply`] for bricks, most needed first, takes in what has come, and moves what rays meet.
 
 use super::beside::{self, mark_beside};
+use super::expected::Expected;
 use super::holdings::Holdings;
 use super::presence::{Tick, advance, refresh, refresh_deficits, settle};
 use super::room::Room;
@@ -67,11 +68,13 @@ impl Wish {
 /// The cut, the slots of its bricks, and what is on its way.
 #[derive(Clone, Debug)]
 pub struct WorkingSet {
-    held: Holdings,
+    pub(super) held: Holdings,
     last_s: Option<f64>,
     /// What scalars looked like in the last update.
     optics: Option<Optics>,
     wanted: Vec<NodeKey>,
+    /// What one before it showed.
+    pub(super) expected: Expected,
     /// Families that came in the last update.
     pub splits: u64,
     /// Resident leaves whose shares have not come to rest.
@@ -86,6 +89,7 @@ impl WorkingSet {
             last_s: None,
             optics: None,
             wanted: Vec::new(),
+            expected: Expected::default(),
             splits: 0,
             moving: 0,
         }
@@ -164,6 +168,7 @@ impl WorkingSet {
             self.held.retry.look_anew(shows);
             self.held.revision += 1;
         }
+        self.note_expected();
         self.held.note(met);
         // Complete frames weigh corners by the rule of detail, whatever is resident.
         let memory = self.held.shares_views().then(|| self.held.memory());
@@ -202,26 +207,28 @@ impl WorkingSet {
         self.held.retry.failed(key, kind, self.held.now_s)
     }
 
-    /// Bricks that the motion since an earlier frame, of which this is the rule and the time, will ask for, if it goes on,
-    /// of the leaves that rays meet.
+    /// Bricks that are expected, and those that the motion since an earlier frame, of which this is the rule and the time, will
+    /// ask for, if it goes on, of the leaves that rays meet.
     fn ahead(
         &self,
         moment: &Moment,
         leaves: impl IntoIterator<Item = NodeKey>,
         before: Option<(LodRule, f64)>,
     ) -> Vec<NodeKey> {
-        let Some((before, then_s)) = before.filter(|&(_, then_s)| then_s < moment.now_s) else {
-            return Vec::new();
-        };
-        let between = Duration::try_from_secs_f64(moment.now_s - then_s).unwrap_or(Duration::MAX);
         let rules = &moment.rules;
-        let motion = Motion { now: rules.lod, before: &before, between };
         let lacks = |key: NodeKey| {
             let node = self.held.cut.node(self.held.cut.find(key));
             let is_resident = node.key == key && node.brick.is_some();
             !is_resident && self.held.may_ask(key) && is_shown(rules.optics, (moment.summary)(key))
         };
-        prefetch(leaves, &motion, HORIZON, rules.shape, lacks, MOST_AHEAD)
+        let expected = self.expected.nodes().filter(|&key| rules.shape.contains(key) && lacks(key));
+        let mut ahead: Vec<NodeKey> = expected.take(MOST_AHEAD).collect();
+        if let Some((before, then_s)) = before.filter(|&(_, then_s)| then_s < moment.now_s) {
+            let between = Duration::try_from_secs_f64(moment.now_s - then_s).unwrap_or(Duration::MAX);
+            let motion = Motion { now: rules.lod, before: &before, between };
+            ahead.extend(prefetch(leaves, &motion, HORIZON, rules.shape, lacks, MOST_AHEAD - ahead.len()));
+        }
+        ahead
     }
 
     /// Moves what rays meet on to the present, `fade_s` being the time of a whole fade.

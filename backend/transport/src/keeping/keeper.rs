@@ -8,7 +8,7 @@ use super::renderer::{Heard, Renderer};
 use crate::rest::{Matter, Rest};
 use crate::restarts::Restarts;
 use protocol::wire::{WireError, decode, encode, has_picture};
-use protocol::{FromBackend, FromFrontend, Setup};
+use protocol::{FromBackend, FromFrontend, Held, Setup};
 use std::io;
 use std::path::Path;
 use std::process::Command;
@@ -70,6 +70,8 @@ pub struct Keeper {
     state: State,
     /// The setup for the first renderer, until that has greeted.
     setup: Option<Vec<u8>>,
+    /// What a renderer showed last.
+    held: Option<Box<Held>>,
     /// Whether any ever drew a frame: what ends the first one before is no accident, and would end all.
     has_drawn: bool,
     restarts: Restarts,
@@ -101,6 +103,7 @@ impl Keeper {
             command,
             state,
             setup,
+            held: None,
             has_drawn: false,
             restarts: Restarts::default(),
             rest: Rest::new(Instant::now()),
@@ -118,9 +121,14 @@ impl Keeper {
         }
         self.rest.note(&message, Instant::now());
         if let State::Running(child) = &mut self.state {
-            child.is_set_up |= child.has_greeted && matches!(message, FromFrontend::Setup(_));
-            if child.is_set_up {
-                child.renderer.send(bytes);
+            match message {
+                FromFrontend::Setup(setup) if child.has_greeted => {
+                    child.is_set_up = true;
+                    let setup = Setup { held: self.held.clone(), ..*setup };
+                    child.renderer.send(&encode(&FromFrontend::Setup(Box::new(setup)))?);
+                }
+                _ if child.is_set_up => child.renderer.send(bytes),
+                _ => {}
             }
         }
         Ok(Taken::PassedOn)
@@ -177,6 +185,7 @@ impl Keeper {
         match decoded {
             Err(error) => self.end(Some(format!("cannot be understood: {error}"))),
             Ok(FromBackend::Clock { asked_us: u64::MAX, .. }) => {}
+            Ok(FromBackend::Held(held)) => self.held = Some(held),
             Ok(FromBackend::Hello(_)) => {
                 child.has_greeted = true;
                 // The rank itself has greeted the front-end, which has answered with the setup.

@@ -4,7 +4,7 @@ use super::*;
 use crate::keeping::kept;
 use crate::opened::Opened;
 use crate::process::is_running;
-use crate::session_fixtures::{device, frame, report, setups};
+use crate::session_fixtures::{device, device_after, frame, held, report, setups};
 use protocol::{Advance, DrawError, FrameState, ProjectorImage, Render, ScreenImage, Screens, StopAsked};
 use rustix::process::{Pid, Signal, kill_process};
 
@@ -22,6 +22,8 @@ const PANICS: u32 = 1004;
 /// One in which it is slow, tile by tile, and one in which it never comes to the next tile.
 const IS_SLOW: u32 = 1005;
 const IS_STUCK: u32 = 1006;
+/// One in which it holds something.
+const HOLDS: u32 = 1007;
 
 /// Beyond what a back-end of a test counts as stuck after.
 const SLOWLY: Duration = Duration::from_millis(2500);
@@ -56,6 +58,10 @@ impl Render for Fake {
         Ok(())
     }
 
+    fn held(&mut self) -> Option<Held> {
+        (self.0 == HOLDS).then(held)
+    }
+
     fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
         sink(ScreenImage { projector: 0, width: 800, height: 600, rgb: vec![self.0 as u8; 3 * 800 * 600] });
         Ok(())
@@ -69,7 +75,7 @@ fn be_a_kept_renderer() {
     let open = |setup: Setup| -> Result<Opened, String> {
         match setup.options.cache_bytes {
             0 => Err("there is no such volume".to_owned()),
-            _ => Ok(Opened::new(Box::new(Fake(0)), device())),
+            _ => Ok(Opened::new(Box::new(Fake(0)), device_after(setup.held))),
         }
     };
     let code = kept::work(open, keeper.parse().unwrap());
@@ -149,6 +155,11 @@ impl Bench {
 
     /// It says how it was lost, comes back as the front-end sets it up, and draws a frame.
     fn comes_back(&mut self) -> String {
+        self.comes_back_after(None)
+    }
+
+    /// The same after one that held this.
+    fn comes_back_after(&mut self, held: Option<Box<Held>>) -> String {
         let lost = self.next();
         let FromBackend::Lost(why) = lost else { panic!("{lost:?}") };
         // What the front-end said before it knew is not for the new one.
@@ -161,7 +172,7 @@ impl Bench {
         self.processes.push(hello.process);
         self.beat(501);
         self.say(&FromFrontend::Setup(Box::new(setup())));
-        assert_eq!(self.next(), FromBackend::Ready(device()));
+        assert_eq!(self.next(), FromBackend::Ready(device_after(held)));
         self.beat(600);
         self.draws(600);
         why
@@ -212,6 +223,20 @@ fn one_that_ends_in_whatever_way_comes_back() {
     let why = bench.comes_back();
     assert!(why.contains("it panicked: a fake fault") && why.contains("wait longer and longer"), "{why}");
     assert!(since.elapsed() >= Duration::from_secs(1), "it waited for {:?}", since.elapsed());
+}
+
+#[test]
+fn one_that_comes_back_knows_what_the_one_before_it_showed() {
+    let mut bench = Bench::new().ready();
+    let known = Some(Box::new(held()));
+    // It is told after a frame, to the keeper alone, and outlives more than one of them.
+    std::thread::sleep(Duration::from_millis(100));
+    bench.beat(HOLDS);
+    bench.draws(HOLDS);
+    for _ in 0..2 {
+        bench.signal(Signal::KILL);
+        bench.comes_back_after(known.clone());
+    }
 }
 
 #[test]
