@@ -67,7 +67,7 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
             let rate = report.samples as f64 / seconds / 1e6;
             let whole = if report.complete { "" } else { ", INCOMPLETE" };
             results.line(format!(
-                "| {scene} | {setting} | {seconds:.1} | {rate:.0} | {:.2} | {}{whole} | {peak_mib:.0} |",
+                "| {scene} | {setting} | {seconds:.2} | {rate:.0} | {:.2} | {}{whole} | {peak_mib:.0} |",
                 report.samples as f64 / 1e9,
                 compare::codes(&errors),
             ));

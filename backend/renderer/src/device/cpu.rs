@@ -185,12 +185,15 @@ impl CpuDevice {
         Show { cast, raster, known, thresholds, most_change }.over(&mut self.shown[picture], has_before)
     }
 
-    pub(super) fn picture(&mut self, picture: DevicePicture) -> Result<Cow<'_, [f32]>, DeviceError> {
-        Ok(match picture {
-            DevicePicture::Cast(index) => &self.pictures[index][..],
-            DevicePicture::Shown(index) => &self.shown[index][..],
+    pub(super) fn pictures(&self, pictures: &[DevicePicture]) -> Result<Vec<Cow<'_, [f32]>>, DeviceError> {
+        Ok(pictures.iter().map(|&picture| self.picture(picture).into()).collect())
+    }
+
+    fn picture(&self, picture: DevicePicture) -> &[f32] {
+        match picture {
+            DevicePicture::Cast(index) => &self.pictures[index],
+            DevicePicture::Shown(index) => &self.shown[index],
         }
-        .into())
     }
 
     pub(super) fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
@@ -198,7 +201,7 @@ impl CpuDevice {
     }
 
     fn codes_of(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
-        let mut rgba = self.picture(job.picture)?;
+        let mut rgba = Cow::Borrowed(self.picture(job.picture));
         if !job.layers.is_empty() {
             job.layers.lay_into(rgba.to_mut());
         }

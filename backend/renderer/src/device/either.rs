@@ -142,15 +142,26 @@ impl Device {
         }
     }
 
-    /// The colours of a picture: 4 numbers per pixel, rows from the top.
+    /// The colours of some pictures: 4 numbers per pixel, rows from the top. A GPU hands them over together.
     ///
     /// # Errors
     /// The device stopped answering.
     ///
     /// # Panics
-    /// Where there is none yet.
+    /// Where one is not there yet.
+    pub fn pictures(&mut self, pictures: &[DevicePicture]) -> Result<Vec<Cow<'_, [f32]>>, DeviceError> {
+        on_device!(self, device => device.pictures(pictures))
+    }
+
+    /// Those of one.
+    ///
+    /// # Errors
+    /// The device stopped answering.
+    ///
+    /// # Panics
+    /// Where it is not there yet.
     pub fn picture(&mut self, picture: DevicePicture) -> Result<Cow<'_, [f32]>, DeviceError> {
-        on_device!(self, device => device.picture(picture))
+        Ok(self.pictures(&[picture])?.remove(0))
     }
 
     /// The codes of some pictures: red, green and blue of each pixel, rows from the top.

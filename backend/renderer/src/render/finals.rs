@@ -9,7 +9,11 @@ use crate::present::{Layers, Raster, resampled};
 use planes::RasterWarp;
 use protocol::{ProjectorImage, ScreenImage};
 use std::borrow::Cow;
+use std::slice::from_ref;
 use std::time::Instant;
+
+/// Bytes of colours that are handed over together: those of 17 pictures of 800 × 600 pixels, or of one of 4K.
+const MOST_COLOUR_BYTES: usize = 1 << 27;
 
 /// One of them.
 pub(super) struct Final {
@@ -42,17 +46,9 @@ impl Final {
         }
     }
 
-    /// Its linear colours, with what is laid over them.
-    fn rgba<'a>(
-        &self,
-        device: &'a mut Device,
-        refining: &'a Refining,
-        layers: &Layers,
-    ) -> Result<Cow<'a, [f32]>, DeviceError> {
-        let mut rgba = match self.picture {
-            Shown::Device(picture) => device.picture(picture)?,
-            Shown::Filled => refining.shown(self.view).into(),
-        };
+    /// Its linear colours from those of the picture, with what is laid over them.
+    fn rgba<'a>(&self, picture: Cow<'a, [f32]>, layers: &Layers) -> Cow<'a, [f32]> {
+        let mut rgba = picture;
         if let Some(warp) = &self.warp {
             rgba = resampled(&rgba, warp).into();
         }
@@ -62,8 +58,31 @@ impl Final {
         if !layers.is_empty() {
             layers.lay_into(rgba.to_mut());
         }
-        Ok(rgba)
+        rgba
     }
+
+    /// Bytes of its colours.
+    fn bytes(&self) -> usize {
+        4 * size_of::<f32>() * (self.size[0] * self.size[1]) as usize
+    }
+}
+
+/// The pictures of some.
+fn pictures<'a>(
+    finals: &[Final],
+    device: &'a mut Device,
+    refining: &'a Refining,
+) -> Result<Vec<Cow<'a, [f32]>>, DeviceError> {
+    let on_device = finals.iter().filter_map(|of| match of.picture {
+        Shown::Device(picture) => Some(picture),
+        Shown::Filled => None,
+    });
+    let mut on_device = device.pictures(&on_device.collect::<Vec<_>>())?.into_iter();
+    let picture = |of: &Final| match of.picture {
+        Shown::Device(_) => on_device.next().expect("the device has handed over each"),
+        Shown::Filled => refining.shown(of.view).into(),
+    };
+    Ok(finals.iter().map(picture).collect())
 }
 
 impl Engine {
@@ -142,10 +161,15 @@ impl Engine {
         sink: &mut dyn FnMut(ProjectorImage),
     ) -> Result<(), DeviceError> {
         let layers = self.layers(work, finals.iter().map(|of| of.view))?;
-        for (of, layers) in finals.iter().zip(&layers) {
-            let &Final { projector, size: [width, height], .. } = of;
-            let rgba = of.rgba(&mut self.device, &self.refining, layers)?.into_owned();
-            sink(ProjectorImage { projector, width, height, rgba });
+        let largest = finals.iter().map(Final::bytes).max().unwrap_or(1);
+        let at_once = (MOST_COLOUR_BYTES / largest.max(1)).max(1);
+        for (some, layers) in finals.chunks(at_once).zip(layers.chunks(at_once)) {
+            let pictures = pictures(some, &mut self.device, &self.refining)?;
+            for ((of, picture), layers) in some.iter().zip(pictures).zip(layers) {
+                let &Final { projector, size: [width, height], .. } = of;
+                let rgba = of.rgba(picture, layers).into_owned();
+                sink(ProjectorImage { projector, width, height, rgba });
+            }
         }
         Ok(())
     }
@@ -171,7 +195,10 @@ impl Engine {
         for (of, layers) in finals.iter().zip(&layers) {
             let rgb = match of.on_device().and_then(|_| of_device.next()) {
                 Some(rgb) => rgb,
-                None => finishers[of.view].codes(&of.rgba(&mut self.device, &self.refining, layers)?),
+                None => {
+                    let picture = pictures(from_ref(of), &mut self.device, &self.refining)?.remove(0);
+                    finishers[of.view].codes(&of.rgba(picture, layers))
+                }
             };
             let &Final { projector, size: [width, height], .. } = of;
             sink(ScreenImage { projector, width, height, rgb });

@@ -214,12 +214,13 @@ impl GpuDevice {
         self.pictures.show(&self.context, jobs)
     }
 
-    pub(in crate::device) fn picture(
+    pub(in crate::device) fn pictures(
         &mut self,
-        picture: DevicePicture,
-    ) -> Result<Cow<'_, [f32]>, DeviceError> {
+        pictures: &[DevicePicture],
+    ) -> Result<Vec<Cow<'_, [f32]>>, DeviceError> {
         let _turn = self.context.turn();
-        Ok(self.pictures.read(&self.context, picture)?.into())
+        let colours = self.pictures.read(&self.context, pictures)?;
+        Ok(colours.into_iter().map(Cow::Owned).collect())
     }
 
     pub(in crate::device) fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {

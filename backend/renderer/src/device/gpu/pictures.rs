@@ -71,18 +71,24 @@ impl Pictures {
         self.showing.show(context, &self.arenas, &mut self.views, jobs)
     }
 
-    /// The colours of a picture.
+    /// The colours of some pictures.
     pub(super) fn read(
         &mut self,
         context: &Context,
-        picture: DevicePicture,
-    ) -> Result<Vec<f32>, DeviceError> {
-        let colours = colours_of(&self.arenas, &self.views, picture);
+        pictures: &[DevicePicture],
+    ) -> Result<Vec<Vec<f32>>, DeviceError> {
+        let Self { arenas, views, pixels_back, .. } = self;
+        let colours: Vec<Stretch> =
+            pictures.iter().map(|&picture| colours_of(arenas, views, picture)).collect();
         let mut encoder = context.new_encoder();
-        self.pixels_back.begin(context, colours.bytes);
-        self.pixels_back.copy(&mut encoder, &colours);
+        pixels_back.begin(context, colours.iter().map(|colours| colours.bytes).sum());
+        colours.iter().for_each(|colours| pixels_back.copy(&mut encoder, colours));
         context.submit(encoder);
-        self.pixels_back.items(context)
+        pixels_back.read(context, |mut bytes| {
+            let own = |of: &Stretch| bytes.split_off(..of.bytes as usize).expect("each has so many bytes");
+            let of_each: Vec<&[u8]> = colours.iter().map(own).collect();
+            of_each.into_par_iter().map(bytemuck::pod_collect_to_vec).collect()
+        })
     }
 
     /// The codes of some pictures.
