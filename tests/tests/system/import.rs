@@ -53,8 +53,13 @@ fn check_numbers(report: &Value, pixels: u64) {
     // Each pixel once, and once more the tiles that missed something and the few rays of the coarse look.
     assert!(number("rays") > pixels && number("rays") <= 2 * pixels, "{total}");
     assert!(number("samples") > number("rays") / 10, "{total}");
-    let (union, sum) = (number("working_set_union"), number("working_set_sum"));
-    assert!(0 < union && union <= sum && union <= number("bricks_resident"), "{total}");
+    let union = number("working_set_union");
+    assert!(0 < union && union <= number("bricks_resident"), "{total}");
+    // A GPU casts views together, and then knows no sum of theirs; drivers in software do not.
+    let adapter = report["backends"][0]["adapter"].as_str().unwrap();
+    if adapter.starts_with("cpu") || adapter.contains("llvmpipe") {
+        assert!(union <= number("working_set_sum"), "{total}");
+    }
     assert!(number("bricks_resident") <= number("bricks_loaded"), "{total}");
     assert!(
         report["wall_ms"].as_f64().unwrap() > 0.0 && report["peak_memory_bytes"].as_u64() > Some(1 << 20)
