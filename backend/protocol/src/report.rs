@@ -142,7 +142,7 @@ pub struct FrameReport {
     pub bytes_loaded: u64,
     /// Distinct bricks sampled by any of the views.
     pub working_set_union: u64,
-    /// The views' own counts of distinct bricks, added up; None of a live frame, whose views count together.
+    /// The views' own counts of distinct bricks, added up; None where views were cast together, as in live frames and on a GPU.
     pub working_set_sum: Option<u64>,
     /// Whether nothing was missing: every ray found the level of detail it asked for.
     pub complete: bool,

@@ -65,7 +65,7 @@ pub struct Totals {
     pub bytes_loaded: u64,
     /// Distinct bricks per back-end, added up over back-ends.
     pub working_set_union: u64,
-    /// Distinct bricks per view, added up over views; None where a frame was live, whose views count together.
+    /// Distinct bricks per view, added up over views; None where any were cast together.
     pub working_set_sum: Option<u64>,
     /// What cast the rays: each sentence once.
     pub casters: Vec<String>,
