@@ -26,6 +26,7 @@ mod set;
 mod set_tests;
 mod shortfall;
 mod slots;
+mod succession;
 #[cfg(test)]
 mod test_world;
 mod touching;
