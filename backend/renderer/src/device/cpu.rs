@@ -14,7 +14,7 @@ use layout::{NodeRecord, SHORT_RAYS};
 use needs::tables::Tables;
 use rayon::prelude::*;
 use std::borrow::Cow;
-use twin::{Casting, FeedbackCell, Observer, ShortRay, Volume, cast_short};
+use twin::{Casting, FeedbackCell, Observer, ProjectorRays, ShortRay, Volume, cast_short};
 
 /// The brick cache in main memory, and the pictures.
 #[derive(Debug)]
@@ -90,6 +90,12 @@ impl CpuDevice {
 
     pub(super) fn write_tables(&mut self, tables: Tables) {
         self.tables = tables;
+    }
+
+    /// One view after the other: every core casts each of them.
+    #[expect(clippy::unused_self, reason = "as other devices have it")]
+    pub(super) fn views_at_once(&self, _views: &[ProjectorRays<f32>]) -> usize {
+        1
     }
 
     pub(super) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {

@@ -126,11 +126,7 @@ impl Device {
 
     /// How many of some views a complete frame casts together, one at least.
     pub fn views_at_once(&self, views: &[ProjectorRays<f32>]) -> usize {
-        match self {
-            Self::Cpu(_) => 1,
-            #[cfg(feature = "gpu")]
-            Self::Gpu(device) => device.views_at_once(views),
-        }
+        on_device!(self, device => device.views_at_once(views))
     }
 
     /// How many pictures are best shown and handed over together: on the CPU one after the other, which is in its cache then.
