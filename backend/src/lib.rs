@@ -2,6 +2,7 @@
 
 mod log;
 mod open;
+mod painting;
 
 pub use log::start_log;
 pub use open::{open_renderer, open_volume};

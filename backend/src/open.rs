@@ -1,13 +1,15 @@
 //! The renderer that a back-end opens when it is set up.
 
+use crate::painting::paint;
 use bricks::procedural::ProceduralVolume;
 use bricks::store::Store;
 use bricks::{BrickSource, NodeKey};
 use protocol::{
-    Advance, DeviceInfo, DrawError, FrameState, Held, ProjectorImage, Render, ScreenImage, Setup, StopAsked,
-    VolumeRef, Wall,
+    Advance, CodesAt, DeviceInfo, DrawError, FrameState, Held, ProjectorImage, Render, ScreenPicture, Setup,
+    StopAsked, VolumeRef, Wall,
 };
 use renderer::Renderer;
+use screens::OutputWall;
 use std::sync::Arc;
 use transport::Opened;
 use transport::local_rank;
@@ -20,12 +22,17 @@ use transport::local_rank;
 pub fn open_renderer(mut setup: Setup) -> Result<Opened, String> {
     setup.options.adapter.turn = local_rank().unwrap_or(setup.options.adapter.turn);
     // First, so that outputs are black while a large volume opens.
-    let wall = if setup.screens.outputs { Some(open_wall(&setup)?) } else { None };
+    let mut wall = if setup.screens.outputs { Some(open_wall(&setup)?) } else { None };
     let volume = setup.volume.clone();
-    let (mut renderer, info) = renderer_of(&mut setup, &volume)?;
+    let (mut renderer, mut info) = renderer_of(&mut setup, &volume)?;
+    if let Some(wall) = &mut wall {
+        let way = paint(wall.as_mut(), &renderer, setup.screens.swapchain)?;
+        info.reason.extend(way.map(|way| format!("; {way}")));
+    }
     if let Some(path) = &setup.trace {
         renderer.record(path.clone(), &setup.volume);
     }
+    let wall = wall.map(|wall| -> Box<dyn Wall> { wall });
     Ok(Opened { wall, ..Opened::new(Box::new(Changing { setup, volume, renderer: Some(renderer) }), info) })
 }
 
@@ -80,8 +87,12 @@ impl Render for Changing {
         Ok(self.renderer()?.present(sink)?)
     }
 
-    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
-        Ok(self.renderer()?.present_on_screens(sink)?)
+    fn present_on_screens(
+        &mut self,
+        at: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
+    ) -> Result<(), DrawError> {
+        Ok(self.renderer()?.present_on_screens(at, sink)?)
     }
 
     fn compare_with(&mut self, newest: &FrameState) {
@@ -103,7 +114,7 @@ impl Render for Changing {
     }
 }
 
-fn open_wall(setup: &Setup) -> Result<Box<dyn Wall>, String> {
+fn open_wall(setup: &Setup) -> Result<Box<dyn OutputWall>, String> {
     screens::open_wall(&setup.options.display, &setup.options.projectors).map_err(|error| error.to_string())
 }
 

@@ -1,6 +1,6 @@
 //! The part of a video output that shows a projector's picture.
 
-use glam::{UVec2, Vec2Swizzles};
+use glam::{IVec2, UVec2, Vec2Swizzles};
 use serde::{Deserialize, Serialize};
 
 /// Where a picture is shown.
@@ -29,16 +29,31 @@ impl Turn {
         if self.quarters.is_multiple_of(2) { picture } else { picture.yx() }
     }
 
+    /// The ways in a picture of a step to the right and of one down on the output.
+    pub fn steps(self) -> [IVec2; 2] {
+        let [right, down] = match self.quarters % 4 {
+            0 => [IVec2::X, IVec2::Y],
+            1 => [IVec2::NEG_Y, IVec2::X],
+            2 => [IVec2::NEG_X, IVec2::NEG_Y],
+            _ => [IVec2::Y, IVec2::NEG_X],
+        };
+        let mirror = if self.is_mirrored { IVec2::new(-1, 1) } else { IVec2::ONE };
+        [mirror * right, mirror * down]
+    }
+
+    /// The pixel of a picture that is seen at the top left of its part of the output.
+    pub fn corner(self, picture: UVec2) -> UVec2 {
+        let [right, down] = self.steps();
+        // Where a step leads to the left or up, the picture is entered from its far edge.
+        let leads_back = (right + down).cmplt(IVec2::ZERO);
+        UVec2::select(leads_back, picture - UVec2::ONE, UVec2::ZERO)
+    }
+
     /// The pixel of a picture that is seen at a pixel of its part of the output.
     pub fn source(self, at: UVec2, picture: UVec2) -> UVec2 {
-        let last = picture - UVec2::ONE;
-        let turned = match self.quarters % 4 {
-            0 => at,
-            1 => UVec2::new(at.y, last.y - at.x),
-            2 => last - at,
-            _ => UVec2::new(last.x - at.y, at.x),
-        };
-        if self.is_mirrored { UVec2::new(last.x - turned.x, turned.y) } else { turned }
+        let [right, down] = self.steps();
+        let [x, y] = at.as_ivec2().to_array();
+        (self.corner(picture).as_ivec2() + x * right + y * down).as_uvec2()
     }
 }
 

@@ -2,11 +2,11 @@
 
 use layout::present::{Layer, MarkedPixel};
 use layout::{
-    FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, PresentBlock, SceneBlock, TableCell,
-    TableEntry, ViewBlock, binding,
+    FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, PaintBlock, PresentBlock, SceneBlock,
+    TableCell, TableEntry, ViewBlock, binding,
 };
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use shaders::compose::{KernelKey, PresentKernel, tally_wgsl};
+use shaders::compose::{KernelKey, PAINT_CORNER, PAINT_PIXEL, PresentKernel, paint_wgsl, tally_wgsl};
 use std::mem::{offset_of, size_of};
 
 fn parse(wgsl: &str) -> naga::Module {
@@ -31,9 +31,12 @@ fn every_permutation_is_valid() {
             panic!("{key:?}: {why}");
         }
     }
-    if let Err(why) = is_valid(&tally_wgsl()) {
-        panic!("{why}");
+    for wgsl in [tally_wgsl(), paint_wgsl()] {
+        if let Err(why) = is_valid(&wgsl) {
+            panic!("{why}");
+        }
     }
+    assert!([PAINT_CORNER, PAINT_PIXEL].iter().all(|entry| paint_wgsl().contains(&format!("fn {entry}("))));
     for kernel in PresentKernel::ALL {
         let wgsl = kernel.wgsl();
         assert!(wgsl.contains(&format!("fn {}(", kernel.entry_point())), "{kernel:?}");
@@ -46,7 +49,8 @@ fn every_permutation_is_valid() {
 #[test]
 fn bindings_have_the_numbers_of_the_table_and_no_others() {
     let of_rays = KernelKey::samples().into_iter().map(|key| key.wgsl());
-    for wgsl in of_rays.chain(PresentKernel::ALL.map(PresentKernel::wgsl)) {
+    let others = PresentKernel::ALL.map(PresentKernel::wgsl).into_iter().chain([tally_wgsl(), paint_wgsl()]);
+    for wgsl in of_rays.chain(others) {
         assert!(wgsl.split("@binding(").skip(1).all(|rest| rest.starts_with("BINDING_")), "{wgsl}");
     }
     let module = parse(&KernelKey::samples()[0].wgsl());
@@ -145,4 +149,6 @@ fn host_structs_and_wgsl_structs_agree() {
     let module = parse(&PresentKernel::Layers.wgsl());
     assert_layout!(&module, Layer, before, rgb, opacity);
     assert_layout!(&module, MarkedPixel, pixel, first, count);
+    let module = parse(&paint_wgsl());
+    assert_layout!(&module, PaintBlock, place, source, steps);
 }

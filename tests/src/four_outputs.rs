@@ -42,10 +42,46 @@ pub fn turned_back(projector: usize, pixels: impl Fn(i16, i16, u16, u16) -> Vec<
     (0..SIZE.1).flat_map(|row| (0..SIZE.0).map(move |column| (column, row))).map(|(c, r)| at(c, r)).collect()
 }
 
-/// The arguments of a show on the outputs.
-pub fn on_outputs<'a>(display: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let fixed = ["drive", "procedural:shells@32", "--display", display, "--device", "cpu", "--fade", "0"];
-    [&fixed[..], &["--output", "outputs", "--rate", "20", "--caster", "rays", "--json"], more].concat()
+/// The way of pictures into windows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// The CPU draws them, and they come from main memory.
+    Memory,
+    /// A GPU draws them and paints the windows.
+    Painted,
+}
+
+impl Way {
+    fn device(self) -> &'static str {
+        match self {
+            Self::Memory => "cpu",
+            Self::Painted => "gpu",
+        }
+    }
+
+    /// The arguments of a show on the outputs.
+    pub fn onto_outputs<'a>(self, display: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+        let scene = ["drive", "procedural:shells@32", "--display", display, "--device", self.device()];
+        let fixed = ["--fade", "0", "--output", "outputs", "--rate", "20", "--caster", "rays", "--json"];
+        let swapchain = if self == Self::Painted { &["--swapchain", "on"][..] } else { &[] };
+        [&scene, &fixed[..], swapchain, more].concat()
+    }
+
+    /// What `simulate` draws of shells there: the pixels of each of so many projectors, 0x00RRGGBB.
+    pub fn complete_pictures(self, display: &str, out: &Path, projectors: usize) -> Vec<Vec<u32>> {
+        let folder = out.to_string_lossy();
+        let fixed = ["simulate", "procedural:shells@32", "--display", display, "--device", self.device()];
+        run(&mut lightloom(&[&fixed[..], &["--out", &folder, "--quiet"]].concat())).succeeded();
+        let picture = |projector: usize| {
+            // As many digits as the last projector has, two at least.
+            let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
+            pixels_of(&path)
+        };
+        let pictures: Vec<Vec<u32>> = (0..projectors).map(picture).collect();
+        let is_lit = |picture: &Vec<u32>| picture.iter().any(|&pixel| pixel != 0);
+        assert!(pictures.iter().all(is_lit), "something is to be seen");
+        pictures
+    }
 }
 
 /// Writes a display into a folder whose projectors, of 96 × 72 pixels, are each on an output: each with its back-end, and the keys
@@ -87,20 +123,4 @@ pub fn last_dumped(dump: &str, projectors: usize) -> Vec<Vec<u32>> {
 pub fn ended(running: Running) -> String {
     running.interrupt();
     running.finish(LIMIT).succeeded().stderr
-}
-
-/// What `simulate` draws of shells: the pixels of each of so many projectors, 0x00RRGGBB.
-pub fn complete_pictures(display: &str, out: &Path, projectors: usize) -> Vec<Vec<u32>> {
-    let folder = out.to_string_lossy();
-    let fixed = ["simulate", "procedural:shells@32", "--display", display, "--device", "cpu"];
-    run(&mut lightloom(&[&fixed[..], &["--out", &folder, "--quiet"]].concat())).succeeded();
-    let picture = |projector: usize| {
-        // As many digits as the last projector has, two at least.
-        let path = out.join(format!("frame-0000/projector-{projector:02}.png"));
-        pixels_of(&path)
-    };
-    let pictures: Vec<Vec<u32>> = (0..projectors).map(picture).collect();
-    let is_lit = |picture: &Vec<u32>| picture.iter().any(|&pixel| pixel != 0);
-    assert!(pictures.iter().all(is_lit), "something is to be seen");
-    pictures
 }

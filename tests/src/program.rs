@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{Read, Seek};
+use std::os::unix::fs::FileExt;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -248,6 +249,19 @@ impl Running {
             sleep(LOOK_INTERVAL);
         }
         None
+    }
+
+    /// Waits until it has said something on its standard error.
+    #[track_caller]
+    pub fn wait_to_say(&self, what: &str) {
+        // Without moving the place in the file, which it shares with the program.
+        let said = || -> std::io::Result<Vec<u8>> {
+            let mut bytes = vec![0; self.stderr.metadata()?.len() as usize];
+            self.stderr.read_exact_at(&mut bytes, 0)?;
+            Ok(bytes)
+        };
+        let has_said = || String::from_utf8_lossy(&said().expect("the file can be read")).contains(what);
+        machine::wait_for(what, has_said);
     }
 
     /// How long it has been running.

@@ -1,6 +1,6 @@
 //! What draws frames, whole or in pieces, and what happens while it does.
 
-use crate::{FrameReport, FrameState, Held, ProjectorImage, ScreenImage};
+use crate::{FrameReport, FrameState, Held, ProjectorImage, ScreenPicture};
 
 /// What happens while a frame is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,20 @@ pub struct Advance {
     pub report: Option<Box<FrameReport>>,
 }
 
+/// Where the codes of pictures are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CodesAt {
+    /// In main memory.
+    pub host: bool,
+    /// In the memory of the device that makes them; only a renderer that has swapchains can leave them there.
+    pub device: bool,
+}
+
+impl CodesAt {
+    /// In main memory alone.
+    pub const HOST: Self = Self { host: true, device: false };
+}
+
 /// Something that draws a frame in pieces, and can be interrupted between any two tiles.
 pub trait Render {
     /// Begins a frame, and drops what is unfinished of the one before.
@@ -83,11 +97,15 @@ pub trait Render {
     /// A picture cannot be read back.
     fn present(&mut self, sink: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError>;
 
-    /// The same, as screens show them.
+    /// The same, as screens show them: each picture once for each place where its codes are wanted.
     ///
     /// # Errors
     /// A picture cannot be read back.
-    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError>;
+    fn present_on_screens(
+        &mut self,
+        at: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
+    ) -> Result<(), DrawError>;
 
     /// What it shows, where that may be something else than when it was last asked, for one that takes its place.
     fn held(&mut self) -> Option<Held> {

@@ -11,7 +11,7 @@ mod setup;
 mod wall;
 pub mod wire;
 
-pub use draw::{Advance, Draw, DrawError, Render, RenderEvent, StopAsked};
+pub use draw::{Advance, CodesAt, Draw, DrawError, Render, RenderEvent, StopAsked};
 pub use frame::{FrameState, Pace, Refinement, SubFrame};
 pub use image::{ProjectorImage, ScreenImage};
 pub use mark::{Mark, MarkShape, Paint};
@@ -19,6 +19,6 @@ pub use message::{FromBackend, FromFrontend, PROTOCOL_VERSION};
 pub use report::{Caster, FrameReport, Refined, Stages, Upkeep};
 pub use setup::{
     AdapterWish, CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, Held, Hello, RendererOptions, Screens,
-    Setup, VolumeRef,
+    Setup, SwapchainChoice, VolumeRef,
 };
-pub use wall::{Wall, WallError};
+pub use wall::{Canvas, DeviceCodes, PaintedPart, ScreenPicture, Wall, WallError};

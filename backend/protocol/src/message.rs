@@ -4,7 +4,7 @@ use super::{DeviceInfo, FrameReport, FrameState, Held, Hello, ProjectorImage, Sc
 use serde::{Deserialize, Serialize};
 
 /// Both ends must agree on it.
-pub const PROTOCOL_VERSION: u32 = 15;
+pub const PROTOCOL_VERSION: u32 = 16;
 
 /// From the front-end to a back-end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -107,6 +107,19 @@ impl RendererOptions {
     }
 }
 
+/// Whether a GPU paints the windows of its back-end itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SwapchainChoice {
+    /// Where it is a GPU in hardware and can; otherwise pictures go to windows by way of main memory.
+    #[default]
+    Auto,
+    /// It does, or an error.
+    On,
+    /// It does not.
+    Off,
+}
+
 /// Where the pictures of a driven display go; nowhere, they are drawn and timed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Screens {
@@ -114,6 +127,8 @@ pub struct Screens {
     pub frontend: bool,
     /// Onto the outputs that the display names, in windows of the back-end.
     pub outputs: bool,
+    /// How they get into these windows.
+    pub swapchain: SwapchainChoice,
 }
 
 /// The first message to a back-end.

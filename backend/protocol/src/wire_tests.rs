@@ -146,7 +146,7 @@ prop_compose! {
             caster: CasterChoice::Planes, cache_bytes: n,
         };
         FromFrontend::Setup(Box::new(Setup {
-            options, volume, screens: Screens { frontend: n % 2 == 0, outputs: n % 3 == 1 }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
+            options, volume, screens: Screens { frontend: n % 2 == 0, outputs: n % 3 == 1, swapchain: SwapchainChoice::On }, trace: (n % 3 == 0).then(|| "traces/backend-1.trace".into()),
             is_kept: n % 7 == 0, held: (n % 11 == 0).then(|| Box::new(held(n))),
         }))
     }

@@ -57,6 +57,9 @@ pub enum ScreenError {
         /// Which X server or desktop.
         server: String,
     },
+    /// A GPU does not paint the windows of a back-end.
+    #[error("{0}")]
+    Painting(String),
     /// A window was opened and cannot be used.
     #[error("the window cannot show anything: {0}")]
     Window(String),

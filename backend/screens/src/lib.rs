@@ -23,5 +23,5 @@ pub use act::{Act, Button};
 pub use error::ScreenError;
 pub use output::{Mode, OutputInfo, Rectangle};
 pub use picture::Picture;
-pub use wall::{open_wall, outputs};
+pub use wall::{NativeWindow, OutputWall, Painter, open_wall, outputs};
 pub use window::{Acts, Window, WindowLoop, open};

@@ -5,8 +5,9 @@ use display_config::Display;
 use glam::{DAffine3, DVec3};
 use optics::{Curve, Optics};
 use protocol::{
-    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, FromBackend, FromFrontend, ProjectorImage,
-    Render, RenderEvent, RendererOptions, ScreenImage, Screens, Setup, Stages, StopAsked, VolumeRef, wire,
+    Advance, CodesAt, DeviceInfo, Draw, DrawError, FrameReport, FrameState, FromBackend, FromFrontend,
+    ProjectorImage, Render, RenderEvent, RendererOptions, ScreenPicture, Screens, Setup, Stages, StopAsked,
+    VolumeRef, wire,
 };
 
 use signal_hook::{
@@ -99,7 +100,7 @@ impl Render for Fake {
         }
         Ok(())
     }
-    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+    fn present_on_screens(&mut self, _: CodesAt, _: &mut dyn FnMut(ScreenPicture)) -> Result<(), DrawError> {
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use super::beat::now_us;
 use super::opened::Opened;
 use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded, unbounded};
-use protocol::{DrawError, FrameState, FromBackend, Render, ScreenImage, Screens, Setup, Wall};
+use protocol::{CodesAt, DrawError, FrameState, FromBackend, Render, ScreenPicture, Screens, Setup, Wall};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -51,7 +51,7 @@ pub(super) enum Reply {
     /// Show pictures on this from now on.
     Wall(Box<dyn Wall>),
     /// A picture of the frame that it draws, for the wall.
-    Picture(ScreenImage),
+    Picture(ScreenPicture),
     /// It cannot go on: one sentence.
     Failed(String),
 }
@@ -93,6 +93,7 @@ impl RenderThread {
             stepped_us: Arc::clone(&stepped_us),
             taken: 0,
             screens: Screens::default(),
+            wants: CodesAt::HOST,
             told_at: Instant::now(),
         };
         let thread = Builder::new().name("drawing".to_owned()).spawn(move || studio.run(make))?;
@@ -148,6 +149,8 @@ struct Studio {
     taken: u64,
     /// Where the pictures of the beat go.
     screens: Screens,
+    /// Where their codes are wanted for that.
+    wants: CodesAt,
     /// When it last told what it holds.
     told_at: Instant,
 }
@@ -199,6 +202,8 @@ impl Studio {
         self.stepped_us.store(u64::MAX, Ordering::Relaxed);
         let Opened { mut renderer, device, wall } = make(*setup).map_err(End::Failed)?;
         self.step();
+        let is_painted = wall.as_ref().is_some_and(|wall| wall.is_painted());
+        self.wants = CodesAt { host: self.screens.frontend || !is_painted, device: is_painted };
         if let Some(wall) = wall {
             self.outbox.send(Reply::Wall(wall)).map_err(|_| End::Dismissed)?;
         }
@@ -260,9 +265,9 @@ impl Studio {
     fn go_on_beating(&mut self, renderer: &mut dyn Render, next: Option<Asked>) -> Result<Work, End> {
         let advance = renderer.advance(&|| self.has_command())?;
         let mut sent = Ok(());
-        renderer.present_on_screens(&mut |image| {
+        renderer.present_on_screens(self.wants, &mut |picture| {
             if sent.is_ok() {
-                sent = self.show(image);
+                sent = self.show(picture);
             }
         })?;
         sent?;
@@ -304,18 +309,21 @@ impl Studio {
         self.stepped_us.store(now_us(), Ordering::Relaxed);
     }
 
-    /// Sends a picture of the beat where the setup wants it.
-    fn show(&self, image: ScreenImage) -> Result<(), End> {
-        let onto_wall = |image| self.outbox.send(Reply::Picture(image)).map_err(|_| End::Dismissed);
-        match self.screens {
-            Screens { outputs: false, frontend: false } => Ok(()),
-            Screens { outputs: true, frontend: false } => onto_wall(image),
-            Screens { outputs, frontend: true } => {
-                if outputs {
-                    onto_wall(image.clone())?;
+    /// Sends a picture of the beat where it is wanted.
+    fn show(&self, picture: ScreenPicture) -> Result<(), End> {
+        let onto_wall = |picture| self.outbox.send(Reply::Picture(picture)).map_err(|_| End::Dismissed);
+        match picture {
+            ScreenPicture::Device(_) => onto_wall(picture),
+            ScreenPicture::Host(image) => match (self.screens.outputs && !self.wants.device, self.screens) {
+                (false, Screens { frontend: false, .. }) => Ok(()),
+                (true, Screens { frontend: false, .. }) => onto_wall(ScreenPicture::Host(image)),
+                (is_for_wall, Screens { frontend: true, .. }) => {
+                    if is_for_wall {
+                        onto_wall(ScreenPicture::Host(image.clone()))?;
+                    }
+                    self.tell(FromBackend::Screen(image), false)
                 }
-                self.tell(FromBackend::Screen(image), false)
-            }
+            },
         }
     }
 

@@ -5,8 +5,8 @@ use crate::session_fixtures::{device, device_after, frame, held, report, setups}
 use crate::threads;
 use crate::{Link, LinkError};
 use protocol::{
-    Advance, DrawError, FrameState, FromBackend, FromFrontend, Held, ProjectorImage, Render, ScreenImage,
-    Setup, StopAsked,
+    Advance, CodesAt, DrawError, FrameState, FromBackend, FromFrontend, Held, ProjectorImage, Render,
+    ScreenPicture, Setup, StopAsked,
 };
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -44,7 +44,7 @@ impl Render for Slow {
     fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
         Ok(())
     }
-    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+    fn present_on_screens(&mut self, _: CodesAt, _: &mut dyn FnMut(ScreenPicture)) -> Result<(), DrawError> {
         Ok(())
     }
 }
@@ -131,7 +131,7 @@ impl Render for Fragile {
         Ok(())
     }
 
-    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+    fn present_on_screens(&mut self, _: CodesAt, _: &mut dyn FnMut(ScreenPicture)) -> Result<(), DrawError> {
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::Opened;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::threads::{self, ThreadLink};
-use protocol::{Advance, Hello, ProjectorImage, Render, ScreenImage, StopAsked};
+use protocol::{Advance, CodesAt, Hello, ProjectorImage, Render, ScreenPicture, StopAsked};
 use std::collections::VecDeque;
 
 /// Long against the interval of signs of life.
@@ -45,7 +45,7 @@ impl Render for Fake {
         }
         Ok(())
     }
-    fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+    fn present_on_screens(&mut self, _: CodesAt, _: &mut dyn FnMut(ScreenPicture)) -> Result<(), DrawError> {
         Ok(())
     }
 }
@@ -135,7 +135,11 @@ fn fate_of_pieces(pieces: u64, each: Duration) -> Option<String> {
         fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
             Ok(())
         }
-        fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+        fn present_on_screens(
+            &mut self,
+            _: CodesAt,
+            _: &mut dyn FnMut(ScreenPicture),
+        ) -> Result<(), DrawError> {
             Ok(())
         }
     }
@@ -162,7 +166,11 @@ fn a_run_that_is_stopped_leaves_its_frame_and_completes_what_is_written() {
         fn present(&mut self, _: &mut dyn FnMut(ProjectorImage)) -> Result<(), DrawError> {
             Ok(())
         }
-        fn present_on_screens(&mut self, _: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+        fn present_on_screens(
+            &mut self,
+            _: CodesAt,
+            _: &mut dyn FnMut(ScreenPicture),
+        ) -> Result<(), DrawError> {
             Ok(())
         }
         fn finish(&mut self) -> Result<(), DrawError> {

@@ -200,8 +200,8 @@ impl Desk<'_> {
                 self.screens.equip(wall);
                 Ok(())
             }
-            Reply::Picture(image) => {
-                self.screens.draw(image);
+            Reply::Picture(picture) => {
+                self.screens.draw(picture);
                 Ok(())
             }
             Reply::Message { message, answered } => {

@@ -7,7 +7,7 @@ use crate::scene::{LookName, QualityPreset};
 use clap::{Args, ValueEnum};
 use control::Rule;
 use display_config::RATES_HZ;
-use protocol::Pace;
+use protocol::{Pace, SwapchainChoice};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -42,6 +42,9 @@ pub struct ShowArgs {
     /// Where the pictures go.
     #[arg(long, value_enum, default_value = "desktop")]
     pub output: OutputArg,
+    /// Whether a GPU paints the windows on outputs itself, or their pictures go through main memory.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub swapchain: SwapchainArg,
     /// A window on this desktop as well, wherever else the pictures go. Alone it is the same as --output desktop.
     #[arg(long)]
     pub desktop: bool,
@@ -111,6 +114,27 @@ pub enum ReconstructArg {
     Quincunx,
     /// All of them.
     Off,
+}
+
+/// What paints the windows on outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SwapchainArg {
+    /// A hardware GPU where the X server shows with it, main memory elsewhere.
+    Auto,
+    /// The GPU or nothing.
+    On,
+    /// Main memory.
+    Off,
+}
+
+impl From<SwapchainArg> for SwapchainChoice {
+    fn from(swapchain: SwapchainArg) -> Self {
+        match swapchain {
+            SwapchainArg::Auto => SwapchainChoice::Auto,
+            SwapchainArg::On => SwapchainChoice::On,
+            SwapchainArg::Off => SwapchainChoice::Off,
+        }
+    }
 }
 
 impl ShowArgs {

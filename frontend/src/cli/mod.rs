@@ -27,7 +27,7 @@ pub use accuracy::AccuracyArgs;
 pub use backends::{BackendArgs, DeviceArg, FilterArg};
 pub use calibrate::{CalibrateArgs, CalibrateSubject, TrackerArgs};
 pub use debug_view::DebugViewArg;
-pub use drive::{DriveArgs, OutputArg, ReconstructArg, ShowArgs};
+pub use drive::{DriveArgs, OutputArg, ReconstructArg, ShowArgs, SwapchainArg};
 pub use exhibit::ExhibitArgs;
 pub use export::ExportArgs;
 pub use gallery::GalleryArgs;

@@ -3,7 +3,7 @@
 use super::say::{say, warn};
 use crate::FrontendError;
 use crate::adapter::{self, Backends, Showing};
-use crate::cli::{OutputArg, ReconstructArg, ShowArgs};
+use crate::cli::{OutputArg, ReconstructArg, ShowArgs, SwapchainArg};
 use crate::drive::{
     Controlled, Desk, Desktop, DriveReport, Dump, Energy, Hands, Input, Plan, Recorder, Screens, Sheet, Sink,
     Status, Taped, Tracked, Trial, run,
@@ -48,6 +48,11 @@ pub(super) struct Show<'a> {
 pub(super) fn check(args: &ShowArgs) -> Result<(), FrontendError> {
     for folder in args.out.iter().chain(&args.dump) {
         can_write_into(folder)?;
+    }
+    if args.swapchain == SwapchainArg::On && args.output != OutputArg::Outputs {
+        return Err(FrontendError::Screen(
+            "--swapchain on is for windows on outputs: add --output outputs".into(),
+        ));
     }
     Ok(())
 }
@@ -133,7 +138,11 @@ fn play(
     let showing = Showing {
         period: Duration::from_secs_f64(1.0 / rate_hz),
         time,
-        at: protocol::Screens { frontend: screens.is_wanted(), outputs: onto_outputs },
+        at: protocol::Screens {
+            frontend: screens.is_wanted(),
+            outputs: onto_outputs,
+            swapchain: args.swapchain.into(),
+        },
     };
     let options = args.drawing.options(None);
     let mut record = match show.record.take() {

@@ -78,6 +78,8 @@ bindings! {
     MARKED = 31;
     /// The [`TileTally`](crate::TileTally)s.
     TALLIES = 32;
+    /// The [`PaintBlock`](crate::PaintBlock).
+    PAINT = 33;
 }
 
 #[cfg(test)]

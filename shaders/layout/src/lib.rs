@@ -14,7 +14,7 @@ pub use feedback::{
     CODE_OF_ZERO, CODES_PER_LEVEL, FeedbackEntry, MOST_DEFICIT, code_from_deficit, deficit_from_code,
 };
 pub use node::{FULL_WEIGHTS, NO_NODE, NO_SLOT, NodeRecord, pack_weights};
-pub use present::PresentBlock;
+pub use present::{PaintBlock, PresentBlock};
 pub use scene::{Link, SceneBlock};
 pub use table_entry::{ImportanceEntry, IndexEntry, TableCell, TableEntry};
 pub use view::{MISSING, SHORT_RAYS, TALLIED_TILES, TILE_EDGE, TileTally, ViewBlock};

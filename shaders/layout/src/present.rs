@@ -69,3 +69,15 @@ pub struct MarkedPixel {
     /// How many there are.
     pub count: u32,
 }
+
+/// The uniform block of a picture that is painted into a window. Every member fills 16 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct PaintBlock {
+    /// The window's pixel at the top left of the picture.
+    pub place: [i32; 4],
+    /// The picture's pixel that is seen there; bytes of a row of its codes.
+    pub source: [i32; 4],
+    /// The ways in the picture of a step to the right and of one down in the window.
+    pub steps: [i32; 4],
+}

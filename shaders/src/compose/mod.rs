@@ -17,15 +17,17 @@
 //! | debug | `debug/none`, `node`, `samples`, see [`optics::DebugView`] |
 //!
 //! What is shown of a picture is made by kernels of their own, without slots: [`PresentKernel`]. So is
-//! what the rays of each tile counted: [`tally_wgsl`].
+//! what the rays of each tile counted: [`tally_wgsl`]. Windows are painted with [`paint_wgsl`].
 
 mod chain;
 mod constants;
 mod debug_view;
 mod kernel;
+mod paint;
 mod present;
 mod tally;
 
 pub use kernel::{Filter, KernelKey, KernelRays, Lookup};
+pub use paint::{PAINT_CORNER, PAINT_PIXEL, paint_wgsl};
 pub use present::PresentKernel;
 pub use tally::{TALLY_ENTRY_POINT, tally_wgsl};

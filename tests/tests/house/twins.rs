@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 const SHOWS: &str = "it casts no rays: the CPU device shows with it, and nobody asks for it in f64";
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 33] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 34] = [
     ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
@@ -42,6 +42,11 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 33] = [
     ("present/ease", Some("backend/renderer/src/present/ease.rs"), SHOWS),
     ("present/layers", Some("backend/renderer/src/present/layers.rs"), SHOWS),
     ("present/finish", Some("backend/renderer/src/present/finish/mod.rs"), SHOWS),
+    (
+        "present/paint",
+        Some("backend/screens/src/wall/pixels.rs"),
+        "windows that no GPU paints get their pixels there",
+    ),
     ("present/reconstruct", Some("backend/renderer/src/present/reconstruct.rs"), SHOWS),
     ("present/transfer", Some("backend/renderer/src/present/finish/transfer.rs"), SHOWS),
     ("present/warp", Some("backend/renderer/src/present/finish/warp.rs"), SHOWS),

@@ -1,9 +1,7 @@
 //! Windows on the named outputs of a real Wayland desktop without a screen.
 
-use lightloom_tests::four_outputs::{
-    complete_pictures, ended, last_dumped, on_outputs, turned_back, turned_display,
-};
-use lightloom_tests::program::{cluster, lightloom, run, start};
+use lightloom_tests::four_outputs::{Way, ended, last_dumped, turned_back, turned_display};
+use lightloom_tests::program::{cluster, has_gpu, lightloom, run, start};
 use lightloom_tests::wayland_desktop::WaylandDesktop;
 use lightloom_tests::x_server::{XServer, report};
 use std::fs;
@@ -31,12 +29,12 @@ fn four_outputs_of_wayland_show_the_complete_pictures_whoever_draws_them() {
     let folder = tempfile::tempdir().unwrap();
     let Some(desktop) = WaylandDesktop::four_outputs() else { return };
     let display = turned_display(folder.path(), NAMES);
-    let complete = complete_pictures(&display, &folder.path().join("out"), 4);
+    let complete = Way::Memory.complete_pictures(&display, &folder.path().join("out"), 4);
     let shows = |desktop: &WaylandDesktop, projector: usize| {
         picture(desktop, NAMES[projector], projector) == complete[projector]
     };
     let dump = folder.path().join("dump").to_string_lossy().into_owned();
-    let command = lightloom(&on_outputs(&display, &["--backends", "2", "--dump", &dump]));
+    let command = lightloom(&Way::Memory.onto_outputs(&display, &["--backends", "2", "--dump", &dump]));
     let running = start(&mut desktop.on(command));
     desktop.wait_for("the complete pictures, to the code", |desktop| (0..4).all(|p| shows(desktop, p)));
     // Around them all is black: no border, no title.
@@ -57,7 +55,7 @@ fn four_outputs_of_wayland_show_the_complete_pictures_whoever_draws_them() {
     let said = ended(running);
     assert!(said.contains("output HEADLESS-1 now shows 800 × 600 pixels"), "{said}");
     assert!(last_dumped(&dump, 4) == complete, "the dump is what was seen");
-    if let Some(command) = cluster(&on_outputs(&display, &["--for", "6"]), 2) {
+    if let Some(command) = cluster(&Way::Memory.onto_outputs(&display, &["--for", "6"]), 2) {
         let running = start(&mut desktop.on(command));
         desktop.wait_for("the same by two processes", |desktop| (0..4).all(|p| shows(desktop, p)));
         assert_eq!(report(running)["end"], "planned");
@@ -70,8 +68,9 @@ fn outputs_of_wayland_that_change_and_windows_that_close_are_followed() {
     let Some(server) = XServer::desktop() else { return };
     let Some(desktop) = WaylandDesktop::on_x(&server) else { return };
     let display = turned_display(folder.path(), ON_X);
-    let complete = complete_pictures(&display, &folder.path().join("out"), 4);
-    let running = start(&mut desktop.on(lightloom(&on_outputs(&display, &["--backends", "2"]))));
+    let complete = Way::Memory.complete_pictures(&display, &folder.path().join("out"), 4);
+    let running =
+        start(&mut desktop.on(lightloom(&Way::Memory.onto_outputs(&display, &["--backends", "2"]))));
     let shows = |when: &str, projectors: &[usize]| {
         for &projector in projectors {
             let (name, wanted) = (ON_X[projector], &complete[projector]);
@@ -93,6 +92,8 @@ fn outputs_of_wayland_that_change_and_windows_that_close_are_followed() {
         now.len() == before.len() && now.is_disjoint(&before)
     });
     shows("in new windows", &[0, 2, 3]);
+    // Sentences come with the next look after the windows.
+    running.wait_to_say("somebody closed the window on output X11-");
     let said = ended(running);
     let lines = [
         "output X11-5 does not exist",
@@ -107,7 +108,7 @@ fn outputs_of_wayland_that_change_and_windows_that_close_are_followed() {
 fn what_wayland_cannot_show_is_refused_in_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     let display = turned_display(folder.path(), NAMES);
-    let mut nowhere = lightloom(&on_outputs(&display, &[]));
+    let mut nowhere = lightloom(&Way::Memory.onto_outputs(&display, &[]));
     nowhere.env("XDG_RUNTIME_DIR", folder.path()).env("WAYLAND_DISPLAY", "wayland-9");
     run(&mut nowhere).refused(&["no Wayland desktop can be reached", "WAYLAND_DISPLAY"]);
     let Some(desktop) = WaylandDesktop::four_outputs() else { return };
@@ -117,9 +118,13 @@ fn what_wayland_cannot_show_is_refused_in_a_sentence() {
         listed.contains("output = { name = \"HEADLESS-2\", x_px = 0, y_px = 0 }    # 640 × 480"),
         "{listed}"
     );
+    if has_gpu() {
+        run(&mut desktop.on(lightloom(&Way::Painted.onto_outputs(&display, &[]))))
+            .refused(&["on Wayland windows get their pictures from main memory", "--swapchain off"]);
+    }
     let text = fs::read_to_string(&display).unwrap();
     fs::write(&display, text.replace("HEADLESS", "HDMI")).unwrap();
-    let show = || run(&mut desktop.on(lightloom(&on_outputs(&display, &[]))));
+    let show = || run(&mut desktop.on(lightloom(&Way::Memory.onto_outputs(&display, &[]))));
     show().refused(&[
         "none of the outputs HDMI-1, HDMI-2, HDMI-3, HDMI-4 is connected to this Wayland desktop",
     ]);

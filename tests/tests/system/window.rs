@@ -1,6 +1,6 @@
 //! A real window of a real window system, without a screen.
 
-use lightloom_tests::four_outputs::complete_pictures;
+use lightloom_tests::four_outputs::Way;
 use lightloom_tests::program::{LIMIT, Running, lightloom, small_display, start};
 use lightloom_tests::x_server::{XServer, report};
 use std::thread::sleep;
@@ -84,7 +84,7 @@ fn a_window_shows_the_complete_pictures_and_obeys_mouse_and_keys() {
     let Some(desktop) = Desktop::open() else { return };
     let folder = tempfile::tempdir().unwrap();
     let display = small_display(folder.path());
-    let complete = complete_pictures(&display, &folder.path().join("out"), 4);
+    let complete = Way::Memory.complete_pictures(&display, &folder.path().join("out"), 4);
     let running = desktop.start(&display, &[]);
     let is_complete =
         |desktop: &Desktop| (0..4).all(|projector| desktop.picture(projector) == complete[projector]);

@@ -5,13 +5,14 @@ use super::rows::cast_rows;
 use super::tiles::{TileFound, cast_tiles};
 use super::under_way::UnderWay;
 use super::{
-    CastJob, CastOutcome, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShortJob, ShortView,
-    ShowJob, TaggedFeedback,
+    CastJob, CastOutcome, Codes, DeviceError, DevicePicture, FeedbackTag, FinishJob, Gather, ShortJob,
+    ShortView, ShowJob, TaggedFeedback,
 };
-use crate::present::{Show, Thresholds};
+use crate::present::{Raster, Show, Thresholds};
 use bricks::BRICK_VOXELS;
 use layout::{NodeRecord, SHORT_RAYS};
 use needs::tables::Tables;
+use protocol::CodesAt;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use twin::{Casting, FeedbackCell, Observer, ProjectorRays, ShortRay, Volume, cast_short};
@@ -202,16 +203,22 @@ impl CpuDevice {
         }
     }
 
-    pub(super) fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
-        jobs.iter().map(|job| self.codes_of(job)).collect()
+    #[expect(clippy::unnecessary_wraps, reason = "as other devices have it")]
+    pub(super) fn codes(&self, jobs: &[FinishJob], _at: CodesAt) -> Result<Vec<Codes>, DeviceError> {
+        Ok(jobs.iter().map(|job| Codes::on_host(self.codes_of(job))).collect())
     }
 
-    fn codes_of(&mut self, job: &FinishJob) -> Result<Vec<u8>, DeviceError> {
+    #[expect(clippy::unused_self, reason = "as other devices have it")]
+    pub(super) fn codes_of_host(&self, codes: Vec<u8>, _raster: Raster, _at: CodesAt) -> Codes {
+        Codes::on_host(codes)
+    }
+
+    fn codes_of(&self, job: &FinishJob) -> Vec<u8> {
         let mut rgba = Cow::Borrowed(self.picture(job.picture));
         if !job.layers.is_empty() {
             job.layers.lay_into(rgba.to_mut());
         }
-        Ok(job.finisher.codes(&rgba))
+        job.finisher.codes(&rgba)
     }
 }
 

@@ -1,11 +1,13 @@
 //! A device of either kind, with its brick cache.
 
 use super::{
-    CastJob, CastOutcome, CpuDevice, DeviceError, DevicePicture, FeedbackTag, FinishJob, ShortJob, ShowJob,
-    TaggedFeedback,
+    CastJob, CastOutcome, Codes, CpuDevice, DeviceError, DevicePicture, FeedbackTag, FinishJob, ShortJob,
+    ShowJob, TaggedFeedback,
 };
+use crate::present::Raster;
 use layout::NodeRecord;
 use needs::tables::Tables;
+use protocol::CodesAt;
 use std::borrow::Cow;
 use twin::ProjectorRays;
 
@@ -160,14 +162,28 @@ impl Device {
         Ok(self.pictures(&[picture])?.remove(0))
     }
 
-    /// The codes of some pictures: red, green and blue of each pixel, rows from the top.
+    /// The codes of some pictures, where they are wanted. The CPU has them in main memory, wherever they are wanted.
     ///
     /// # Errors
     /// The device stopped answering.
     ///
     /// # Panics
-    /// Where one is not there yet.
-    pub fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
-        on_device!(self, device => device.codes(jobs))
+    /// Where a picture is not there yet.
+    pub fn codes(&mut self, jobs: &[FinishJob], at: CodesAt) -> Result<Vec<Codes>, DeviceError> {
+        on_device!(self, device => device.codes(jobs, at))
+    }
+
+    /// The same of a picture whose codes were made on the host.
+    pub fn codes_of_host(&mut self, codes: Vec<u8>, raster: Raster, at: CodesAt) -> Codes {
+        on_device!(self, device => device.codes_of_host(codes, raster, at))
+    }
+
+    /// What makes swapchains that show codes which it has; None where it can make none.
+    #[cfg(feature = "gpu")]
+    pub fn swapchains(&self) -> Option<super::gpu::Swapchains> {
+        match self {
+            Self::Cpu(_) => None,
+            Self::Gpu(device) => Some(device.swapchains()),
+        }
     }
 }

@@ -24,6 +24,6 @@ pub use error::DeviceError;
 pub use job::{
     CastJob, CastOutcome, Gather, NEVER, Part, Patch, Sharing, ShortJob, ShortView, TileGrid, coarse,
 };
-pub use show::{DevicePicture, FinishJob, ShowJob};
+pub use show::{Codes, DevicePicture, FinishJob, ShowJob};
 pub use tag::{FeedbackTag, TaggedFeedback};
 pub use tile_list::TileList;

@@ -1,6 +1,8 @@
 //! What a device is asked on the way from what was cast to what is shown.
 
 use crate::present::{Classes, Finisher, Layers, Raster};
+use std::any::Any;
+use std::sync::Arc;
 
 /// A picture that a device has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,4 +41,20 @@ pub struct FinishJob<'a> {
     pub view: usize,
     /// What makes codes of it.
     pub finisher: &'a Finisher,
+}
+
+/// The codes of a picture: red, green and blue of each pixel, rows from the top.
+#[derive(Clone, Default)]
+pub struct Codes {
+    /// In main memory, where they are wanted there.
+    pub host: Option<Vec<u8>>,
+    /// On the device, where they are wanted there and it can keep them.
+    pub device: Option<Arc<dyn Any + Send + Sync>>,
+}
+
+impl Codes {
+    /// Those in main memory alone.
+    pub(super) fn on_host(codes: Vec<u8>) -> Self {
+        Self { host: Some(codes), device: None }
+    }
 }

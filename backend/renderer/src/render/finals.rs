@@ -7,7 +7,7 @@ use super::work::Work;
 use crate::device::{Device, DeviceError, DevicePicture, FinishJob, Patch, ShowJob};
 use crate::present::{Layers, Raster, resampled};
 use planes::RasterWarp;
-use protocol::{ProjectorImage, ScreenImage};
+use protocol::{CodesAt, DeviceCodes, ProjectorImage, ScreenImage, ScreenPicture};
 use std::borrow::Cow;
 use std::slice::from_ref;
 use std::time::Instant;
@@ -174,12 +174,13 @@ impl Engine {
         Ok(())
     }
 
-    /// Hands over the codes that projectors show pictures with.
+    /// Hands over the codes that projectors show pictures with, where they are wanted.
     pub(super) fn codes(
         &mut self,
         work: &Work,
         finals: &[Final],
-        sink: &mut dyn FnMut(ScreenImage),
+        at: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
     ) -> Result<(), DeviceError> {
         let layers = self.layers(work, finals.iter().map(|of| of.view))?;
         let finishers = &self.finishers;
@@ -191,17 +192,23 @@ impl Engine {
                 Some(FinishJob { picture: of.on_device()?, raster, layers, view: of.view, finisher })
             })
             .collect();
-        let mut of_device = self.device.codes(&jobs)?.into_iter();
+        let mut of_device = self.device.codes(&jobs, at)?.into_iter();
         for (of, layers) in finals.iter().zip(&layers) {
-            let rgb = match of.on_device().and_then(|_| of_device.next()) {
-                Some(rgb) => rgb,
+            let codes = match of.on_device().and_then(|_| of_device.next()) {
+                Some(codes) => codes,
                 None => {
                     let picture = pictures(from_ref(of), &mut self.device, &self.refining)?.remove(0);
-                    finishers[of.view].codes(&of.rgba(picture, layers))
+                    let codes = finishers[of.view].codes(&of.rgba(picture, layers));
+                    self.device.codes_of_host(codes, Raster::of(of.size), at)
                 }
             };
             let &Final { projector, size: [width, height], .. } = of;
-            sink(ScreenImage { projector, width, height, rgb });
+            if let Some(rgb) = codes.host {
+                sink(ScreenPicture::Host(ScreenImage { projector, width, height, rgb }));
+            }
+            if let Some(codes) = codes.device {
+                sink(ScreenPicture::Device(DeviceCodes { projector, codes }));
+            }
         }
         Ok(())
     }

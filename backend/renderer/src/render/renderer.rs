@@ -9,12 +9,14 @@ use super::recording::Recording;
 use super::setting::Setting;
 use super::work::Work;
 use crate::device::DevicePicture;
+#[cfg(feature = "gpu")]
+use crate::device::gpu::Swapchains;
 use crate::present::resampled;
 use bricks::{BrickSource, NodeKey};
 use optics::Enhancer;
 use protocol::{
-    Advance, DeviceInfo, Draw, DrawError, FrameReport, FrameState, ProjectorImage, Render, RenderEvent,
-    RendererOptions, ScreenImage, StopAsked, VolumeRef,
+    Advance, CodesAt, DeviceInfo, Draw, DrawError, FrameReport, FrameState, ProjectorImage, Render,
+    RenderEvent, RendererOptions, ScreenPicture, StopAsked, VolumeRef,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -161,13 +163,25 @@ impl Renderer {
         Ok(self.engine.hand_over(work, sink, Engine::colours)?)
     }
 
-    /// The same, as screens show them.
+    /// The same, as screens show them: each picture once for each place where its codes are wanted.
     ///
     /// # Errors
     /// The device stopped answering.
-    pub fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), RenderError> {
+    pub fn present_on_screens(
+        &mut self,
+        at: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
+    ) -> Result<(), RenderError> {
         let Some(Course { work, .. }) = &mut self.course else { return Ok(()) };
-        Ok(self.engine.hand_over(work, sink, Engine::codes)?)
+        Ok(self
+            .engine
+            .hand_over(work, sink, |engine, work, finals, sink| engine.codes(work, finals, at, sink))?)
+    }
+
+    /// What makes swapchains that show codes which stay on its device; None where it is no GPU.
+    #[cfg(feature = "gpu")]
+    pub fn swapchains(&self) -> Option<Swapchains> {
+        self.engine.device.swapchains()
     }
 
     /// No frame follows: completes the trace, where one is wanted.
@@ -208,8 +222,12 @@ impl Render for Renderer {
         Ok(Self::present(self, sink)?)
     }
 
-    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
-        Ok(Self::present_on_screens(self, sink)?)
+    fn present_on_screens(
+        &mut self,
+        at: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
+    ) -> Result<(), DrawError> {
+        Ok(Self::present_on_screens(self, at, sink)?)
     }
 
     fn finish(&mut self) -> Result<(), DrawError> {

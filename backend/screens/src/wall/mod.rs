@@ -3,6 +3,7 @@
 //! The windows take no input, so they need neither the main thread nor, on X, a desktop: a bare server is enough.
 
 mod group;
+mod paint;
 mod pixels;
 mod waiting;
 mod wayland;
@@ -10,7 +11,8 @@ mod x11;
 
 use crate::{OutputInfo, ScreenError};
 use display_config::Display;
-use protocol::Wall;
+pub use paint::{NativeWindow, OutputWall, Painter};
+
 use wayland::WaylandWall;
 use x11::XWall;
 
@@ -27,7 +29,7 @@ pub fn outputs() -> Result<Vec<OutputInfo>, ScreenError> {
 ///
 /// # Errors
 /// There is nothing that can show them, or none of the outputs is there.
-pub fn open_wall(display: &Display, projectors: &[u32]) -> Result<Box<dyn Wall>, ScreenError> {
+pub fn open_wall(display: &Display, projectors: &[u32]) -> Result<Box<dyn OutputWall>, ScreenError> {
     match wayland::is_there() {
         true => Ok(Box::new(WaylandWall::open(display, projectors)?)),
         false => Ok(Box::new(XWall::open(display, projectors)?)),

@@ -48,14 +48,13 @@ impl Layout {
         let picture = UVec2::new(image.width, image.height);
         let size = turn.size(picture);
         let mut bytes = Vec::with_capacity(4 * (size.x * size.y) as usize);
-        let index = |x, y| {
-            let from = turn.source(UVec2::new(x, y), picture);
-            3 * (from.y as isize * picture.x as isize + from.x as isize)
-        };
+        let index = |x: i32, y: i32| 3 * (y as isize * picture.x as isize + x as isize);
+        // A row of the output is a row or a column of the picture, in one direction or the other.
+        let [right, _] = turn.steps();
+        let step = index(right.x, right.y);
         for y in 0..size.y {
-            // A row of the output is a row or a column of the picture, in one direction or the other.
-            let first = index(0, y);
-            let step = if size.x > 1 { index(1, y) - first } else { 0 };
+            let [x, y] = turn.source(UVec2::new(0, y), picture).as_ivec2().to_array();
+            let first = index(x, y);
             bytes.extend((0..size.x as isize).flat_map(|x| {
                 let at = (first + x * step) as usize;
                 let [r, g, b] = [0, 1, 2].map(|c| image.rgb[at + c]);

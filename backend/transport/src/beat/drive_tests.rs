@@ -4,7 +4,10 @@ use super::*;
 use crate::restarts::AT_ONCE;
 use crate::session_fixtures::{device, frame, report, setups};
 use crate::{Limits, Opened, threads};
-use protocol::{Advance, DrawError, ProjectorImage, Render, ScreenImage, Screens, StopAsked};
+use protocol::{
+    Advance, CodesAt, DrawError, ProjectorImage, Render, ScreenImage, ScreenPicture, Screens, StopAsked,
+    SwapchainChoice,
+};
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU32;
 
@@ -39,14 +42,23 @@ impl Render for Fake {
         Ok(())
     }
 
-    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
+    fn present_on_screens(
+        &mut self,
+        _: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
+    ) -> Result<(), DrawError> {
         let [a, b, c, _] = self.frame.to_le_bytes();
-        sink(ScreenImage { projector: self.backend, width: 1, height: 1, rgb: vec![a, b, c] });
+        sink(ScreenPicture::Host(ScreenImage {
+            projector: self.backend,
+            width: 1,
+            height: 1,
+            rgb: vec![a, b, c],
+        }));
         Ok(())
     }
 }
 
-const TO_FRONTEND: Screens = Screens { frontend: true, outputs: false };
+const TO_FRONTEND: Screens = Screens { frontend: true, outputs: false, swapchain: SwapchainChoice::Auto };
 
 fn driving(backends: u32, time: Time, behaves: Behaviour) -> Drive {
     let open = move |setup: Setup| -> Result<Opened, String> {

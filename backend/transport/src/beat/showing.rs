@@ -2,7 +2,7 @@
 
 use super::stage::Stage;
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, unbounded};
-use protocol::{ScreenImage, Wall, WallError};
+use protocol::{ScreenPicture, Wall, WallError};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use std::thread::{Builder, JoinHandle};
@@ -29,7 +29,7 @@ pub fn now_us() -> u64 {
 /// What the messages' thread tells it.
 enum Cue {
     Wall(Box<dyn Wall>),
-    Picture(ScreenImage),
+    Picture(ScreenPicture),
     Drawn(u32),
     Asked,
     Show { frame: u32, at_us: u64 },
@@ -76,8 +76,8 @@ impl ShowThread {
     }
 
     /// A picture of the frame that is being drawn.
-    pub fn draw(&self, image: ScreenImage) {
-        self.cue(Cue::Picture(image));
+    pub fn draw(&self, picture: ScreenPicture) {
+        self.cue(Cue::Picture(picture));
     }
 
     /// A frame is drawn.
@@ -118,17 +118,17 @@ impl Drop for ShowThread {
 struct Windows {
     wall: Option<Box<dyn Wall>>,
     /// Of the frame that is being drawn.
-    coming: Vec<ScreenImage>,
+    coming: Vec<ScreenPicture>,
     /// Of frames that wait to be shown.
-    drawn: BTreeMap<u32, Vec<ScreenImage>>,
+    drawn: BTreeMap<u32, Vec<ScreenPicture>>,
     ready: Option<u32>,
 }
 
 impl Windows {
     fn drawn(&mut self, frame: u32) {
-        let images = std::mem::take(&mut self.coming);
+        let pictures = std::mem::take(&mut self.coming);
         if self.wall.is_some() {
-            self.drawn.insert(frame, images);
+            self.drawn.insert(frame, pictures);
         }
     }
 
@@ -200,7 +200,7 @@ fn serve(inbox: &Receiver<Cue>, outbox: &Sender<Told>) -> Result<(), WallError> 
 fn take(cue: Cue, stage: &mut Stage, windows: &mut Windows) {
     match cue {
         Cue::Wall(wall) => windows.wall = Some(wall),
-        Cue::Picture(image) => windows.coming.push(image),
+        Cue::Picture(picture) => windows.coming.push(picture),
         Cue::Drawn(frame) => {
             windows.drawn(frame);
             stage.drawn(frame);
@@ -216,6 +216,7 @@ fn take(cue: Cue, stage: &mut Stage, windows: &mut Windows) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use protocol::ScreenImage;
     use std::sync::{Arc, Mutex};
 
     fn next(thread: &ShowThread) -> Told {
@@ -238,8 +239,9 @@ mod tests {
     struct Fake(Arc<Mutex<Vec<String>>>);
 
     impl Wall for Fake {
-        fn ready(&mut self, images: &[ScreenImage]) -> Result<(), WallError> {
-            let projectors: Vec<u32> = images.iter().map(|image| image.projector).collect();
+        fn ready(&mut self, pictures: &[ScreenPicture]) -> Result<(), WallError> {
+            let images = pictures.iter().filter_map(ScreenPicture::on_host);
+            let projectors: Vec<u32> = images.map(|image| image.projector).collect();
             self.0.lock().unwrap().push(format!("ready {projectors:?}"));
             Ok(())
         }
@@ -258,7 +260,7 @@ mod tests {
     struct Slow(Duration);
 
     impl Wall for Slow {
-        fn ready(&mut self, _: &[ScreenImage]) -> Result<(), WallError> {
+        fn ready(&mut self, _: &[ScreenPicture]) -> Result<(), WallError> {
             Ok(())
         }
 
@@ -295,7 +297,8 @@ mod tests {
     fn pictures_are_readied_ahead_and_shown_with_their_frame() {
         let (thread, wall) = (ShowThread::start().unwrap(), Fake::default());
         thread.equip(Box::new(wall.clone()));
-        let image = |projector| ScreenImage { projector, width: 1, height: 1, rgb: vec![0; 3] };
+        let image =
+            |projector| ScreenPicture::Host(ScreenImage { projector, width: 1, height: 1, rgb: vec![0; 3] });
         for frame in 0..3 {
             thread.draw(image(10 + frame));
             thread.drawn(frame);

@@ -5,7 +5,10 @@ use crate::keeping::kept;
 use crate::opened::Opened;
 use crate::process::is_running;
 use crate::session_fixtures::{device, device_after, frame, held, report, setups};
-use protocol::{Advance, DrawError, FrameState, ProjectorImage, Render, ScreenImage, Screens, StopAsked};
+use protocol::{
+    Advance, CodesAt, DrawError, FrameState, ProjectorImage, Render, ScreenImage, ScreenPicture, Screens,
+    StopAsked,
+};
 use rustix::process::{Pid, Signal, kill_process};
 
 /// Longer than any of these things takes.
@@ -62,8 +65,17 @@ impl Render for Fake {
         (self.0 == HOLDS).then(held)
     }
 
-    fn present_on_screens(&mut self, sink: &mut dyn FnMut(ScreenImage)) -> Result<(), DrawError> {
-        sink(ScreenImage { projector: 0, width: 800, height: 600, rgb: vec![self.0 as u8; 3 * 800 * 600] });
+    fn present_on_screens(
+        &mut self,
+        _: CodesAt,
+        sink: &mut dyn FnMut(ScreenPicture),
+    ) -> Result<(), DrawError> {
+        sink(ScreenPicture::Host(ScreenImage {
+            projector: 0,
+            width: 800,
+            height: 600,
+            rgb: vec![self.0 as u8; 3 * 800 * 600],
+        }));
         Ok(())
     }
 }
@@ -90,7 +102,7 @@ fn this_test() -> io::Result<Command> {
 }
 
 fn setup() -> Setup {
-    let screens = Screens { frontend: true, outputs: false };
+    let screens = Screens { frontend: true, ..Screens::default() };
     Setup { screens, ..setups(1).remove(0) }
 }
 

@@ -5,15 +5,20 @@ use crate::device::adapter::{AdapterKind, ChosenAdapter, OfferedAdapter, choose_
 use protocol::AdapterWish;
 use std::sync::OnceLock;
 
+static INSTANCE: OnceLock<wgpu::Instance> = OnceLock::new();
 static ADAPTERS: OnceLock<Vec<wgpu::Adapter>> = OnceLock::new();
 
-fn adapters() -> &'static [wgpu::Adapter] {
-    ADAPTERS.get_or_init(|| {
+/// What the drivers are asked through.
+pub(super) fn instance() -> &'static wgpu::Instance {
+    INSTANCE.get_or_init(|| {
         let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
         wanted.backends = wgpu::Backends::PRIMARY;
-        let instance = wgpu::Instance::new(wanted);
-        pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
+        wgpu::Instance::new(wanted)
     })
+}
+
+fn adapters() -> &'static [wgpu::Adapter] {
+    ADAPTERS.get_or_init(|| pollster::block_on(instance().enumerate_adapters(wgpu::Backends::PRIMARY)))
 }
 
 /// The adapter for a back-end.

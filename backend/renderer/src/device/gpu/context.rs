@@ -12,6 +12,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 /// work at once, so there is one context for an adapter, and work on it takes turns.
 #[derive(Debug)]
 pub(in crate::device) struct Context {
+    pub(super) adapter: &'static wgpu::Adapter,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     pub(super) name: String,
@@ -46,7 +47,7 @@ pub(in crate::device) fn context(wish: &AdapterWish) -> Result<(Arc<Context>, St
 }
 
 impl Context {
-    async fn open(adapter: &wgpu::Adapter) -> Result<Self, DeviceError> {
+    async fn open(adapter: &'static wgpu::Adapter) -> Result<Self, DeviceError> {
         let info = adapter.get_info();
         let name = format!("gpu: {}, {:?}", info.name, info.backend);
         let features = adapter.features()
@@ -77,6 +78,7 @@ impl Context {
         let pipelines = PipelineCache::open(&device, &info);
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
         Ok(Self {
+            adapter,
             device,
             queue,
             name,

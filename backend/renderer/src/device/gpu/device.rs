@@ -9,12 +9,14 @@ use super::pictures::Pictures;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
-use crate::device::{DeviceError, DevicePicture, FeedbackTag, FinishJob, ShowJob, TaggedFeedback};
+use super::swapchain::Swapchains;
+use crate::device::{Codes, DeviceError, DevicePicture, FeedbackTag, FinishJob, ShowJob, TaggedFeedback};
+use crate::present::Raster;
 use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
 use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
-use protocol::{DeviceInfo, FilterChoice};
+use protocol::{CodesAt, DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, Lookup};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -223,9 +225,22 @@ impl GpuDevice {
         Ok(colours.into_iter().map(Cow::Owned).collect())
     }
 
-    pub(in crate::device) fn codes(&mut self, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
+    pub(in crate::device) fn codes(
+        &mut self,
+        jobs: &[FinishJob],
+        at: CodesAt,
+    ) -> Result<Vec<Codes>, DeviceError> {
         let _turn = self.context.turn();
-        self.pictures.codes(&self.context, jobs)
+        self.pictures.codes(&self.context, jobs, at)
+    }
+
+    pub(in crate::device) fn codes_of_host(&mut self, codes: Vec<u8>, raster: Raster, at: CodesAt) -> Codes {
+        let _turn = self.context.turn();
+        self.pictures.codes_of_host(&self.context, codes, raster, at)
+    }
+
+    pub(in crate::device) fn swapchains(&self) -> Swapchains {
+        Swapchains::new(Arc::clone(&self.context))
     }
 }
 

@@ -12,6 +12,7 @@ mod context;
 mod device;
 mod feedback;
 mod finish;
+mod kept;
 mod kernels;
 mod layers;
 mod pass;
@@ -22,7 +23,9 @@ mod present;
 mod readback;
 mod show;
 mod storage;
+mod swapchain;
 mod view;
 
 pub(super) use context::context;
 pub use device::GpuDevice;
+pub use swapchain::{Swapchain, Swapchains};

@@ -2,14 +2,19 @@
 
 use super::arena::{Arena, COLOUR_BYTES, Plan, Room};
 use super::context::Context;
-use super::finish::{Finishing, code_room, unpacked};
+use super::finish::Finishing;
+use super::kept::{CodeBuffers, KeptCodes, code_room, packed, unpacked};
 use super::layers::Laying;
 use super::readback::Readback;
 use super::show::Showing;
 use super::storage::Stretch;
 use super::view::ViewBuffers;
-use crate::device::{DeviceError, DevicePicture, FinishJob, ShowJob};
+use crate::device::{Codes, DeviceError, DevicePicture, FinishJob, ShowJob};
+use crate::present::Raster;
+use protocol::CodesAt;
 use rayon::prelude::*;
+use std::any::Any;
+use std::sync::Arc;
 
 /// Bytes of codes on their way to the host together: those of 93 pictures of 800 × 600 pixels, or of five of 4K.
 const MOST_CODE_BYTES: u64 = 1 << 27;
@@ -21,6 +26,7 @@ pub(super) struct Pictures {
     plan: Plan,
     views: Vec<ViewBuffers>,
     pixels_back: Readback,
+    code_buffers: CodeBuffers,
     codes_back: Readback,
     showing: Showing,
     laying: Laying,
@@ -34,10 +40,11 @@ impl Pictures {
             plan: Plan::new(context.most_bound_bytes()),
             views: Vec::new(),
             pixels_back: Readback::new(),
+            code_buffers: CodeBuffers::default(),
             codes_back: Readback::new(),
             showing: Showing::new(context),
             laying: Laying::new(context),
-            finishing: Finishing::new(context),
+            finishing: Finishing::new(),
         }
     }
 
@@ -91,51 +98,101 @@ impl Pictures {
         })
     }
 
-    /// The codes of some pictures.
+    /// The codes of some pictures, where they are wanted.
     pub(super) fn codes(
         &mut self,
         context: &Context,
         jobs: &[FinishJob],
-    ) -> Result<Vec<Vec<u8>>, DeviceError> {
+        at: CodesAt,
+    ) -> Result<Vec<Codes>, DeviceError> {
         let mut codes = Vec::with_capacity(jobs.len());
         let mut left = jobs;
         while !left.is_empty() {
             let (some, rest) = left.split_at(fitting(left));
-            codes.extend(self.some_codes(context, some)?);
+            codes.extend(self.some_codes(context, some, at)?);
             left = rest;
         }
         Ok(codes)
     }
 
-    /// Those of so many that there is room for all on the way.
-    fn some_codes(&mut self, context: &Context, jobs: &[FinishJob]) -> Result<Vec<Vec<u8>>, DeviceError> {
-        let Self { arenas, views, codes_back, laying, finishing, .. } = self;
+    /// Those of so many that there is room for all on the way to the host.
+    fn some_codes(
+        &mut self,
+        context: &Context,
+        jobs: &[FinishJob],
+        at: CodesAt,
+    ) -> Result<Vec<Codes>, DeviceError> {
+        let Self { arenas, views, code_buffers, codes_back, laying, finishing, .. } = self;
         let mut encoder = context.new_encoder();
-        let bytes = jobs.iter().map(code_room).sum();
-        codes_back.begin(context, bytes);
-        finishing.begin(context, bytes);
-        for (place, job) in jobs.iter().enumerate() {
+        let kept = code_buffers.room(context, jobs.iter().map(|job| job.raster));
+        for (place, (job, codes)) in jobs.iter().zip(&kept).enumerate() {
             let colours = colours_of(arenas, views, job.picture);
             let picture = match job.layers.is_empty() {
                 true => colours,
                 false => laying.note((context, &mut encoder), place, &colours, job),
             };
-            finishing.note((context, &mut encoder), place, &picture, job);
+            finishing.note((context, &mut encoder), place, (&picture, codes), job);
         }
-        codes_back.copy(&mut encoder, &finishing.codes());
-        context.submit(encoder);
-        codes_back.read(context, |mut bytes| {
-            let room = |job| bytes.split_off(..code_room(job) as usize).expect("each has so many bytes");
-            let rooms: Vec<&[u8]> = jobs.iter().map(room).collect();
-            rooms.into_par_iter().zip(jobs).map(|(room, job)| unpacked(room, job)).collect()
-        })
+        let on_host = match at.host {
+            true => Some(to_host(context, codes_back, encoder, &kept)?),
+            false => {
+                context.submit(encoder);
+                None
+            }
+        };
+        let mut on_host = on_host.into_iter().flatten();
+        let both = |kept| Codes { host: on_host.next(), device: at.device.then(|| shared(kept)) };
+        Ok(kept.into_iter().map(both).collect())
     }
+
+    /// The codes of a picture that the host has made, where they are wanted.
+    pub(super) fn codes_of_host(
+        &mut self,
+        context: &Context,
+        codes: Vec<u8>,
+        raster: Raster,
+        at: CodesAt,
+    ) -> Codes {
+        let host = at.host.then(|| codes.clone());
+        let device = at.device.then(|| {
+            let kept = self.code_buffers.room(context, std::iter::once(raster)).remove(0);
+            let Stretch { buffer, offset, .. } = kept.stretch();
+            context.queue.write_buffer(buffer, offset, &packed(codes, raster));
+            shared(kept)
+        });
+        Codes { host, device }
+    }
+}
+
+/// What leaves this module as codes on the device.
+fn shared(kept: KeptCodes) -> Arc<dyn Any + Send + Sync> {
+    Arc::new(kept)
+}
+
+/// Submits what makes some codes, and brings them to the host.
+fn to_host(
+    context: &Context,
+    codes_back: &mut Readback,
+    mut encoder: wgpu::CommandEncoder,
+    kept: &[KeptCodes],
+) -> Result<Vec<Vec<u8>>, DeviceError> {
+    codes_back.begin(context, kept.iter().map(|codes| codes.stretch().bytes).sum());
+    kept.iter().for_each(|codes| codes_back.copy(&mut encoder, &codes.stretch()));
+    context.submit(encoder);
+    codes_back.read(context, |mut bytes| {
+        let own = |of: &KeptCodes| {
+            let bytes = bytes.split_off(..of.stretch().bytes as usize);
+            (bytes.expect("each has so many bytes"), of.raster)
+        };
+        let of_each: Vec<(&[u8], Raster)> = kept.iter().map(own).collect();
+        of_each.into_par_iter().map(|(bytes, raster)| unpacked(bytes, raster)).collect()
+    })
 }
 
 /// How many of some pictures, at least one, have codes that fit on the way to the host together.
 fn fitting(jobs: &[FinishJob]) -> usize {
     let mut room = MOST_CODE_BYTES;
-    let fit = jobs.iter().take_while(|job| match room.checked_sub(code_room(job)) {
+    let fit = jobs.iter().take_while(|job| match room.checked_sub(code_room(job.raster)) {
         Some(left) => {
             room = left;
             true

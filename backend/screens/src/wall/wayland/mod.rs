@@ -8,12 +8,13 @@ mod screen;
 mod surface;
 
 use super::group::groups;
+use super::paint::{OutputWall, Painter};
 use super::waiting::{LOOK_INTERVAL, SHOWN_WITHIN};
 use crate::{OutputInfo, ScreenError};
 use desk::Desk;
 use display_config::Display;
 use pane::Pane;
-use protocol::{ScreenImage, Wall, WallError};
+use protocol::{ScreenPicture, Wall, WallError};
 use std::time::{Duration, Instant};
 use wayland_client::backend::WaylandError;
 use wayland_client::globals::registry_queue_init;
@@ -111,9 +112,9 @@ impl WaylandWall {
 }
 
 impl Wall for WaylandWall {
-    fn ready(&mut self, images: &[ScreenImage]) -> Result<(), WallError> {
+    fn ready(&mut self, pictures: &[ScreenPicture]) -> Result<(), WallError> {
         self.wait_for(SHOWN_WITHIN, Pane::can_be_readied)?;
-        self.desk.panes.iter_mut().try_for_each(|pane| pane.ready(images))?;
+        self.desk.panes.iter_mut().try_for_each(|pane| pane.ready(pictures))?;
         Ok(())
     }
 
@@ -126,5 +127,11 @@ impl Wall for WaylandWall {
     fn tend(&mut self) -> Result<Vec<String>, WallError> {
         self.heed()?;
         Ok(std::mem::take(&mut self.desk.news))
+    }
+}
+
+impl OutputWall for WaylandWall {
+    fn paint_by(&mut self, _: Box<dyn Painter>) -> Result<(), ScreenError> {
+        Err(ScreenError::Painting("on Wayland windows get their pictures from main memory".to_owned()))
     }
 }

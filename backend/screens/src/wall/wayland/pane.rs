@@ -5,7 +5,7 @@ use super::screen::Screen;
 use super::surface::Surface;
 use crate::wall::group::Group;
 use crate::{OutputInfo, ScreenError};
-use protocol::ScreenImage;
+use protocol::ScreenPicture;
 
 /// The window of an output.
 pub struct Pane {
@@ -80,12 +80,11 @@ impl Pane {
     }
 
     /// Puts pictures where they will be seen once it is shown.
-    pub fn ready(&mut self, images: &[ScreenImage]) -> Result<(), ScreenError> {
+    pub fn ready(&mut self, pictures: &[ScreenPicture]) -> Result<(), ScreenError> {
         let Some(open) = &mut self.open else { return Ok(()) };
-        for part in &self.group.parts {
-            if let Some(image) = images.iter().find(|image| image.projector == part.projector) {
-                open.put(image, &part.output);
-            }
+        for image in pictures.iter().filter_map(ScreenPicture::on_host) {
+            let part = self.group.parts.iter().find(|part| part.projector == image.projector);
+            part.into_iter().for_each(|part| open.put(image, &part.output));
         }
         open.ready()
     }

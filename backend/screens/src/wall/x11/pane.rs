@@ -1,125 +1,89 @@
-//! A window that covers an output, with the pictures of the projectors there.
+//! A window that covers one output, or several side by side.
 
+use super::head::Head;
+use super::painted::Painted;
+use super::pixmaps::Pixmaps;
+use super::region::Region;
 use super::server::Server;
-use super::surface::Surface;
-use crate::wall::group::{Group, Part};
-use crate::{OutputInfo, Rectangle, ScreenError};
-use protocol::ScreenImage;
-use x11rb::protocol::xproto::{ConnectionExt as _, Pixmap, Screen, Window};
+use super::surface::{Place, Surface, open_window};
+use crate::wall::paint::{NativeWindow, Painter};
+use crate::{Rectangle, ScreenError};
+use glam::UVec2;
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::ConnectionExt as _;
+use x11rb::xcb_ffi::XCBConnection;
 
-/// The window of an output, or of the whole desktop.
+/// What paints the windows of a wall, and how its driver reaches their server.
+pub struct Studio {
+    pub painter: Box<dyn Painter>,
+    pub connection: Arc<XCBConnection>,
+    /// The number of the screen there.
+    pub screen: usize,
+}
+
+/// A window.
 pub struct Pane {
-    /// Whose pictures it shows, and where.
-    pub group: Group,
-    /// None while there is no such output.
-    open: Option<Surface>,
-    /// Whether anybody was told that there is none.
-    is_missed: bool,
+    /// What it covers.
+    pub region: Region,
+    /// What people call that.
+    pub name: String,
+    pub surface: Box<dyn Surface>,
 }
 
 impl Pane {
-    /// That of some projectors, which has no window yet.
-    pub fn new(group: Group) -> Self {
-        Self { group, open: None, is_missed: false }
-    }
-
-    /// Whether it has a window.
-    pub fn is_open(&self) -> bool {
-        self.open.is_some()
-    }
-
-    /// Whether this is its window.
-    pub fn has(&self, window: Window) -> bool {
-        self.open.as_ref().is_some_and(|open| open.window() == window)
-    }
-
-    /// Goes where its output is now: opens its window, moves it or closes it. What has changed, in sentences.
-    pub fn follow(&mut self, server: &Server, outputs: &[OutputInfo]) -> Result<Vec<String>, ScreenError> {
-        let place = self.place(server, outputs);
-        let before = self.open.as_ref().map(Surface::place);
-        if place == before && (place.is_some() || self.is_missed) {
-            return Ok(Vec::new());
-        }
-        self.close(server)?;
-        let Some(place) = place else {
-            self.is_missed = true;
-            return Ok(vec![self.group.absence(outputs)]);
-        };
-        self.open = Some(Surface::new(server, &self.group.name(), place)?);
-        let Rectangle { width, height, x, y } = place;
-        let mut said = Vec::new();
-        if before.is_some() || std::mem::take(&mut self.is_missed) {
-            said.push(format!("{} now shows {width} × {height} pixels from {x}, {y}", self.group.name()));
-        }
-        said.extend(self.group.cuts(width.into(), height.into()));
-        Ok(said)
-    }
-
-    /// Where its output is on the desktop; None where it is off.
-    fn place(&self, server: &Server, outputs: &[OutputInfo]) -> Option<Rectangle> {
-        let Some(connector) = &self.group.connector else {
-            let Screen { width_in_pixels: width, height_in_pixels: height, .. } = server.screen;
-            return Some(Rectangle { x: 0, y: 0, width, height });
-        };
-        let output = outputs.iter().find(|output| output.connector == *connector)?;
-        output.shows.map(|(place, _)| place)
-    }
-
-    /// Its window was closed by somebody: opens it again.
-    pub fn reopen(&mut self, server: &Server) -> Result<String, ScreenError> {
-        if let Some(open) = self.open.take() {
-            open.forget(server)?;
-            self.open = Some(Surface::new(server, &self.group.name(), open.place())?);
-        }
-        Ok(format!("somebody closed the window on {}; it is open again", self.group.name()))
-    }
-
-    /// Whether the server is done with a picture that another has taken the place of, so that it can take the next.
-    pub fn can_be_readied(&self) -> bool {
-        self.open.as_ref().is_none_or(|open| open.spare().is_some())
-    }
-
-    /// Puts pictures where they will be seen once it is shown.
-    pub fn ready(&mut self, server: &Server, images: &[ScreenImage]) -> Result<(), ScreenError> {
-        let Some(open) = &mut self.open else { return Ok(()) };
-        let image_of = |part: &Part| images.iter().find(|image| image.projector == part.projector);
-        open.begin(server, self.group.parts.iter().any(|part| image_of(part).is_none()))?;
-        for part in &self.group.parts {
-            if let Some(image) = image_of(part) {
-                open.put(server, image, &part.output)?;
+    /// A black one over a region of these outputs.
+    pub fn open(
+        server: &Server,
+        studio: Option<&Studio>,
+        region: Region,
+        heads: &[Head],
+    ) -> Result<Self, ScreenError> {
+        let of_region = || region.heads.iter().map(|&head| &heads[head]);
+        let name = of_region().map(|head| head.group.name()).collect::<Vec<_>>().join(", ");
+        let places = of_region().flat_map(|head| places(head, region.place)).collect();
+        let window = open_window(server, &name, region.place)?;
+        let surface: Box<dyn Surface> = match studio {
+            None => Box::new(Pixmaps::new(server, window, region.place, places)?),
+            Some(Studio { painter, connection, screen }) => {
+                // The driver's requests are not to overtake these.
+                server.sync()?;
+                let size = UVec2::new(region.place.width.into(), region.place.height.into());
+                let id = NonZeroU32::new(window).expect("no window has the number of none");
+                let canvas = painter.canvas(NativeWindow::new(Arc::clone(connection), *screen, id), size);
+                match canvas {
+                    Ok(canvas) => Box::new(Painted::new(server, window, canvas, places)),
+                    Err(why) => {
+                        server.connection.destroy_window(window)?;
+                        return Err(ScreenError::Painting(why));
+                    }
+                }
             }
-        }
+        };
+        Ok(Self { region, name, surface })
+    }
+
+    /// Closes it.
+    pub fn close(self, server: &Server) -> Result<(), ScreenError> {
+        let window = self.surface.window();
+        self.surface.close(server)?;
+        server.connection.destroy_window(window)?;
+        server.connection.flush()?;
         Ok(())
     }
+}
 
-    /// Has what is ready shown.
-    pub fn show(&mut self, server: &Server) -> Result<(), ScreenError> {
-        self.open.as_mut().map_or(Ok(()), |open| open.show(server))
-    }
-
-    /// Whether the server has shown what it was asked to.
-    pub fn has_shown(&self) -> bool {
-        self.open.as_ref().is_none_or(Surface::has_shown)
-    }
-
-    /// The server has shown what this serial number was given to.
-    pub fn shown(&mut self, serial: u32) {
-        self.open.iter_mut().for_each(|open| open.shown(serial));
-    }
-
-    /// The server is done with a picture.
-    pub fn done_with(&mut self, picture: Pixmap) {
-        self.open.iter_mut().for_each(|open| open.done_with(picture));
-    }
-
-    /// Shows again what is shown.
-    pub fn repaint(&self, server: &Server) -> Result<(), ScreenError> {
-        self.open.as_ref().map_or(Ok(()), |open| open.repaint(server))
-    }
-
-    fn close(&mut self, server: &Server) -> Result<(), ScreenError> {
-        let Some(open) = self.open.take() else { return Ok(()) };
-        server.connection.destroy_window(open.window())?;
-        open.forget(server)
-    }
+/// Where the pictures of an output lie in a window over this region.
+fn places(head: &Head, region: Rectangle) -> Vec<Place> {
+    let Some(Rectangle { x, y, width, height }) = head.place else { return Vec::new() };
+    let size = UVec2::new(width.into(), height.into());
+    let corner = UVec2::new((x - region.x).unsigned_abs().into(), (y - region.y).unsigned_abs().into());
+    let place = |part: &crate::wall::group::Part| Place {
+        projector: part.projector,
+        first_px: corner + part.output.first_px,
+        room: size.saturating_sub(part.output.first_px),
+        turn: part.output.turn,
+    };
+    head.group.parts.iter().map(place).collect()
 }

@@ -1,7 +1,8 @@
 //! The X server that a wall's windows are on.
 
+use crate::ScreenError;
 use crate::wall::pixels::Layout;
-use x11rb::protocol::xproto::{Cursor, Screen};
+use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, Screen};
 use x11rb::rust_connection::RustConnection;
 
 /// What all panes of a wall share.
@@ -13,4 +14,12 @@ pub struct Server {
     pub cursor: Cursor,
     /// Whether it can show a picture between two refreshes of an output (the X Present extension).
     pub has_present: bool,
+}
+
+impl Server {
+    /// Waits until it has done all that it was asked to.
+    pub fn sync(&self) -> Result<(), ScreenError> {
+        self.connection.get_input_focus()?.reply()?;
+        Ok(())
+    }
 }
