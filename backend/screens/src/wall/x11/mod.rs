@@ -35,7 +35,7 @@ use x11rb::protocol::present::{self, ConnectionExt as _};
 use x11rb::protocol::randr::{ConnectionExt as _, NotifyMask};
 use x11rb::protocol::xproto::{ConnectionExt as _, Cursor, ScreenSaver, Window};
 use x11rb::rust_connection::RustConnection;
-use x11rb::xcb_ffi::XCBConnection;
+use x11rb::xcb_ffi::{XCBConnection, load_libxcb};
 
 /// How often the server is told that somebody looks, so that it does not blank its outputs: it does so after minutes.
 const WAKE_INTERVAL: Duration = Duration::from_secs(20);
@@ -253,6 +253,7 @@ impl Wall for XWall {
 
 impl OutputWall for XWall {
     fn paint_by(&mut self, painter: Box<dyn Painter>) -> Result<(), ScreenError> {
+        load_libxcb().map_err(|error| ScreenError::Painting(format!("libxcb cannot be loaded: {error}")))?;
         let connected = XCBConnection::connect(None);
         let (connection, screen) = connected.map_err(|error| ScreenError::NoServer(error.to_string()))?;
         let studio = Studio { painter, connection: Arc::new(connection), screen };

@@ -7,14 +7,20 @@ use protocol::{Canvas, DeviceCodes, PaintedPart, ScreenPicture, WallError};
 use x11rb::protocol::present::{CompleteKind, CompleteNotifyEvent};
 use x11rb::protocol::xproto::Window;
 
+/// After so many times that it was waited for in vain, the server is not waited for any more: a driver has no more pictures on
+/// their way than that.
+const UNTOLD: u32 = 3;
+
 /// It, with the newest pictures.
 pub struct Painted {
     window: Window,
     canvas: Box<dyn Canvas>,
     /// Each with its newest codes, once there are any.
     parts: Vec<(Place, Option<DeviceCodes>)>,
-    /// Whether the server tells when it has shown something. Drivers may go past it.
+    /// Whether the server tells when it has shown something, as far as is known. Drivers may go past it.
     tells: bool,
+    /// Whether it has ever told.
+    has_told: bool,
     /// Times that something was shown.
     asked: u32,
     /// Of those, the server has told so many.
@@ -25,7 +31,7 @@ impl Painted {
     /// A black window, which is there already.
     pub fn new(server: &Server, window: Window, canvas: Box<dyn Canvas>, places: Vec<Place>) -> Self {
         let parts = places.into_iter().map(|place| (place, None)).collect();
-        Self { window, canvas, parts, tells: server.has_present, asked: 0, told: 0 }
+        Self { window, canvas, parts, tells: server.has_present, has_told: false, asked: 0, told: 0 }
     }
 
     fn paint(&mut self) -> Result<(), ScreenError> {
@@ -57,8 +63,7 @@ impl Surface for Painted {
     }
 
     fn show(&mut self, _: &Server) -> Result<(), ScreenError> {
-        // One that has not told of any by now tells of none.
-        self.tells &= self.asked == 0 || self.told > 0;
+        self.tells &= self.has_told || self.asked < UNTOLD;
         self.told = self.asked;
         self.asked += u32::from(self.canvas.show());
         Ok(())
@@ -70,6 +75,7 @@ impl Surface for Painted {
 
     fn completed(&mut self, event: &CompleteNotifyEvent) {
         if event.kind == CompleteKind::PIXMAP {
+            self.has_told = true;
             self.told = self.asked.min(self.told + 1);
         }
     }
