@@ -3,7 +3,8 @@
 //! `cargo run --release -p lightloom-tests --example sampling`. Shells of 700³ on holo72, three depths at once, CPU device.
 //! Each error is against the reference of the same setting: what sampling costs, not what levels of detail leave out.
 //! Samples are those of a second picture, when every brick is there; gradients, and what a sample fetches of the level above
-//! its own, are not counted but take time: seconds are those of the casts alone, the median of seven pictures.
+//! its own, are not counted but take time: seconds are those of the casts alone, the median of seven pictures. Those are counted
+//! in a second table, by the twin in numbers that count what it looks up.
 
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
@@ -13,10 +14,12 @@ use lightloom_tests::compare;
 use lightloom_tests::draw::{self, With, draw_with};
 use lightloom_tests::remembered::Remembered;
 use lightloom_tests::results::{Program, Results};
-use lightloom_tests::scenes::{self};
+use lightloom_tests::scenes;
+use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{Light, Quality};
 use protocol::{DeviceChoice, FrameState};
 use std::sync::Arc;
+use twin_f64::{Counted, LookUps};
 
 /// Near the middle.
 const PROJECTORS: [u32; 1] = [36];
@@ -47,13 +50,24 @@ fn main() -> Result<(), String> {
     settings.extend([2.0, 1.0, 0.5, 0.25].map(|step| ("one length in each node", uniform(step))));
     settings.extend([4.0, 2.0, 1.0, 0.5].map(|step| ("one length along the ray", finest(step))));
 
+    errors(&display, &source, &frame, &settings)?;
+    look_ups(&display, &source, &frame, &settings)
+}
+
+/// What each setting costs, and how far it is from the truth.
+fn errors(
+    display: &Display,
+    source: &Arc<dyn BrickSource>,
+    frame: &FrameState,
+    settings: &[(&str, Quality)],
+) -> Result<(), String> {
     let mut results = Results::new(Program::Study("sampling"), "sampling", "sampling");
     results.line("| steps | longest, voxels | samples per ray | cast, s | ns a sample | RMS / 99.9 % / largest of 255 |");
     results.line("| --- | ---: | ---: | ---: | ---: | ---: |");
-    for (name, quality) in settings {
+    for &(name, quality) in settings {
         let frame = FrameState { quality, ..frame.clone() };
         let with = With { cache_bytes: 2 << 30, ..With::device(DeviceChoice::Cpu) };
-        let (mut renderer, info) = draw::renderer(&display, &source, &PROJECTORS, with);
+        let (mut renderer, info) = draw::renderer(display, source, &PROJECTORS, with);
         results.drawn_by(&info.adapter);
         draw_with(&mut renderer, &frame);
         let (images, report) = draw_with(&mut renderer, &frame);
@@ -65,7 +79,7 @@ fn main() -> Result<(), String> {
         casts.sort_by(f64::total_cmp);
         let cast_s = casts[REPEATS / 2];
         let pixels: u64 = images.iter().map(|image| u64::from(image.width) * u64::from(image.height)).sum();
-        let truth = compare::truth(&display, &frame, &source, &PROJECTORS, STRIDE);
+        let truth = compare::truth(display, &frame, source, &PROJECTORS, STRIDE);
         let errors = compare::errors(&images, &truth);
         results.line(format!(
             "| {name} | {} | {:.1} | {cast_s:.3} | {:.1} | {:.3} / {:.2} / {:.1} |",
@@ -75,6 +89,42 @@ fn main() -> Result<(), String> {
             255.0 * errors.rms,
             255.0 * errors.p999,
             255.0 * errors.max
+        ));
+    }
+    results.finish()
+}
+
+/// What each setting looks up, by a twin that passes over nothing within a node.
+fn look_ups(
+    display: &Display,
+    source: &Arc<dyn BrickSource>,
+    frame: &FrameState,
+    settings: &[(&str, Quality)],
+) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("sampling"), "sampling", "look-ups");
+    results.line("| steps | longest, voxels | samples per ray | scalars of parents besides | gradients | codes read per ray | per sample |");
+    results.line("| --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+    for &(name, quality) in settings {
+        let frame = FrameState { quality, ..frame.clone() };
+        let scene = TwinScene::new(display, &frame, &**source);
+        let view = view(display, PROJECTORS[0], &frame, &**source).within::<Counted>();
+        let [width, height] = view.rays.raster;
+        let columns = || (0..width).step_by(STRIDE as usize);
+        let rows = (0..height).step_by(STRIDE as usize);
+        let pixels: Vec<(u32, u32)> = rows.flat_map(|y| columns().map(move |x| (x, y))).collect();
+        LookUps::take();
+        let samples: u64 = scene.cast_whole(&view, &pixels).iter().map(|cast| u64::from(cast.samples)).sum();
+        let LookUps { scalars, gradients } = LookUps::take();
+        let codes = 8 * scalars + 32 * gradients;
+        let of_ray = |count: u64| count as f64 / pixels.len() as f64;
+        results.line(format!(
+            "| {name} | {} | {:.1} | {:.1} | {:.1} | {:.0} | {:.1} |",
+            quality.step_voxels,
+            of_ray(samples),
+            of_ray(scalars - samples),
+            of_ray(gradients),
+            of_ray(codes),
+            codes as f64 / samples as f64
         ));
     }
     results.finish()

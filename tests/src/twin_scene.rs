@@ -9,7 +9,7 @@ use needs::tables::Tables;
 use protocol::FrameState;
 use rayon::prelude::*;
 use renderer::working_set::{Cut, IndexRules, ResidentBrick, build_index, refresh, settle, settled_weights};
-use twin::{Casting, FeedbackCell, Observer, Placement, ProjectorRays, SceneNumbers, Volume};
+use twin::{Cast, Casting, FeedbackCell, Observer, Placement, ProjectorRays, Real, SceneNumbers, Volume};
 use twin_f64::Precision;
 
 /// All that a twin reads of a scene, for any view of it. Fields are open so that tests can spoil them.
@@ -44,6 +44,11 @@ pub struct View<F> {
 impl View<f64> {
     /// The same in f32, as a kernel reads it.
     pub fn rounded(&self) -> View<f32> {
+        self.within()
+    }
+
+    /// The same in the numbers of a twin.
+    pub fn within<F: Real>(&self) -> View<F> {
         View { scene: self.scene.rounded(), rays: self.rays.rounded() }
     }
 }
@@ -102,9 +107,14 @@ impl TwinScene {
 
     /// The colours of some pixels (x, y).
     pub fn cast<F: Precision>(&self, view: &View<F>, pixels: &[(u32, u32)]) -> Vec<[F; 4]> {
+        self.cast_whole(view, pixels).into_iter().map(|cast| cast.rgba).collect()
+    }
+
+    /// All that the rays of some pixels (x, y) bring back.
+    pub fn cast_whole<F: Precision>(&self, view: &View<F>, pixels: &[(u32, u32)]) -> Vec<Cast<F>> {
         let feedback: Vec<FeedbackCell> = self.nodes.iter().map(|_| FeedbackCell::default()).collect();
         let casting = self.casting(&view.scene, &feedback);
-        let cast = |pixels| F::cast_pixels(&casting, &view.rays, pixels).into_iter().map(|cast| cast.rgba);
+        let cast = |pixels| F::cast_pixels(&casting, &view.rays, pixels);
         pixels.par_chunks(PIXELS_PER_TASK).flat_map_iter(cast).collect()
     }
 

@@ -1,6 +1,6 @@
 //! One projector's rays, as [`ViewBlock`] holds them for a kernel.
 
-use super::vector::Vec3;
+use super::{Real, vector::Vec3};
 use display_config::{BeamLaw, CanonicalRaster, Projector};
 use layout::ViewBlock;
 
@@ -29,11 +29,11 @@ impl ProjectorRays<f64> {
         }
     }
 
-    /// The same rays in f32, as a kernel reads them.
-    pub fn rounded(&self) -> ProjectorRays<f32> {
+    /// The same rays in the numbers of a twin: in f32 as a kernel reads them.
+    pub fn rounded<F: Real>(&self) -> ProjectorRays<F> {
         ProjectorRays {
             screen_from_pixel: self.screen_from_pixel.map(Vec3::rounded),
-            beam: self.beam.map(|x| x as f32),
+            beam: self.beam.map(F::of),
             raster: self.raster,
         }
     }

@@ -1,6 +1,6 @@
 //! The numbers of a scene that all projectors share, as [`SceneBlock`] holds them for a kernel.
 
-use super::vector::Vec3;
+use super::{Real, vector::Vec3};
 use layout::{Link, SceneBlock, brick};
 use needs::tables::TABLE_CELLS;
 use optics::MOST_ENHANCERS;
@@ -48,27 +48,27 @@ pub struct SceneNumbers<F> {
 pub type Constants<F> = [[F; 4]; 4];
 
 impl SceneNumbers<f64> {
-    /// The same numbers in f32, as a kernel reads them.
-    pub fn rounded(&self) -> SceneNumbers<f32> {
+    /// The same numbers as those of a twin: in f32 as a kernel reads them.
+    pub fn rounded<F: Real>(&self) -> SceneNumbers<F> {
         let vector = Vec3::rounded;
         SceneNumbers {
             volume_from_display: self.volume_from_display.map(vector),
             dims: vector(self.dims),
-            voxel_m: self.voxel_m as f32,
+            voxel_m: F::of(self.voxel_m),
             toward_light: vector(self.toward_light),
-            gradient_half_square: self.gradient_half_square as f32,
-            material: self.material.map(|x| x as f32),
-            step_voxels: self.step_voxels as f32,
-            termination: self.termination as f32,
-            tolerance: self.tolerance as f32,
-            extinction_per_metre: self.extinction_per_metre as f32,
-            gamma: self.gamma as f32,
-            largest_importance: self.largest_importance as f32,
+            gradient_half_square: F::of(self.gradient_half_square),
+            material: self.material.map(F::of),
+            step_voxels: F::of(self.step_voxels),
+            termination: F::of(self.termination),
+            tolerance: F::of(self.tolerance),
+            extinction_per_metre: F::of(self.extinction_per_metre),
+            gamma: F::of(self.gamma),
+            largest_importance: F::of(self.largest_importance),
             finest_depth: self.finest_depth,
-            resolution: self.resolution.map(|x| x as f32),
-            detail: self.detail as f32,
-            diagonal_m: self.diagonal_m as f32,
-            links: self.links.map(|link| link.map(|vector| vector.map(|x| x as f32))),
+            resolution: self.resolution.map(F::of),
+            detail: F::of(self.detail),
+            diagonal_m: F::of(self.diagonal_m),
+            links: self.links.map(|link| link.map(|vector| vector.map(F::of))),
         }
     }
 }

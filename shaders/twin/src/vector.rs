@@ -8,9 +8,9 @@ use std::ops::{Add, Mul, Sub};
 pub struct Vec3<F>(pub [F; 3]);
 
 impl Vec3<f64> {
-    /// The nearest in f32.
-    pub fn rounded(self) -> Vec3<f32> {
-        Vec3(self.0.map(|x| x as f32))
+    /// The nearest in the numbers of a twin.
+    pub fn rounded<F: Real>(self) -> Vec3<F> {
+        Vec3(self.0.map(F::of))
     }
 }
 
