@@ -1,9 +1,4 @@
-//! The kernels' twin in either precision: in f64, where it shows what rounding costs, with every module for every scene; and in
-//! numbers that count what it looks up.
-
-mod counted;
-
-pub use counted::{Counted, LookUps};
+//! The kernels' twin in either precision: in f64, where it shows what rounding costs, with every module for every scene.
 
 use twin::{Cast, Casting, ProjectorRays, Real, cast_in_full};
 
@@ -28,16 +23,6 @@ impl Precision for f32 {
 }
 
 impl Precision for f64 {
-    fn cast_pixels(
-        casting: &Casting<Self>,
-        rays: &ProjectorRays<Self>,
-        pixels: &[(u32, u32)],
-    ) -> Vec<Cast<Self>> {
-        pixels.iter().map(|&(x, y)| cast_in_full(casting, rays, x, y)).collect()
-    }
-}
-
-impl Precision for Counted {
     fn cast_pixels(
         casting: &Casting<Self>,
         rays: &ProjectorRays<Self>,

@@ -3,7 +3,8 @@
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::atomic::{AtomicU64, Ordering};
-use twin::Real;
+use twin::{Cast, Casting, ProjectorRays, Real, cast_in_full};
+use twin_f64::Precision;
 
 /// A twin finds a place among a brick's samples with [`Real::to_index`], reads codes with [`Real::of_u32`], and weighs their sum
 /// by this.
@@ -129,5 +130,15 @@ impl Neg for Counted {
     type Output = Self;
     fn neg(self) -> Self {
         Self(-self.0)
+    }
+}
+
+impl Precision for Counted {
+    fn cast_pixels(
+        casting: &Casting<Self>,
+        rays: &ProjectorRays<Self>,
+        pixels: &[(u32, u32)],
+    ) -> Vec<Cast<Self>> {
+        pixels.iter().map(|&(x, y)| cast_in_full(casting, rays, x, y)).collect()
     }
 }

@@ -6,8 +6,11 @@
 //! its own, are not counted but take time: seconds are those of the casts alone, the median of seven pictures. Those are counted
 //! in a second table, by the twin in numbers that count what it looks up.
 
+mod counted;
+
 use bricks::BrickSource;
 use bricks::procedural::ProceduralVolume;
+use counted::{Counted, LookUps};
 use display_config::Display;
 use glam::{DQuat, EulerRot, UVec3};
 use lightloom_tests::compare;
@@ -19,7 +22,6 @@ use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::{Light, Quality};
 use protocol::{DeviceChoice, FrameState};
 use std::sync::Arc;
-use twin_f64::{Counted, LookUps};
 
 /// Near the middle.
 const PROJECTORS: [u32; 1] = [36];
