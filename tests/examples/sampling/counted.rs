@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::atomic::{AtomicU64, Ordering};
-use twin::{Cast, Casting, ProjectorRays, Real, cast_in_full};
+use twin::Real;
 use twin_f64::Precision;
 
 /// A twin finds a place among a brick's samples with [`Real::to_index`], reads codes with [`Real::of_u32`], and weighs their sum
@@ -133,12 +133,4 @@ impl Neg for Counted {
     }
 }
 
-impl Precision for Counted {
-    fn cast_pixels(
-        casting: &Casting<Self>,
-        rays: &ProjectorRays<Self>,
-        pixels: &[(u32, u32)],
-    ) -> Vec<Cast<Self>> {
-        pixels.iter().map(|&(x, y)| cast_in_full(casting, rays, x, y)).collect()
-    }
-}
+impl Precision for Counted {}

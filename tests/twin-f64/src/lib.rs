@@ -4,12 +4,14 @@ use twin::{Cast, Casting, ProjectorRays, Real, cast_in_full};
 
 /// A number that a whole twin is compiled for.
 pub trait Precision: Real {
-    /// Casts the rays of some pixels (x, y).
+    /// Casts the rays of some pixels (x, y): with every module, but where there are twins for less.
     fn cast_pixels(
         casting: &Casting<Self>,
         rays: &ProjectorRays<Self>,
         pixels: &[(u32, u32)],
-    ) -> Vec<Cast<Self>>;
+    ) -> Vec<Cast<Self>> {
+        pixels.iter().map(|&(x, y)| cast_in_full(casting, rays, x, y)).collect()
+    }
 }
 
 impl Precision for f32 {
@@ -22,12 +24,4 @@ impl Precision for f32 {
     }
 }
 
-impl Precision for f64 {
-    fn cast_pixels(
-        casting: &Casting<Self>,
-        rays: &ProjectorRays<Self>,
-        pixels: &[(u32, u32)],
-    ) -> Vec<Cast<Self>> {
-        pixels.iter().map(|&(x, y)| cast_in_full(casting, rays, x, y)).collect()
-    }
-}
+impl Precision for f64 {}

@@ -44,7 +44,6 @@ pub struct FinishJob<'a> {
 }
 
 /// The codes of a picture: red, green and blue of each pixel, rows from the top.
-#[derive(Clone, Default)]
 pub struct Codes {
     /// In main memory, where they are wanted there.
     pub host: Option<Vec<u8>>,

@@ -3,6 +3,7 @@
 use super::adapters;
 use super::context::Context;
 use super::kept::{KeptCodes, row_bytes};
+use super::pipeline_cache::PipelineCache;
 use super::storage::uniform;
 use crate::device::DeviceError;
 use glam::{IVec2, UVec2};
@@ -269,6 +270,6 @@ fn pipeline(context: &Context, format: wgpu::TextureFormat) -> wgpu::RenderPipel
             targets: &[Some(format.into())],
         }),
         multiview_mask: None,
-        cache: context.pipelines.as_ref().map(super::pipeline_cache::PipelineCache::cache),
+        cache: context.pipelines.as_ref().map(PipelineCache::cache),
     })
 }

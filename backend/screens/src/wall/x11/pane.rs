@@ -6,6 +6,7 @@ use super::pixmaps::Pixmaps;
 use super::region::Region;
 use super::server::Server;
 use super::surface::{Place, Surface, open_window};
+use crate::wall::group::Part;
 use crate::wall::paint::{NativeWindow, Painter};
 use crate::{Rectangle, ScreenError};
 use glam::UVec2;
@@ -79,7 +80,7 @@ fn places(head: &Head, region: Rectangle) -> Vec<Place> {
     let Some(Rectangle { x, y, width, height }) = head.place else { return Vec::new() };
     let size = UVec2::new(width.into(), height.into());
     let corner = UVec2::new((x - region.x).unsigned_abs().into(), (y - region.y).unsigned_abs().into());
-    let place = |part: &crate::wall::group::Part| Place {
+    let place = |part: &Part| Place {
         projector: part.projector,
         first_px: corner + part.output.first_px,
         room: size.saturating_sub(part.output.first_px),
