@@ -18,17 +18,17 @@ use std::sync::Arc;
 /// what was measured, as drivers round differently.
 const PROMISE: Limits = Limits::of_255(0.1, 1.0, 1.0);
 /// One projector from the side and one near the middle.
-const PROJECTORS: [u32; 2] = [1, 5];
+pub const PROJECTORS: [u32; 2] = [1, 5];
 
-struct Case {
-    name: String,
-    display: Display,
-    source: Arc<dyn BrickSource>,
-    frame: FrameState,
+pub struct Case {
+    pub name: String,
+    pub display: Display,
+    pub source: Arc<dyn BrickSource>,
+    pub frame: FrameState,
     limits: Limits,
-    filter: FilterChoice,
+    pub filter: FilterChoice,
     /// Whether rays of the middle column and row may miss the volume or meet it: f32 cannot say.
-    may_middle_miss: bool,
+    pub may_middle_miss: bool,
     /// Whether Mesa's llvmpipe cannot draw it: it leaves a shader's loops, silently, when the invocations that it runs together have
     /// gone round them some 65,535 times in all (measured: rays of 7e3 steps are whole, of 1.4e4 are not).
     is_beyond_llvmpipe: bool,
@@ -250,13 +250,18 @@ fn other() -> Vec<Case> {
     ]
 }
 
-fn assert_is_light(name: &str, images: &[ProjectorImage]) {
+/// All of them.
+pub fn all() -> Vec<Case> {
+    [along_axes(), inside(), small_volumes(), transfer_functions(), other()].into_iter().flatten().collect()
+}
+
+pub fn assert_is_light(name: &str, images: &[ProjectorImage]) {
     let worst = images.iter().flat_map(|image| &image.rgba).find(|n| !(n.is_finite() && **n >= 0.0));
     assert!(worst.is_none(), "{name}: {worst:?} is no light");
 }
 
 /// The truth, but for rays of the middle column and row that met nothing at all: for those it is that.
-fn as_met(images: &[ProjectorImage], truth: &[TruePixel]) -> Vec<TruePixel> {
+pub fn as_met(images: &[ProjectorImage], truth: &[TruePixel]) -> Vec<TruePixel> {
     let met_nothing = |pixel: &TruePixel| {
         let image = images.iter().find(|image| image.projector == pixel.projector);
         image.is_some_and(|image| {
@@ -272,7 +277,7 @@ fn as_met(images: &[ProjectorImage], truth: &[TruePixel]) -> Vec<TruePixel> {
 }
 
 /// The pictures with every other column dark.
-fn half_dark(images: &[ProjectorImage]) -> Vec<ProjectorImage> {
+pub fn half_dark(images: &[ProjectorImage]) -> Vec<ProjectorImage> {
     let mut images = images.to_vec();
     for image in &mut images {
         let row = 4 * image.width as usize;

@@ -21,6 +21,7 @@ mod lean_twins;
 mod non_finite;
 mod paper;
 mod planes;
+mod planes_in_hard_cases;
 mod planes_shared;
 mod planes_techniques;
 mod random;

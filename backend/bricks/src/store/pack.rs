@@ -3,7 +3,7 @@
 use super::bytes::checksum;
 use super::entry::{Checksums, Entry, Extent};
 use super::level::{Level, Spread};
-use super::quantise::{quantise_within, range};
+use super::quantise::{nearest, quantise_within, range};
 use super::tally::ErrorTally;
 use super::{CodeBits, Codec, Emptiness};
 use crate::{BRICK_EDGE, Brick, CellRanges, Codes, Deviation, NodeKey, OVERLAP, OWN_EDGE};
@@ -112,7 +112,7 @@ fn deviation(level: &Level, node: NodeKey, samples: &mut Vec<f32>) -> Option<Dev
     }
     // The least f32 is its own 255th part.
     let step = (largest / 255.0).max(f32::from_bits(1));
-    let codes = samples.iter().map(|deviation| (deviation / step).round() as u8).collect();
+    let codes = samples.iter().map(|deviation| nearest(deviation / step) as u8).collect();
     Some(Deviation { codes, step })
 }
 
