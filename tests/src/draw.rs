@@ -9,7 +9,7 @@ use protocol::{
     CasterChoice, DeviceChoice, DeviceInfo, FilterChoice, FrameReport, FrameState, ProjectorImage,
     RenderEvent, RendererOptions,
 };
-use renderer::Renderer;
+use renderer::{RenderError, Renderer};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -95,14 +95,22 @@ pub fn drawn_once(
 
 /// Draws one frame with a renderer that may have drawn others.
 pub fn draw_with(renderer: &mut Renderer, frame: &FrameState) -> (Vec<ProjectorImage>, FrameReport) {
+    try_draw_with(renderer, frame).expect("a test scene can be drawn")
+}
+
+/// The same, where it may be refused.
+pub fn try_draw_with(
+    renderer: &mut Renderer,
+    frame: &FrameState,
+) -> Result<(Vec<ProjectorImage>, FrameReport), RenderError> {
     let mut images = Vec::new();
     let mut sink = |event| {
         if let RenderEvent::Image(image) = event {
             images.push(image);
         }
     };
-    let report = renderer.draw(frame, &mut sink).expect("a test scene can be drawn");
-    (images, report)
+    let report = renderer.draw(frame, &mut sink)?;
+    Ok((images, report))
 }
 
 /// The seconds that a frame takes, its account, and the pictures of the projectors to keep.

@@ -4,7 +4,7 @@ use crate::hard_cases::{self, Case, PROJECTORS, as_met, assert_is_light, half_da
 use lightloom_tests::compare::{Limits, errors, truth};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::results::{Program, Results};
-use protocol::{Caster, ProjectorImage, RenderEvent};
+use protocol::{Caster, ProjectorImage};
 
 /// What planes keep in hard cases, as of what they cast otherwise: a fifth above the most that was measured. Those that they do
 /// not keep it in have limits of their own.
@@ -36,13 +36,8 @@ const REFUSED: [&str; 3] =
 fn drawn(case: &Case) -> Result<Vec<ProjectorImage>, String> {
     let with = With { filter: case.filter, ..With::PLANES };
     let (mut renderer, _) = draw::renderer(&case.display, &case.source, &PROJECTORS, with);
-    let mut images = Vec::new();
-    let mut sink = |event| {
-        if let RenderEvent::Image(image) = event {
-            images.push(image);
-        }
-    };
-    let report = renderer.draw(&case.frame, &mut sink).map_err(|error| error.to_string())?;
+    let (images, report) =
+        draw::try_draw_with(&mut renderer, &case.frame).map_err(|error| error.to_string())?;
     assert!(matches!(report.caster, Caster::Planes { .. }), "{:?}", report.caster);
     Ok(images)
 }
