@@ -1,9 +1,11 @@
 //! How fast and how evenly a display is driven on this machine: the program itself, with its output nowhere.
 //!
-//! `cargo run --release -p lightloom-tests --example driving -- [--device cpu|gpu] [--seconds N]`
+//! `cargo run --release -p lightloom-tests --example driving -- [--device cpu|gpu] [--seconds N] [--messages]`
+//!
+//! `--messages` measures nothing but what a frame's message costs.
 
 use lightloom_tests::four_outputs::display_on_outputs;
-use lightloom_tests::program::{cluster, lightloom, run};
+use lightloom_tests::program::{SMALL_DISPLAY, cluster, late_frames, lightloom, run};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::wayland_desktop::WaylandDesktop;
 use lightloom_tests::x_server::XServer;
@@ -30,6 +32,9 @@ const SHOWS: [(&str, &str, &[&str]); 10] = [
 /// Rates of a show that is little work, for latency and skew.
 const RATES_HZ: [&str; 3] = ["10", "30", "60"];
 
+/// Ranks that are told what to draw: those of the latency, and the cluster of the largest display.
+const RANKS: [u32; 2] = [4, 36];
+
 fn report(command: &mut Command) -> Result<Value, String> {
     let ran = run(command);
     match ran.code {
@@ -47,18 +52,35 @@ fn quantiles(value: &Value) -> String {
 }
 
 fn main() -> Result<(), String> {
-    let (mut device, mut seconds) = ("cpu".to_owned(), SECONDS);
+    let (mut device, mut seconds, mut only_messages) = ("cpu".to_owned(), SECONDS, false);
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
-        match (argument.as_str(), arguments.next()) {
-            ("--device", Some(name)) if ["cpu", "gpu"].contains(&name.as_str()) => device = name,
-            ("--seconds", Some(number)) => {
-                seconds = number.parse().map_err(|_| "give a number of seconds")?
-            }
-            _ => return Err("give --device cpu or gpu, and --seconds N".to_owned()),
+        let mut value = || arguments.next().unwrap_or_default();
+        match argument.as_str() {
+            "--device" => device = value(),
+            "--seconds" => seconds = value().parse().map_err(|_| "give a number of seconds")?,
+            "--messages" => only_messages = true,
+            _ => return Err("give --device cpu or gpu, --seconds N, and --messages".to_owned()),
         }
     }
+    if !["cpu", "gpu"].contains(&device.as_str()) {
+        return Err("give --device cpu or gpu".to_owned());
+    }
     let fixed = ["--device", &device, "--json", "--for", &seconds.to_string()].map(str::to_owned);
+    if only_messages {
+        return messages(&fixed);
+    }
+    rates(&device, &fixed)?;
+    // What back-ends on one machine keep in step does not depend on what draws.
+    if device == "cpu" {
+        latency(&fixed)?;
+        messages(&fixed)?;
+    }
+    Ok(())
+}
+
+/// Shows as fast as they can be.
+fn rates(device: &str, fixed: &[String]) -> Result<(), String> {
     let part = if device == "cpu" { "rates" } else { "rates on a GPU" };
     let mut results = Results::new(Program::Study("driving"), "driving", part);
     results.line("| display | scene | options | rays by | frames a second | from a frame to the next, ms | from input to screen, ms | to draw a frame, ms: all, casting, bringing back |");
@@ -69,7 +91,7 @@ fn main() -> Result<(), String> {
         let words = ["drive", scene, "--display", display, "--output", "none"]
             .into_iter()
             .chain(options.iter().copied());
-        let words: Vec<String> = words.map(str::to_owned).chain(fixed.clone()).collect();
+        let words: Vec<String> = words.map(str::to_owned).chain(fixed.iter().cloned()).collect();
         let report = report(&mut lightloom(&words))?;
         let beat = &report["beat"];
         results.drawn_by(report["backends"][0]["adapter"].as_str().unwrap_or_default());
@@ -88,9 +110,7 @@ fn main() -> Result<(), String> {
             each("readback_ms"),
         ));
     }
-    results.finish()?;
-    // What back-ends on one machine keep in step does not depend on what draws.
-    if device == "cpu" { latency(&fixed) } else { Ok(()) }
+    results.finish()
 }
 
 /// Four processes that draw little.
@@ -128,14 +148,44 @@ fn latency(fixed: &[String]) -> Result<(), String> {
         let Some(command) = cluster(&words, 4) else { return Ok(()) };
         let report = report(&mut on(command))?;
         let beat = &report["beat"];
-        let late: f64 =
-            beat["backends"].as_array().into_iter().flatten().map(|one| number(&one["late"])).sum();
+        let late = late_frames(beat);
         results.line(format!(
             "| {rate} a second | {onto} | {} | {} | {} | {} | {late} |",
             beat["frames"],
             quantiles(&beat["interval_ms"]),
             quantiles(&beat["input_to_shown_ms"]),
             quantiles(&beat["skew_ms"]),
+        ));
+    }
+    results.finish()
+}
+
+/// What it costs to tell ranks what to draw: 72 projectors of hardly any pixels, spread over processes of this machine.
+fn messages(fixed: &[String]) -> Result<(), String> {
+    let mut results = Results::new(Program::Study("driving"), "driving", "messages");
+    results.line("| back-ends | frames | to hand a frame over to all, ms | skew, ms | late |");
+    results.line("| ---: | ---: | ---: | ---: | ---: |");
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    for ranks in RANKS {
+        let path = folder.path().join(format!("messages{ranks}.toml"));
+        let display =
+            SMALL_DISPLAY.replace("count = 4", "count = 72").replace("backends = 2", "backends = 36");
+        let display =
+            display.replace("width_px = 96", "width_px = 16").replace("height_px = 72", "height_px = 12");
+        std::fs::write(&path, display).map_err(|error| error.to_string())?;
+        let words =
+            ["drive", "procedural:shells@16", "--display", &path.to_string_lossy(), "--output", "none"];
+        let words = words.into_iter().chain(["--quality", "draft", "--rate", "10"]);
+        let words: Vec<String> = words.map(str::to_owned).chain(fixed.iter().cloned()).collect();
+        let Some(mut command) = cluster(&words, ranks) else { return Ok(()) };
+        let report = report(&mut command)?;
+        let beat = &report["beat"];
+        results.line(format!(
+            "| {ranks} | {} | {} | {} | {} |",
+            beat["frames"],
+            quantiles(&beat["handing_over_ms"]),
+            quantiles(&beat["skew_ms"]),
+            late_frames(beat),
         ));
     }
     results.finish()

@@ -25,6 +25,7 @@ pub struct Measures {
     /// Back-ends that have drawn each open frame.
     drawn: BTreeMap<u32, Vec<usize>>,
     last_shown: Option<Duration>,
+    handing_over: Histogram,
     pub(super) interval: Histogram,
     pub(super) skew: Histogram,
     pub(super) latency: Histogram,
@@ -39,6 +40,8 @@ pub struct Measures {
 pub struct BeatSummary {
     /// Frames that were shown.
     pub frames: u64,
+    /// Handing a frame's message over to all back-ends, on this machine's clock: MPI may still be on the way.
+    pub handing_over_ms: Quantiles,
     /// From a frame to the next.
     pub interval_ms: Quantiles,
     /// From the first back-end that shows a frame to the last, those that were late apart.
@@ -71,6 +74,11 @@ impl Measures {
         }
         let first = self.open.keys().next().copied().unwrap_or(frame);
         self.drawn = self.drawn.split_off(&first);
+    }
+
+    /// All back-ends were told what to draw, which took so long.
+    pub fn handed_over(&mut self, took: Duration) {
+        self.handing_over.add(took);
     }
 
     /// A back-end has drawn a frame, which took it so long.
@@ -136,6 +144,7 @@ impl Measures {
         let backends = late.iter().zip(lost).enumerate();
         BeatSummary {
             frames: self.shown,
+            handing_over_ms: self.handing_over.quantiles(),
             interval_ms: self.interval.quantiles(),
             skew_ms: self.skew.quantiles(),
             input_to_shown_ms: self.latency.quantiles(),
@@ -169,7 +178,7 @@ mod tests {
             measures.shown(0, frame, ms(start + 17));
             measures.shown(2, frame, ms(start + 35));
         }
-        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends } =
+        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends, .. } =
             measures.summary(&[0, 0, 2], &[0; 3]);
         assert_eq!((frames, interval_ms.max, skew_ms.max, input_to_shown_ms.max), (2, 20.0, 1.0, 17.0));
         assert_eq!(backends.iter().map(|b| b.drawing_ms.max).collect::<Vec<_>>(), [4.0, 8.0, 30.0]);

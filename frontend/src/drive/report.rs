@@ -45,7 +45,7 @@ pub struct DriveReport {
 impl DriveReport {
     /// What is told on a terminal, in one line.
     pub fn line(&self) -> String {
-        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends } = &self.played.beat;
+        let BeatSummary { frames, interval_ms, skew_ms, input_to_shown_ms, backends, .. } = &self.played.beat;
         let late: u64 = backends.iter().map(|backend| backend.late).sum();
         let rate_hz = if interval_ms.p50 > 0.0 { 1e3 / interval_ms.p50 } else { 0.0 };
         let control = self.played.control.as_ref().map(|control| {
@@ -159,6 +159,7 @@ impl DriveReport {
         let rows = [
             row("from a frame to the next", &self.played.beat.interval_ms),
             row("from input to screen", &self.played.beat.input_to_shown_ms),
+            row("to hand a frame over to all back-ends", &self.played.beat.handing_over_ms),
             row("skew: first to last back-end", &self.played.beat.skew_ms),
         ];
         table(&["milliseconds", "median", "99 %", "largest"], &rows)

@@ -8,9 +8,9 @@ use super::{
 use crate::FrontendError;
 use crate::report::plot::strip_of_control;
 use crate::staging::Theatre;
-use protocol::{Refinement, Stages};
+use protocol::{FrameState, Refinement, Stages};
 use serde::Serialize;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use transport::beat::{Drive, Happening};
 use world::Moment;
 
@@ -215,17 +215,25 @@ impl Show<'_, '_> {
         let Some(control) = control else {
             state.welcomes_planes = welcomes_planes();
             self.measures.began(frame, now);
-            self.drive.draw(&state, None)?;
+            self.hand_over(&state, None)?;
             return Ok(None);
         };
         match control.next(state, now, welcomes_planes) {
             Some(task) => {
                 self.measures.began(frame, task.asked_at);
-                self.drive.draw(&task.frame, task.newest)?;
+                self.hand_over(&task.frame, task.newest)?;
             }
             None => self.drive.pass(),
         }
         Ok(None)
+    }
+
+    /// Tells all back-ends what to draw, and counts how long that keeps the front-end.
+    fn hand_over(&mut self, frame: &FrameState, newest: Option<FrameState>) -> Result<(), FrontendError> {
+        let start = Instant::now();
+        self.drive.draw(frame, newest)?;
+        self.measures.handed_over(start.elapsed());
+        Ok(())
     }
 
     /// The moment of the frame that is due: that of the display's clock, unless an input has its own.

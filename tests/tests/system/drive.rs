@@ -155,6 +155,7 @@ fn a_show_keeps_time_and_reports() {
         let ran = start(&mut command).finish(LIMIT).succeeded();
         let report: Value = serde_json::from_str(&ran.stdout).expect("the report is JSON");
         assert!(report["beat"]["skew_ms"]["count"].as_u64().unwrap() > 10, "{report}");
+        assert!(report["beat"]["handing_over_ms"]["count"].as_u64().unwrap() >= 30, "{report}");
     }
 }
 
