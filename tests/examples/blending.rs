@@ -80,9 +80,9 @@ fn main() -> Result<(), String> {
             let mut scene = base(&display);
             scene.frame.light = light;
             let blended = blending_scenes::presented(&scene).scene(&display, &scene.frame);
-            let blended = blended.with_visible_cells(&scene.frame);
+            let blended = blended.with_visible_cells();
             let unblended = Presented::new(Arc::clone(&scene.source), is_split, |_| 1.0);
-            let unblended = unblended.scene(&display, &scene.frame).with_visible_cells(&scene.frame);
+            let unblended = unblended.scene(&display, &scene.frame).with_visible_cells();
             let needs = blended.needs;
             let plain = Needs { blends: false, ..needs };
             // One material everywhere: the twin that looks for everything.

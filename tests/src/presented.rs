@@ -168,11 +168,9 @@ fn corner_of(leaves: &HashSet<NodeKey>, inner: &HashSet<NodeKey>, key: NodeKey, 
 
 impl TwinScene {
     /// The visible cells instead of all: of each node's own samples, and of its parent's where it blends.
-    pub fn with_visible_cells(mut self, frame: &FrameState) -> Self {
+    pub fn with_visible_cells(mut self) -> Self {
         let ranges: Vec<CellRanges> =
             self.atlas.chunks_exact(BRICK_VOXELS).map(CellRanges::of_samples).collect();
-        let (low, high) = frame.optics.domain;
-        assert_eq!((low, high), (0.0, 1.0), "records hold scalars");
         let scalars = |node: &NodeRecord, [least, most]: [u16; 2]| {
             let scalar =
                 |sample: u16| f64::from(node.offset) + f64::from(node.scale) * f64::from(sample) / 65535.0;

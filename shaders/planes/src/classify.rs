@@ -1,10 +1,10 @@
 //! What a slab's samples show between two depths, and whether means say enough of it.
 
 use crate::blocks::Blocks;
-use crate::lanes::*;
 use crate::rough::Variation;
 use crate::slab::{EMPTY, LANES, Slab};
 use crate::steep::Steep;
+use lanes::*;
 use twin::Casting;
 use twin::composite::Over;
 use twin::spread::sample_over;

@@ -1,7 +1,7 @@
 //! The transfer functions at equal distances, looked up for eight scalars at once.
 
-use crate::lanes::*;
 use crate::slab::LANES;
+use lanes::*;
 use needs::tables::{TABLE_CELLS, Tables};
 use twin::tables::{locate, optics_between};
 

@@ -1,7 +1,7 @@
 //! Gradients between those that are taken of the volume.
 
-use crate::lanes::*;
 use crate::slab::{LANES, Slab};
+use lanes::*;
 
 /// At how many columns and depths a gradient is taken once, where samples lie at a spacing: no closer than a quarter of a voxel, so
 /// many times halved, as differences over two voxels change little within that.

@@ -13,7 +13,6 @@ mod fans;
 mod fill;
 mod fine;
 mod gradients;
-mod lanes;
 mod leaves;
 mod march;
 mod means;

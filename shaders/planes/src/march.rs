@@ -4,7 +4,6 @@ use crate::blocks::Blocks;
 use crate::classify::Classing;
 use crate::fill::{Grid, Span};
 use crate::gradients::gradients_every;
-use crate::lanes::Simd;
 use crate::leaves::Leaf;
 use crate::need::{Judge, SPACINGS};
 use crate::rough::Variation;
@@ -12,6 +11,7 @@ use crate::slab::{Keeps, Slab};
 use crate::steep::Steep;
 use crate::sweep::{Places, Sweep};
 use crate::view_row::ViewRow;
+use lanes::Simd;
 use twin::kernel::Kernel;
 
 /// Cells of a slab at the widest spacing: what of it needs a closer one is found out for all of its depth.

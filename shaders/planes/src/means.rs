@@ -3,9 +3,9 @@
 use crate::blocks::Blocks;
 use crate::classify::{Classing, mean_alone};
 use crate::fine::{Looked, mean_between};
-use crate::lanes::*;
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
 use crate::steep::{self, range};
+use lanes::*;
 use twin::tables::is_vacant_around;
 
 /// What eight columns hold between two depths.

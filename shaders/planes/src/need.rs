@@ -2,10 +2,10 @@
 
 use crate::blocks::Blocks;
 use crate::fill::Grid;
-use crate::lanes::*;
 use crate::rough::Variation;
 use crate::slab::{LANES, Slab};
 use glam::DVec3;
+use lanes::*;
 use twin::tables::is_vacant_around;
 
 /// Distances between samples, each half the one before.

@@ -1,9 +1,9 @@
 //! Pixels whose scalars go through the rays' own code: importance, enhancers, materials, detail and debug views.
 
-use crate::lanes::*;
 use crate::slab::{EMPTY, LANES};
 use crate::sweep::{Place, Places, Sweep};
 use crate::view_row::ViewRow;
+use lanes::*;
 use twin::composite::Accumulated;
 use twin::gradient::Gradients;
 use twin::vector::Vec3;

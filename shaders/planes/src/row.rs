@@ -3,7 +3,6 @@
 use crate::Fan;
 use crate::fill::Grid;
 use crate::fine::FineTable;
-use crate::lanes::{Level, Simd, dispatch};
 use crate::leaves::{Leaf, leaves, volume_from_display};
 use crate::march::{March, Room, RowCast};
 use crate::need::halvings;
@@ -12,6 +11,7 @@ use crate::slab::Keeps;
 use crate::steep::Steep;
 use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
+use lanes::{Level, Simd, dispatch};
 use needs::{Chain, Compositing, Needs, Shading, Way};
 use optics::{DebugView, Enhancer};
 use twin::Casting;

@@ -1,7 +1,7 @@
 //! Samples of one level of detail, eight columns at once; see `twin::levels::Level`.
 
-use crate::lanes::*;
 use crate::slab::LANES;
+use lanes::*;
 use layout::brick;
 use twin::levels::Level;
 

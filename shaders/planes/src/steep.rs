@@ -1,9 +1,9 @@
 //! Cells too steep for means, met by eight neighbouring rays of a view.
 
 use crate::fine::{CLOSE, FineTable, Looked, mean_between};
-use crate::lanes::*;
 use crate::rough::Roughness;
 use crate::slab::LANES;
+use lanes::*;
 use twin::Casting;
 use twin::gradient::LEAST_SQUARE;
 use twin::refine::parts_by_errors;

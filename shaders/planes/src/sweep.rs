@@ -3,11 +3,11 @@
 use crate::Fan;
 use crate::blocks::Blocks;
 use crate::fine::Looked;
-use crate::lanes::*;
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
 use crate::steep::{Cell, Pixels, Steep, middle_of, range};
 use crate::thick;
 use crate::view_row::ViewRow;
+use lanes::*;
 use twin::tables::is_vacant_around;
 
 /// Where a view's pixels meet the columns at one depth: between two columns, the same share of each for all of them.

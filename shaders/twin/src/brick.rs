@@ -13,15 +13,15 @@ use super::refine::{Pair, parts_of_step};
 use super::shade::{Lighting, Shade};
 use super::spread::sample_over;
 use super::tables::{attenuation_mean, locate};
-use super::{Casting, Real, ray::Ray, vector::Vec3};
+use super::{Casting, Real, ray::Ray, real::Number, vector::Vec3};
 use layout::{CELL_EDGE, CELLS_ACROSS};
 
 /// Texels along the edge of a cell.
-const CELL: f64 = CELL_EDGE as f64;
+pub(super) const CELL: f64 = CELL_EDGE as f64;
 /// A step of a voxel is no longer than this much more.
 const ROUNDED_VOXELS: f64 = 1e-3;
 /// Cells along the edge of a brick.
-const ACROSS: u32 = CELLS_ACROSS as u32;
+pub(super) const ACROSS: u32 = CELLS_ACROSS as u32;
 
 impl<F: Real> Brick<'_, F> {
     /// Whether anything shows within a voxel of the cell around a point.
@@ -61,8 +61,7 @@ impl<F: Real> Brick<'_, F> {
     #[inline(always)]
     pub fn pairs_unseen(&self, t: F, length: F) -> u32 {
         let both = F::of(2.0) * length;
-        let [x, y, z] = self.own.slope.0.map(F::abs);
-        let points = (length * x.most(y).most(z) - F::of(ROUNDED_VOXELS)).ceil().most(F::ONE);
+        let points = points_asked(self.own.slope.0, length);
         let each = both / points;
         let mut unseen = u32::MAX;
         for j in 0..points.to_index() {
@@ -74,6 +73,13 @@ impl<F: Real> Brick<'_, F> {
         }
         unseen
     }
+}
+
+/// Points of a pair with steps of `length` metres that are asked what they see, on a way of so many texels per metre.
+#[inline(always)]
+pub(super) fn points_asked<F: Number>([x, y, z]: [F; 3], length: F) -> F {
+    let voxels = length * x.abs().most(y.abs()).most(z.abs());
+    (voxels - length.alike(ROUNDED_VOXELS)).ceil().most(length.alike(1.0))
 }
 
 /// A straight path through a brick.
@@ -133,13 +139,23 @@ struct Step<F, W> {
 
 /// Light of a segment, composited alone; `thickness` is metres times the extinction per metre where the table says 1.
 #[inline(always)]
-fn segment_light<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) -> Light<F> {
-    let depth = sample.k[3] * thickness;
+fn light_of<F: Real>(sample: &Sample<F>, thickness: F, light: Lighting<F>) -> Light<F> {
+    segment_light(sample.k, (sample.lit, sample.brightness), thickness, light)
+}
+
+/// The same of a mean (τ c, τ), the share of the shading that acts on it, and the factor of the light that it emits.
+#[inline(always)]
+pub(super) fn segment_light<F: Number>(
+    [r, g, b, extinction]: [F; 4],
+    (share, brightness): (F, F),
+    thickness: F,
+    light: Lighting<F>,
+) -> Light<F> {
+    let depth = extinction * thickness;
     let mean = attenuation_mean(depth);
-    let body = F::ONE - sample.lit + sample.lit * light.body;
-    let [r, g, b, extinction] = sample.k;
-    let lit = Vec3([r, g, b]) * body + Vec3::splat(extinction * (sample.lit * light.highlight));
-    Light { rgb: lit * (thickness * mean * sample.brightness), alpha: depth * mean }
+    let body = share.alike(1.0) - share + share * light.body;
+    let lit = Vec3([r, g, b]) * body + Vec3::splat(extinction * (share * light.highlight));
+    Light { rgb: lit * (thickness * mean * brightness), alpha: depth * mean }
 }
 
 /// Adds one step with its middle `at` a place on a ray, lit as given.
@@ -155,7 +171,7 @@ fn add_whole<F: Real, K: Kernel>(
     if K::Composite::is_clear(sample.k[3]) {
         return front;
     }
-    let light = debug_light::<F, K>(casting, segment_light(sample, thickness, light), at);
+    let light = debug_light::<F, K>(casting, light_of(sample, thickness, light), at);
     K::Composite::composite(casting, front, light, sample)
 }
 
@@ -233,7 +249,7 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
             } else {
                 Lighting::NONE
             };
-            let light = segment_light(&sample, thickness, light);
+            let light = light_of(&sample, thickness, light);
             let light = debug_light::<F, K>(casting, light, (ray, middle));
             if K::Composite::ONCE_PER_STEP {
                 alone = alone.then(light);
@@ -295,7 +311,7 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     }
     let visible = K::Composite::still_to_come(casting, front);
     let spread = F::of(K::Shade::spread(casting.needs));
-    let parts = parts_of_step(&pair, thickness, visible, spread, scene.tolerance)
+    let parts = parts_of_step(pair.emitted(), thickness, visible, spread, scene.tolerance)
         .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
     if parts > F::ONE {
         let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };

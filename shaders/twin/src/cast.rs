@@ -1,11 +1,12 @@
-//! One ray from a pixel to its colour.
+//! Rays from pixels to their colours.
 
 use super::composite::{Consistent, Mimda, Over, Paper};
 use super::debug::debug_pixel;
 use super::kernel::{Blended, Enhanced, Full, Lean};
 use super::shade::{AnyShade, Phong, Plain};
-use super::way::cast_ray;
+use super::way::{RAYS, cast_packet, cast_ray};
 use super::{Cast, Casting, ProjectorRays, Real, ray::Ray};
+use lanes::Simd;
 use needs::{Chain, Compositing, Levels, Needs, Shading, Way};
 use optics::MimdaForm;
 
@@ -24,12 +25,31 @@ macro_rules! composited {
     };
 }
 
-/// The same with enhancers, of those compositings that [`Frame::of`] lets through.
+/// The same for rays side by side.
+macro_rules! in_packets {
+    ($frame:ident, $shade:ident, $simd:ident, $casting:ident, $rays:ident, $casts:ident) => {
+        for rays in $rays.chunks(RAYS) {
+            match $casting.needs.compositing {
+                Compositing::Over => {
+                    cast_packet::<S, $frame<$shade, Over<false>>>($simd, $casting, rays, $casts)
+                }
+                Compositing::Mimda(MimdaForm::Paper) => {
+                    cast_packet::<S, $frame<$shade, Mimda<Paper>>>($simd, $casting, rays, $casts)
+                }
+                Compositing::Mimda(MimdaForm::Consistent) => {
+                    cast_packet::<S, $frame<$shade, Mimda<Consistent>>>($simd, $casting, rays, $casts)
+                }
+            }
+        }
+    };
+}
+
+/// A frame and a shading with enhancers, of those compositings that [`Frame::of`] lets through.
 macro_rules! enhanced {
     ($shade:ident, $casting:ident, $ray:ident) => {
         match $casting.needs.compositing {
-            Compositing::Over => cast_ray::<F, Enhanced<$shade, Over<false>>>($casting, &$ray),
-            Compositing::Mimda(_) => cast_ray::<F, Enhanced<$shade, Mimda<Consistent>>>($casting, &$ray),
+            Compositing::Over => cast_ray::<f32, Enhanced<$shade, Over<false>>>($casting, &$ray),
+            Compositing::Mimda(_) => cast_ray::<f32, Enhanced<$shade, Mimda<Consistent>>>($casting, &$ray),
         }
     };
 }
@@ -41,19 +61,30 @@ pub(super) fn ray_of_pixel<F: Real>(casting: &Casting<F>, rays: &ProjectorRays<F
     Ray::of_pixel(casting.scene, rays, F::of_u32(x) + half, F::of_u32(y) + half)
 }
 
-/// Casts a ray with the modules that a kernel for the scene's needs has.
+/// Casts rays with the modules that a kernel for the scene's needs has: side by side with those that have lanes.
 #[inline(always)]
-pub(super) fn cast_leanly<F: Real>(casting: &Casting<F>, ray: Ray<F>) -> Cast<F> {
+pub(super) fn cast_leanly<S: Simd>(
+    simd: S,
+    casting: &Casting<f32>,
+    rays: &[Ray<f32>],
+    casts: &mut Vec<Cast<f32>>,
+) {
     let needs = casting.needs;
     let is_plain = needs.shading == Shading::Plain;
     match (Frame::of(needs), is_plain) {
-        (Frame::Lean, true) => composited!(Lean, Plain, casting, ray),
-        (Frame::Lean, false) => composited!(Lean, Phong, casting, ray),
-        (Frame::Blended, true) => composited!(Blended, Plain, casting, ray),
-        (Frame::Blended, false) => composited!(Blended, Phong, casting, ray),
-        (Frame::Enhanced, true) => enhanced!(Plain, casting, ray),
-        (Frame::Enhanced, false) => enhanced!(Phong, casting, ray),
-        (Frame::Full, _) => cast_with_all(casting, ray),
+        (Frame::Lean, true) => in_packets!(Lean, Plain, simd, casting, rays, casts),
+        (Frame::Lean, false) => in_packets!(Lean, Phong, simd, casting, rays, casts),
+        (Frame::Blended, true) => in_packets!(Blended, Plain, simd, casting, rays, casts),
+        (Frame::Blended, false) => in_packets!(Blended, Phong, simd, casting, rays, casts),
+        (frame, is_plain) => {
+            for &ray in rays {
+                casts.push(match (&frame, is_plain) {
+                    (Frame::Enhanced, true) => enhanced!(Plain, casting, ray),
+                    (Frame::Enhanced, false) => enhanced!(Phong, casting, ray),
+                    _ => cast_with_all(casting, ray),
+                });
+            }
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::kernel::{Full, Kernel};
 use super::shade::AnyShade;
 use super::tables::is_vacant_around;
 use super::vector::Vec3;
-use super::{Casting, ProjectorRays, Real, ray::Ray};
+use super::{Casting, ProjectorRays, ray::Ray, real::Number};
 use needs::Compositing;
 use optics::MimdaForm;
 

@@ -2,7 +2,7 @@
 //!
 //! No closures here: a closure that is not inlined is compiled without the wider instructions of its caller.
 
-use super::Real;
+use super::{Real, real::Number};
 
 /// f of each component, written out.
 macro_rules! each {
@@ -31,13 +31,13 @@ pub(super) use each;
 
 /// a + (b − a) t.
 #[inline(always)]
-pub(super) fn mix<F: Real>(a: [F; 4], b: [F; 4], t: F) -> [F; 4] {
+pub(super) fn mix<F: Number>(a: [F; 4], b: [F; 4], t: F) -> [F; 4] {
     each!(C => a[C] + (b[C] - a[C]) * t)
 }
 
 /// The value at (u, v) between four corners in the order 00, 10, 01, 11.
 #[inline(always)]
-pub(super) fn between_corners<F: Real>(corners: [F; 4], u: F, v: F) -> F {
+pub(super) fn between_corners<F: Number>(corners: [F; 4], u: F, v: F) -> F {
     let (low, high) =
         (corners[0] + (corners[1] - corners[0]) * u, corners[2] + (corners[3] - corners[2]) * u);
     low + (high - low) * v

@@ -1,7 +1,10 @@
 //! The twin in f32, compiled once, here: there are many of it, and each takes seconds.
 
+#[cfg(target_arch = "x86_64")]
+use super::cast::cast_with_all;
 use super::cast::{as_shown, cast_leanly, ray_of_pixel};
 use super::{Cast, Casting, ProjectorRays, ShortRay, ray::Ray};
+use lanes::*;
 
 /// Casts the rays of some pixels (x, y).
 pub fn cast_pixels(
@@ -25,33 +28,19 @@ pub fn cast_short(casting: &Casting<f32>, rays: &ProjectorRays<f32>, short: &[Sh
     cast_rays(casting, &short.iter().map(ray).collect::<Vec<_>>())
 }
 
-/// AVX2 changes no result, as nothing is contracted or reordered. Processors without it (before 2013) have no twins of their own for
-/// lean scenes, which would take as long again to compile.
+/// Lanes change no result, as nothing is contracted or reordered. Processors without AVX2 (before 2013) have no twins of their own
+/// for lean scenes, which would take as long again to compile.
 fn cast_rays(casting: &Casting<f32>, rays: &[Ray<f32>]) -> Vec<Cast<f32>> {
+    let mut casts = Vec::with_capacity(rays.len());
     #[cfg(target_arch = "x86_64")]
-    {
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has just been asked for AVX2.
-            return unsafe { cast_with_avx2(casting, rays) };
-        }
-        rays.iter().map(|&ray| super::cast::cast_with_all(casting, ray)).collect()
+    match Level::new().as_avx2() {
+        Some(simd) => simd.vectorize(
+            #[inline(always)]
+            || cast_leanly(simd, casting, rays, &mut casts),
+        ),
+        None => casts.extend(rays.iter().map(|&ray| cast_with_all(casting, ray))),
     }
     #[cfg(not(target_arch = "x86_64"))]
-    cast_one_by_one(casting, rays)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn cast_with_avx2(casting: &Casting<f32>, rays: &[Ray<f32>]) -> Vec<Cast<f32>> {
-    cast_one_by_one(casting, rays)
-}
-
-#[inline(always)]
-fn cast_one_by_one(casting: &Casting<f32>, rays: &[Ray<f32>]) -> Vec<Cast<f32>> {
-    let mut casts = Vec::with_capacity(rays.len());
-    // Not a closure: it would be compiled without the wider instructions of the function that this is inlined into.
-    for &ray in rays {
-        casts.push(cast_leanly(casting, ray));
-    }
+    dispatch!(Level::new(), simd => cast_leanly(simd, casting, rays, &mut casts));
     casts
 }

@@ -9,7 +9,7 @@ use super::shade::Shade;
 use super::spread::sample_over;
 use super::tables::locate;
 use super::traverse::voxel_edge;
-use super::{Casting, Real, ray::Ray};
+use super::{Casting, Real, ray::Ray, real::Number};
 use layout::NodeRecord;
 
 /// The same for a pair whose parts are opaque: light comes from the first few of them.
@@ -24,20 +24,23 @@ const MOST_LOOSE: f64 = 4.0;
 /// How many times as far steps may grow at a tolerance as at a tight one: what hides between samples grows with the square of
 /// how far apart they are.
 #[inline(always)]
-fn looseness<F: Real>(tolerance: F) -> F {
-    (tolerance * F::of(1.0 / TIGHT)).sqrt().most(F::ONE).least(F::of(MOST_LOOSE))
+fn looseness<F: Number>(tolerance: F) -> F {
+    (tolerance * tolerance.alike(1.0 / TIGHT))
+        .sqrt()
+        .most(tolerance.alike(1.0))
+        .least(tolerance.alike(MOST_LOOSE))
 }
 
 /// The longest step, in voxels of the node: `shortest` where much may hide between two samples, more where the largest
 /// optical depth of a voxel, `depth`, keeps what may hide small. Steps of one length (no `tolerance`) do not grow.
 #[inline(always)]
-pub fn step_voxels<F: Real>(shortest: F, depth: F, safe: F, tolerance: F) -> F {
+pub fn step_voxels<F: Number>(shortest: F, depth: F, safe: F, tolerance: F) -> F {
     let loose = looseness(tolerance);
     let safe = safe * loose;
-    if tolerance >= F::ONE || depth * shortest >= safe {
-        return shortest;
-    }
-    (safe / depth.most(F::of(1e-30))).least(shortest.most(F::of(LONGEST_STEP) * loose))
+    let longest = shortest.most(depth.alike(LONGEST_STEP) * loose);
+    let grown = (safe / depth.most(depth.alike(1e-30))).least(longest);
+    let grown = (depth * shortest).choose(safe, grown, shortest);
+    tolerance.choose(tolerance.alike(1.0), grown, shortest)
 }
 
 /// Share of what lies within reach of a pair, but not between its ends, that may have been passed by unseen.
@@ -103,19 +106,37 @@ impl<F: Real> Pair<F> {
             reach: sample_over::<F, C>(casting, [&low, &high], reach, spreads[0].most(spreads[1])),
         }
     }
+
+    /// What it emits.
+    #[inline(always)]
+    pub fn emitted(&self) -> Emitted<F> {
+        let Self { first, second, both, reach } = self;
+        let [first, second, both, reach] = [first, second, both, reach].map(Sample::emitted);
+        Emitted { first, second, both, reach }
+    }
+}
+
+/// What a pair of steps emits: (τ c, τ) with its brightness, of the segments of a [`Pair`].
+pub struct Emitted<F> {
+    /// The first step.
+    pub first: [F; 4],
+    /// The second.
+    pub second: [F; 4],
+    /// Both, taken as one segment.
+    pub both: [F; 4],
+    /// All scalars within reach.
+    pub reach: [F; 4],
 }
 
 /// Parts of each step of a pair, where a step has `thickness`, `visible` is the opacity that may still be added and
 /// `spread` how much shading varies within a step; see the WGSL for what errs how.
 #[inline(always)]
-pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: F, tolerance: F) -> F {
-    let Pair { first, second, both, reach } = pair;
-    let [first, second, both, reach] = [first, second, both, reach].map(Sample::emitted);
+pub fn parts_of_step<F: Number>(emitted: Emitted<F>, thickness: F, visible: F, spread: F, tolerance: F) -> F {
+    let Emitted { first, second, both, reach } = emitted;
+    let (one, two, share) = (thickness.alike(1.0), thickness.alike(2.0), thickness.alike(UNSEEN));
     let depth = (first[3] + second[3]) * thickness;
-    let bend_scale = thickness / (F::ONE + depth);
-    let order_scale = thickness * thickness / (F::ONE + depth * depth);
-    let two = F::of(2.0);
-    let share = F::of(UNSEEN);
+    let bend_scale = thickness / (one + depth);
+    let order_scale = thickness * thickness / (one + depth * depth);
     let bend: [F; 4] = each!(C => {
         (first[C] + second[C] - two * both[C]).abs().most((reach[C] - both[C]).abs() * share)
     });
@@ -123,24 +144,23 @@ pub fn parts_of_step<F: Real>(pair: &Pair<F>, thickness: F, visible: F, spread: 
     let uneven = first[3] * second[3] * spread;
     let worst_order = order[0].most(order[1]).most(order[2].most(uneven)) * order_scale;
     let worst = (bend[0].most(bend[1]).most(bend[2].most(bend[3])) * bend_scale).most(worst_order);
-    parts_by_errors(worst * visible / tolerance, depth, F::of(MOST_PARTS))
+    parts_by_errors(worst * visible / tolerance, depth, thickness.alike(MOST_PARTS))
 }
 
 /// Parts of a step that errs by so many times what it may, and is so deep with another: `most`, or more if each is opaque.
 #[inline(always)]
-pub fn parts_by_errors<F: Real>(errors: F, depth: F, most: F) -> F {
-    let parts = errors.sqrt().ceil().most(F::ONE).least(most);
-    if depth <= parts {
-        return parts;
-    }
-    (F::of(2.0) * errors).least(depth).ceil().least(F::of(MOST_DEEP_PARTS)).most(parts)
+pub fn parts_by_errors<F: Number>(errors: F, depth: F, most: F) -> F {
+    let parts = errors.sqrt().ceil().most(errors.alike(1.0)).least(most);
+    let deep =
+        (errors.alike(2.0) * errors).least(depth).ceil().least(errors.alike(MOST_DEEP_PARTS)).most(parts);
+    parts.choose(depth, deep, parts)
 }
 
 /// The scalars that a pair of steps may have met between its samples: the samples' own range, widened by half the
 /// larger step at both ends, as far as a kink of the trilinear field between two samples goes.
 #[inline(always)]
-pub fn scalars_in_reach<F: Real>(s0: F, s1: F, s2: F) -> (F, F) {
-    let margin = F::of(0.5) * (s1 - s0).abs().most((s2 - s1).abs());
+pub fn scalars_in_reach<F: Number>(s0: F, s1: F, s2: F) -> (F, F) {
+    let margin = s0.alike(0.5) * (s1 - s0).abs().most((s2 - s1).abs());
     let (low, high) = (s0.least(s1).least(s2), s0.most(s1).most(s2));
-    ((low - margin).most(F::ZERO), (high + margin).least(F::ONE))
+    ((low - margin).most(s0.alike(0.0)), (high + margin).least(s0.alike(1.0)))
 }

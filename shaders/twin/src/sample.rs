@@ -5,10 +5,10 @@ use super::{Real, vector::Vec3};
 use layout::brick::{self, VOXELS};
 
 /// Stored samples along an edge.
-const EDGE: u32 = brick::EDGE as u32;
+pub(super) const EDGE: u32 = brick::EDGE as u32;
 /// Samples to the next along y and along z.
-const ROW: usize = brick::EDGE;
-const LAYER: usize = brick::EDGE * brick::EDGE;
+pub(super) const ROW: usize = brick::EDGE;
+pub(super) const LAYER: usize = brick::EDGE * brick::EDGE;
 
 /// A point's lowest neighbour, and how far it lies from there along each axis.
 #[inline(always)]
@@ -23,7 +23,7 @@ fn place<F: Real>(point: Vec3<F>, lowest: u32, highest: u32) -> (usize, [F; 3]) 
 
 /// Two neighbours along x as one word: the nearer in the low half.
 #[inline(always)]
-fn pair(window: &[u16], offset: usize) -> u32 {
+pub(super) fn pair(window: &[u16], offset: usize) -> u32 {
     u32::from(window[offset]) | u32::from(window[offset + 1]) << 16
 }
 
@@ -38,7 +38,9 @@ fn high<F: Real>(word: u32) -> F {
 }
 
 /// What a sample of 65535 is to the codes' sum.
-const PER_CODE: f64 = 1.0 / 65535.0;
+pub(super) const PER_CODE: f64 = 1.0 / 65535.0;
+/// The same for deviations.
+pub(super) const PER_DEVIATION: f64 = 1.0 / 255.0;
 
 /// `point` in texels of the brick, sample centres at integer + 0.5, from 0.5 to 31.5; the result is in [0, 1].
 #[inline(always)]
@@ -59,7 +61,7 @@ pub fn sample_deviations<F: Real>(brick: &[u8; VOXELS], point: Vec3<F>) -> F {
     let texel = |i: usize| F::of_u32(u32::from(window[i]));
     let low = [texel(0), texel(ROW), texel(LAYER), texel(LAYER + ROW)];
     let high = [texel(1), texel(ROW + 1), texel(LAYER + 1), texel(LAYER + ROW + 1)];
-    between_corners(mix(low, high, f[0]), f[1], f[2]) * F::of(1.0 / 255.0)
+    between_corners(mix(low, high, f[0]), f[1], f[2]) * F::of(PER_DEVIATION)
 }
 
 /// Differences of the samples one texel ahead and one behind, along each axis; `point` from 1.5 to 30.5. The same as six

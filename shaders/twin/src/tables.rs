@@ -1,7 +1,7 @@
 //! Averages of the transfer functions over a segment, from tables of f and F = ∫ f.
 
-use super::Real;
 use super::four::{each, mix, widen};
+use super::{Real, real::Number};
 use layout::{TableCell, TableEntry};
 use needs::tables::{TABLE_CELLS, Tables};
 
@@ -43,10 +43,16 @@ fn cell_of<F: Real>(s: F) -> (F, usize) {
 #[inline(always)]
 pub(super) fn place_of<F: Real>(tables: &Tables, s: F) -> TablePlace<F> {
     let (u, cell) = cell_of(s);
+    place_in(tables, u, cell, u - F::of_u32(cell as u32))
+}
+
+/// The place of a scalar in a cell, `part` of it from its lower border.
+#[inline(always)]
+fn place_in<F: Real>(tables: &Tables, u: F, cell: usize, part: F) -> TablePlace<F> {
     let TableCell { first, inside, .. } = tables.cells[cell];
     let first = first as usize;
     if inside[0] == f32::MAX {
-        return TablePlace { u, node: first, part: u - F::of_u32(cell as u32) };
+        return TablePlace { u, node: first, part };
     }
     place_among_knots(&tables.optics[first..=tables.cells[cell + 1].first as usize], u, first)
 }
@@ -66,8 +72,32 @@ fn place_among_knots<F: Real>(nodes: &[TableEntry], u: F, first: usize) -> Table
 /// Looks up a scalar in [0, 1].
 #[inline(always)]
 pub fn locate<F: Real>(tables: &Tables, s: F) -> Located<F> {
-    let place = place_of(tables, s);
+    located(tables, place_of(tables, s))
+}
+
+#[inline(always)]
+fn located<F: Real>(tables: &Tables, place: TablePlace<F>) -> Located<F> {
     Located { place, value: value_at(&tables.optics, &place) }
+}
+
+/// Looks up a scalar whose cell is known, `part` of it from its lower border.
+#[inline(always)]
+pub(super) fn locate_in(tables: &Tables, u: f32, cell: usize, part: f32) -> Located<f32> {
+    located(tables, place_in(tables, u, cell, part))
+}
+
+/// [`optics_between`], given what the distance of the places divides by where they lie between other nodes.
+#[inline(always)]
+pub(super) fn optics_between_by(
+    tables: &Tables,
+    a: &Located<f32>,
+    b: &Located<f32>,
+    per_width: f32,
+) -> [f32; 4] {
+    if a.place.node == b.place.node {
+        return optics_between(tables, a, b);
+    }
+    mean_across(&tables.optics, a, b, per_width)
 }
 
 #[inline(always)]
@@ -97,16 +127,21 @@ pub(super) fn materials_between<F: Real>(tables: &Tables, a: &Located<F>, b: &Lo
 
 #[inline(always)]
 fn mean_between<F: Real>(table: &[TableEntry], a: &Located<F>, b: &Located<F>) -> [F; 4] {
-    let half = F::of(0.5);
     if a.place.node == b.place.node {
+        let half = F::of(0.5);
         return each!(C => half * (a.value[C] + b.value[C]));
     }
+    mean_across(table, a, b, F::ONE / (b.place.u - a.place.u).abs())
+}
+
+/// The same between two nodes, given what the distance of the places divides by.
+#[inline(always)]
+fn mean_across<F: Real>(table: &[TableEntry], a: &Located<F>, b: &Located<F>, per_width: F) -> [F; 4] {
+    let half = F::of(0.5);
     let (first, last) = if a.place.node < b.place.node { (a, b) } else { (b, a) };
     let (after, before) = (&table[first.place.node + 1], &table[last.place.node]);
     let left = half * (F::of_f32(after.position) - first.place.u);
     let right = half * (last.place.u - F::of_f32(before.position));
-    let width = last.place.u - first.place.u;
-    let per_width = F::ONE / width;
     each!(C => {
         let whole = (F::of_f32(before.integral[C]) - F::of_f32(after.integral[C]))
             + (F::of_f32(before.integral_rest[C]) - F::of_f32(after.integral_rest[C]));
@@ -119,7 +154,13 @@ fn mean_between<F: Real>(table: &[TableEntry], a: &Located<F>, b: &Located<F>) -
 #[inline(always)]
 fn is_vacant<F: Real>(cells: &[TableCell], low: F, high: F) -> bool {
     let [(_, c0), (_, c1)] = [low, high].map(cell_of);
-    cells[c0].occupied == cells[c1 + 1].occupied
+    is_vacant_between(cells, c0, c1)
+}
+
+/// Whether nothing from one cell to another changes a picture.
+#[inline(always)]
+pub(super) fn is_vacant_between(cells: &[TableCell], first: usize, last: usize) -> bool {
+    cells[first].occupied == cells[last + 1].occupied
 }
 
 /// Whether nothing within `spread` of scalars [low, high] changes a picture.
@@ -130,12 +171,14 @@ pub fn is_vacant_around<F: Real>(cells: &[TableCell], (low, high): (F, F), sprea
 
 /// φ(x) = (1 − e^−x) / x; a series where the difference would cancel.
 #[inline(always)]
-pub fn attenuation_mean<F: Real>(x: F) -> F {
-    if x < F::of(0.25) {
-        let c = |n: f64| F::of(1.0 / n);
-        return F::ONE - x * (c(2.0) - x * (c(6.0) - x * (c(24.0) - x * (c(120.0) - x * c(720.0)))));
+pub fn attenuation_mean<F: Number>(x: F) -> F {
+    let (one, small) = (x.alike(1.0), x.alike(0.25));
+    let fourth = x.alike(1.0 / 24.0) - x * (x.alike(1.0 / 120.0) - x * x.alike(1.0 / 720.0));
+    let series = one - x * (x.alike(1.0 / 2.0) - x * (x.alike(1.0 / 6.0) - x * fourth));
+    if x.is_below(small) {
+        return series;
     }
-    (F::ONE - (-x).exp()) / x
+    x.choose(small, series, (one - (-x).exp()) / x)
 }
 
 #[cfg(test)]

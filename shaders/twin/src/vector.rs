@@ -1,6 +1,6 @@
 //! Three numbers.
 
-use super::Real;
+use super::{Real, real::Number};
 use std::ops::{Add, Mul, Sub};
 
 /// A vector of the twin's number type.
@@ -17,7 +17,9 @@ impl Vec3<f64> {
 impl<F: Real> Vec3<F> {
     /// (0, 0, 0).
     pub const ZERO: Self = Self([F::ZERO; 3]);
+}
 
+impl<F: Number> Vec3<F> {
     /// The same number three times.
     #[inline(always)]
     pub fn splat(value: F) -> Self {
@@ -50,7 +52,7 @@ impl<F: Real> Vec3<F> {
     }
 }
 
-impl<F: Real> Add for Vec3<F> {
+impl<F: Number> Add for Vec3<F> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -59,7 +61,7 @@ impl<F: Real> Add for Vec3<F> {
     }
 }
 
-impl<F: Real> Sub for Vec3<F> {
+impl<F: Number> Sub for Vec3<F> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -68,10 +70,11 @@ impl<F: Real> Sub for Vec3<F> {
     }
 }
 
-impl<F: Real> Mul<F> for Vec3<F> {
+impl<F: Number> Mul<F> for Vec3<F> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: F) -> Self {
-        Self(self.0.map(|x| x * factor))
+        let a = self.0;
+        Self([a[0] * factor, a[1] * factor, a[2] * factor])
     }
 }

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::atomic::{AtomicU64, Ordering};
 use twin::Real;
+use twin::real::Number;
 use twin_f64::Precision;
 
 /// A twin finds a place among a brick's samples with [`Real::to_index`], reads codes with [`Real::of_u32`], and weighs their sum
@@ -43,6 +44,52 @@ impl LookUps {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Counted(f32);
 
+impl Number for Counted {
+    fn alike(self, value: f64) -> Self {
+        Self(value as f32)
+    }
+
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    fn ceil(self) -> Self {
+        Self(self.0.ceil())
+    }
+
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    fn least(self, other: Self) -> Self {
+        Self(self.0.least(other.0))
+    }
+
+    fn most(self, other: Self) -> Self {
+        Self(self.0.most(other.0))
+    }
+
+    fn exp(self) -> Self {
+        Self(self.0.exp())
+    }
+
+    fn exp2(self) -> Self {
+        Self(self.0.exp2())
+    }
+
+    fn powf(self, exponent: Self) -> Self {
+        Self(self.0.powf(exponent.0))
+    }
+
+    fn choose(self, limit: Self, below: Self, beyond: Self) -> Self {
+        Self(self.0.choose(limit.0, below.0, beyond.0))
+    }
+
+    fn is_below(self, limit: Self) -> bool {
+        self.0.is_below(limit.0)
+    }
+}
+
 impl Real for Counted {
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
@@ -79,32 +126,8 @@ impl Real for Counted {
         self.0.to_index()
     }
 
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-
-    fn exp(self) -> Self {
-        Self(self.0.exp())
-    }
-
     fn log2(self) -> Self {
         Self(self.0.log2())
-    }
-
-    fn exp2(self) -> Self {
-        Self(self.0.exp2())
-    }
-
-    fn powf(self, exponent: Self) -> Self {
-        Self(self.0.powf(exponent.0))
-    }
-
-    fn ceil(self) -> Self {
-        Self(self.0.ceil())
-    }
-
-    fn abs(self) -> Self {
-        Self(self.0.abs())
     }
 }
 

@@ -162,7 +162,7 @@ fn kernel_and_twin_tell_the_same_picture() {
     let scene = blending_scenes::busy(&display);
     let mut devices = devices(presented(&scene).scene(&display, &scene.frame).slots());
     for scene in looks(&scene) {
-        let twin = presented(&scene).scene(&display, &scene.frame).with_visible_cells(&scene.frame);
+        let twin = presented(&scene).scene(&display, &scene.frame).with_visible_cells();
         let unblended = with_weights(&twin, |_| FULL_WEIGHTS);
         let view = view(&display, PROJECTOR, &scene.frame, &*scene.source).rounded();
         let draw = |device: &mut Device, twin: &TwinScene| {
@@ -318,9 +318,7 @@ fn nodes_that_show_nothing_blend_as_the_middle_of_their_values() {
     assert!(hidden > 1, "the scene has {hidden} such nodes");
     let twin = cut.scene(&display, &scene.frame);
     let truth = truth(&display, &scene.frame, &cut.field(&scene.frame), 2);
-    for (what, twin) in
-        [("all cells", twin.clone()), ("visible cells", twin.clone().with_visible_cells(&scene.frame))]
-    {
+    for (what, twin) in [("all cells", twin.clone()), ("visible cells", twin.clone().with_visible_cells())] {
         let errors = between(&twin_sees(&display, &scene, &twin, 2), &truth);
         println!("{what:20} {errors}");
         assert!(KEPT.hold(&errors), "{what}: {errors}");

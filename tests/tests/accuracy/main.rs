@@ -19,6 +19,7 @@ mod laws;
 mod layers;
 mod lean_twins;
 mod non_finite;
+mod packets;
 mod paper;
 mod planes;
 mod planes_in_hard_cases;

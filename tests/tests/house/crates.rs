@@ -7,13 +7,14 @@ use std::process::Command;
 
 /// The crates, lowest first, each with the crates of the house that it may depend on. The tests may use all, and nothing
 /// uses the tests.
-pub const CRATES: [(&str, &str, &[&str]); 24] = [
+pub const CRATES: [(&str, &str, &[&str]); 25] = [
     ("display-config", "display-config", &[]),
+    ("lanes", "shaders/lanes", &[]),
     ("layout", "shaders/layout", &[]),
     ("optics", "shaders/optics", &[]),
     ("needs", "shaders/needs", &["layout", "optics"]),
-    ("twin", "shaders/twin", &["display-config", "layout", "needs", "optics"]),
-    ("planes", "shaders/planes", &["layout", "needs", "optics", "twin"]),
+    ("twin", "shaders/twin", &["display-config", "lanes", "layout", "needs", "optics"]),
+    ("planes", "shaders/planes", &["lanes", "layout", "needs", "optics", "twin"]),
     ("shaders", "shaders", &["layout", "needs", "optics"]),
     ("bricks", "backend/bricks", &["display-config", "layout", "optics"]),
     ("volumes", "backend/volumes", &["bricks"]),
@@ -83,7 +84,7 @@ const PRIVATE: [(&str, &str); 8] = [
     ("wgpu", "renderer"),
     ("mpi", "transport"),
     ("bincode", "protocol"),
-    ("fearless_simd", "planes"),
+    ("fearless_simd", "lanes"),
     ("winit", "screens"),
     ("softbuffer", "screens"),
     ("cosmic-text", "overlay"),

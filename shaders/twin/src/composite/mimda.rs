@@ -29,6 +29,7 @@ pub trait Form {
 }
 
 impl<M: Form> Composite for Mimda<M> {
+    const IS_OVER: bool = false;
     const READS_IMPORTANCE: bool = true;
     const ONCE_PER_STEP: bool = M::ONCE_PER_STEP;
 

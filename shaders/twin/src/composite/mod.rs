@@ -13,7 +13,7 @@ pub use over::Over;
 pub use sample::Sample;
 
 use super::tables::TablePlace;
-use super::{Casting, Real, vector::Vec3};
+use super::{Casting, Real, real::Number, vector::Vec3};
 
 /// What has been gathered so far.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +42,19 @@ impl<F: Real> Accumulated<F> {
     }
 }
 
+impl<F: Number> Accumulated<F> {
+    /// `self` with a segment behind it, whatever its importance.
+    #[inline(always)]
+    pub fn over(self, light: Light<F>) -> Self {
+        let through = self.alpha.alike(1.0) - self.alpha;
+        Self {
+            rgb: self.rgb + light.rgb * through,
+            alpha: self.alpha + light.alpha * through,
+            importance: self.importance,
+        }
+    }
+}
+
 /// The light of a segment, composited alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Light<F> {
@@ -65,6 +78,8 @@ impl<F: Real> Light<F> {
 
 /// A module for the compositing slot.
 pub trait Composite {
+    /// Whether segments lie one behind the other, whatever they mean.
+    const IS_OVER: bool;
     /// Whether it looks at importance.
     const READS_IMPORTANCE: bool;
     /// Whether the parts of a step are composited among themselves first.

@@ -8,6 +8,7 @@ use crate::{Casting, Real};
 pub struct Over<const IS_TOLD: bool>;
 
 impl<const IS_TOLD: bool> Composite for Over<IS_TOLD> {
+    const IS_OVER: bool = true;
     const READS_IMPORTANCE: bool = IS_TOLD;
     const ONCE_PER_STEP: bool = false;
 
@@ -28,12 +29,7 @@ impl<const IS_TOLD: bool> Composite for Over<IS_TOLD> {
         light: Light<F>,
         _: &Sample<F>,
     ) -> Accumulated<F> {
-        let through = F::ONE - front.alpha;
-        Accumulated {
-            rgb: front.rgb + light.rgb * through,
-            alpha: front.alpha + light.alpha * through,
-            importance: F::ZERO,
-        }
+        front.over(light)
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use layout::{NodeRecord, brick};
 pub struct Level<'a, F> {
     /// The brick's samples.
     pub codes: &'a [u16; brick::VOXELS],
-    base: Vec3<F>,
+    pub(crate) base: Vec3<F>,
     /// Texels per metre of t.
     pub slope: Vec3<F>,
     /// Turns a difference over two texels into a change of the scalar per finest voxel.
@@ -18,7 +18,7 @@ pub struct Level<'a, F> {
     offset: F,
     scale: F,
     /// The standard deviations, and that of code 255; None where samples stand for themselves.
-    deviations: Option<(&'a [u8; brick::VOXELS], F)>,
+    pub(crate) deviations: Option<(&'a [u8; brick::VOXELS], F)>,
 }
 
 impl<'a, F: Real> Level<'a, F> {

@@ -6,3 +6,4 @@ mod weights;
 
 pub use level::Level;
 pub use three::Brick;
+pub(crate) use weights::parents_share;

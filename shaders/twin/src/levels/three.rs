@@ -18,7 +18,7 @@ pub struct Brick<'a, F> {
     /// Its grandparent.
     pub grandparent: Level<'a, F>,
     /// The node's share, and its parent's.
-    weights: Weights<F>,
+    pub(crate) weights: Weights<F>,
     /// The visible cells of the node's brick.
     pub cells: &'a [u32; CELL_WORDS],
     /// Metres per texel along each axis, without sign.

@@ -2,15 +2,15 @@
 
 use super::Level;
 use crate::four::{between_corners, each, mix};
-use crate::{Real, traverse::OWN_EDGE};
-use layout::{FULL_WEIGHTS, NodeRecord};
+use crate::{Real, real::Number, traverse::OWN_EDGE};
+use layout::{FULL_WEIGHTS, NodeRecord, brick};
 
 /// See `Weights` in `wgsl/levels/weights.wgsl`.
 #[derive(Clone, Copy)]
 pub struct Weights<F> {
     /// Of the corners with low z and with high z.
-    low: [F; 4],
-    high: [F; 4],
+    pub(crate) low: [F; 4],
+    pub(crate) high: [F; 4],
     /// Whether the parent has any share.
     pub is_blended: bool,
 }
@@ -37,8 +37,17 @@ impl<F: Real> Weights<F> {
     /// The parent's share at t on the way that `own` lies on, of a blended node.
     #[inline(always)]
     pub fn parents_share(&self, own: &Level<F>, t: F) -> F {
-        let unit = |c: F| ((c - F::of(Level::<F>::OVERLAP)) / F::of(OWN_EDGE)).most(F::ZERO).least(F::ONE);
-        let [x, y, z] = own.point(t).map(unit).0;
-        F::ONE - between_corners(mix(self.low, self.high, z), x, y)
+        parents_share([self.low, self.high], own.point(t).0)
     }
+}
+
+/// The parent's share at a point, in texels, of a node with corners of such weights.
+#[inline(always)]
+pub(crate) fn parents_share<F: Number>([low, high]: [[F; 4]; 2], [x, y, z]: [F; 3]) -> F {
+    let (zero, one) = (x.alike(0.0), x.alike(1.0));
+    let (overlap, edge) = (x.alike(brick::OVERLAP as f64), x.alike(OWN_EDGE));
+    let x = ((x - overlap) / edge).most(zero).least(one);
+    let y = ((y - overlap) / edge).most(zero).least(one);
+    let z = ((z - overlap) / edge).most(zero).least(one);
+    one - between_corners(mix(low, high, z), x, y)
 }

@@ -1,7 +1,7 @@
 //! Exaggerated shading: each level is lit along the surface of the next coarser one.
 
 use super::Lighting;
-use super::law::lit_by;
+use super::law::Lit;
 use crate::gradient::{Gradients, LEAST_SQUARE};
 use crate::{Casting, Real, ray::Ray, vector::Vec3};
 
@@ -25,7 +25,7 @@ pub(super) fn lighting<F: Real>(
         + F::of(0.2) * n2.dot(light);
     let half = F::of(0.5);
     let lit = (half + half * levels).most(F::ZERO).least(F::ONE);
-    lit_by(casting, (gradients.at, square), lit, ray, material)
+    Lit::new(casting.scene, ray.direction_in_display).by((gradients.at, square), lit, material)
 }
 
 /// Unit vector toward lower values; zero if there is none.

@@ -1,37 +1,49 @@
 //! The shading law: two-sided Phong, weighted by the strength of the gradient.
 
 use super::Lighting;
-use crate::{Casting, Real, ray::Ray, vector::Vec3};
+use crate::real::Number;
+use crate::{Real, SceneNumbers, vector::Vec3};
 
-/// The light on a gradient of length sqrt(square) > 0, of which the share `lit` is scattered.
-#[inline(always)]
-pub(super) fn lit_by<F: Real>(
-    casting: &Casting<F>,
-    (gradient, square): (Vec3<F>, F),
-    lit: F,
-    ray: &Ray<F>,
-    material: [F; 4],
-) -> Lighting<F> {
-    let scene = casting.scene;
-    let weight = square / (square + scene.gradient_half_square);
-    let [ambient, diffuse, specular, shininess] = material;
-    let halfway = scene.toward_light - ray.direction_in_display;
-    let highlight = highlight(gradient, square.sqrt(), halfway, shininess);
-    Lighting {
-        body: F::ONE - weight + weight * (ambient + diffuse * lit),
-        highlight: weight * specular * highlight,
+/// What the law knows of a scene and of a ray, or of eight rays side by side.
+#[derive(Clone, Copy)]
+pub struct Lit<F> {
+    /// Toward the light, display frame.
+    pub toward_light: Vec3<F>,
+    /// Square of the gradient at which shading has half its strength.
+    pub half_square: F,
+    /// Where the ray goes, display frame.
+    pub direction: Vec3<F>,
+}
+
+impl<F: Real> Lit<F> {
+    /// Of one ray.
+    #[inline(always)]
+    pub fn new(scene: &SceneNumbers<F>, direction: Vec3<F>) -> Self {
+        Self { toward_light: scene.toward_light, half_square: scene.gradient_half_square, direction }
     }
 }
 
-/// |n·h|^shininess, 0 if h has no direction.
-#[inline(always)]
-fn highlight<F: Real>(gradient: Vec3<F>, length: F, halfway: Vec3<F>, shininess: F) -> F {
-    let square = halfway.dot(halfway);
-    if square > F::of(1e-12) {
-        let cosine = (gradient.dot(halfway).abs() / length / square.sqrt()).least(F::ONE);
-        if cosine > F::ZERO {
-            return cosine.powf(shininess);
+impl<F: Number> Lit<F> {
+    /// The light on a gradient of length sqrt(square) > 0, of which the share `lit` is scattered.
+    #[inline(always)]
+    pub(super) fn by(&self, (gradient, square): (Vec3<F>, F), lit: F, material: [F; 4]) -> Lighting<F> {
+        let weight = square / (square + self.half_square);
+        let [ambient, diffuse, specular, shininess] = material;
+        let highlight = self.highlight(gradient, square.sqrt(), shininess);
+        Lighting {
+            body: weight.alike(1.0) - weight + weight * (ambient + diffuse * lit),
+            highlight: weight * specular * highlight,
         }
     }
-    F::ZERO
+
+    /// |n·h|^shininess, 0 if h has no direction.
+    #[inline(always)]
+    fn highlight(&self, gradient: Vec3<F>, length: F, shininess: F) -> F {
+        let halfway = self.toward_light - self.direction;
+        let square = halfway.dot(halfway);
+        let (zero, one) = (square.alike(0.0), square.alike(1.0));
+        let cosine = (gradient.dot(halfway).abs() / length / square.sqrt()).least(one);
+        let cosine = square.alike(1e-12).choose(square, cosine, zero);
+        zero.choose(cosine, cosine.powf(shininess), zero)
+    }
 }

@@ -8,11 +8,12 @@ mod plain;
 mod unsharp;
 
 pub use any::AnyShade;
+pub use law::Lit;
 pub use phong::Phong;
 pub use plain::Plain;
 
 use super::gradient::Gradients;
-use super::{Casting, Real, ray::Ray};
+use super::{Casting, Real, ray::Ray, real::Number, vector::Vec3};
 use needs::Needs;
 
 /// A module for the shading slot.
@@ -31,6 +32,12 @@ pub trait Shade {
         ray: &Ray<F>,
         material: [F; 4],
     ) -> Lighting<F>;
+}
+
+/// A shading that looks at one gradient alone, of one ray or of eight side by side.
+pub trait Local: Shade {
+    /// The light on a gradient of the scalar, on a segment of `material`.
+    fn light<F: Number>(lit: &Lit<F>, gradient: Vec3<F>, material: [F; 4]) -> Lighting<F>;
 }
 
 /// What light makes of a colour: τ c · body + τ · highlight.

@@ -1,8 +1,10 @@
 //! Gradient shading as the law has it.
 
-use super::law::lit_by;
-use super::{Lighting, Shade};
+use super::law::Lit;
+use super::{Lighting, Local, Shade};
 use crate::gradient::{Gradients, LEAST_SQUARE};
+use crate::real::Number;
+use crate::vector::Vec3;
 use crate::{Casting, Real, ray::Ray};
 use needs::Needs;
 
@@ -32,11 +34,24 @@ impl Shade for Phong {
         ray: &Ray<F>,
         material: [F; 4],
     ) -> Lighting<F> {
-        let square = gradients.at.dot(gradients.at);
-        if square < F::of(LEAST_SQUARE) {
-            return Lighting::NONE;
+        Self::light(&Lit::new(casting.scene, ray.direction_in_display), gradients.at, material)
+    }
+}
+
+impl Local for Phong {
+    #[inline(always)]
+    fn light<F: Number>(lit: &Lit<F>, gradient: Vec3<F>, material: [F; 4]) -> Lighting<F> {
+        let square = gradient.dot(gradient);
+        let least = square.alike(LEAST_SQUARE);
+        let none = Lighting { body: square.alike(1.0), highlight: square.alike(0.0) };
+        if square.is_below(least) {
+            return none;
         }
-        let lit = gradients.at.dot(casting.scene.toward_light).abs() / square.sqrt();
-        lit_by(casting, (gradients.at, square), lit, ray, material)
+        let scattered = gradient.dot(lit.toward_light).abs() / square.sqrt();
+        let light = lit.by((gradient, square), scattered, material);
+        Lighting {
+            body: square.choose(least, none.body, light.body),
+            highlight: square.choose(least, none.highlight, light.highlight),
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Normal unsharp masking: the gradient's difference from a coarser level's is added to it.
 
 use super::Lighting;
-use super::law::lit_by;
+use super::law::Lit;
 use crate::gradient::{Gradients, LEAST_SQUARE};
 use crate::{Casting, Real, ray::Ray};
 
@@ -19,5 +19,5 @@ pub(super) fn lighting<F: Real>(
         return Lighting::NONE;
     }
     let lit = gradient.dot(casting.scene.toward_light).abs() / square.sqrt();
-    lit_by(casting, (gradient, square), lit, ray, material)
+    Lit::new(casting.scene, ray.direction_in_display).by((gradient, square), lit, material)
 }

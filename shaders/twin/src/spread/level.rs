@@ -26,11 +26,21 @@ fn optics_around<F: Real>(tables: &Tables, middle: F, reach: F) -> [F; 4] {
     let (from, to) = (middle - reach, middle + reach);
     let (low, high) = (locate(tables, from.most(F::ZERO)), locate(tables, to.least(F::ONE)));
     let inside = optics_between(tables, &low, &high);
-    let (below, above) = ((-from).most(F::ZERO), (to - F::ONE).most(F::ZERO));
+    let outside = ((-from).most(F::ZERO), (to - F::ONE).most(F::ZERO));
+    with_outside(inside, [&low, &high], outside, F::of(2.0) * reach)
+}
+
+/// The mean over a width of which `below` lies below 0 and `above` above 1, given that of what lies inside.
+#[inline(always)]
+pub(crate) fn with_outside<F: Real>(
+    inside: [F; 4],
+    [low, high]: [&Located<F>; 2],
+    (below, above): (F, F),
+    width: F,
+) -> [F; 4] {
     if below + above == F::ZERO {
         return inside;
     }
-    let width = F::of(2.0) * reach;
     each!(C => {
         let outside = low.value[C] * below + high.value[C] * above;
         (inside[C] * (width - below - above) + outside) / width

@@ -4,3 +4,4 @@ mod level;
 mod three;
 
 pub use level::sample_over;
+pub(crate) use level::with_outside;

@@ -1,9 +1,18 @@
 //! How a ray passes through the volume.
 
+mod beside;
+mod in_level;
+mod packet;
 mod pair;
 mod path;
+mod paths;
 mod refracted;
+mod segments;
 mod straight;
+mod walk;
+
+pub(crate) use packet::cast_packet;
+pub(crate) use segments::RAYS;
 
 use super::composite::Accumulated;
 use super::{Cast, Casting, Real, kernel::Kernel, ray::Ray};

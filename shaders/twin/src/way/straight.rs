@@ -1,5 +1,6 @@
 //! A straight ray's path through the volume.
 
+use super::walk::{Marched, Walk};
 use crate::brick::{PairOfSteps, Straight, add_pair};
 use crate::composite::{Accumulated, Composite};
 use crate::enhance::Chain;
@@ -8,19 +9,27 @@ use crate::levels::Brick;
 use crate::refine::{Voxel, scalars_in_reach};
 use crate::tables::is_vacant_around;
 use crate::{Cast, Casting, Real, ray::Ray};
-use layout::{NO_NODE, NO_SLOT};
+use layout::NO_NODE;
 
-struct Marched<F> {
-    front: Accumulated<F>,
-    samples: u32,
-    is_done: bool,
+/// The length of the steps of a stretch, and how many pairs of them it is.
+#[inline(always)]
+pub(super) fn lay_out<F: Real, K: Kernel>(
+    casting: &Casting<F>,
+    way: Straight<F>,
+    voxel: Voxel<F>,
+    (from, to): (F, F),
+) -> (F, u32) {
+    let span = (to - from).most(F::ZERO);
+    let longest = voxel.longest_step::<K>(casting, way.brick, way.ray, from);
+    let pairs = (span / (F::of(2.0) * longest)).ceil().most(F::ONE);
+    (F::of(0.5) * span / pairs, pairs.to_index())
 }
 
 /// Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out
 /// too long for the tolerance, each of them is split into equal parts. If samples blend levels, the rest of the way is
 /// divided anew after each pair, into pairs as long as the level there allows.
 #[inline(always)]
-fn march<F: Real, K: Kernel>(
+pub(super) fn march<F: Real, K: Kernel>(
     casting: &Casting<F>,
     chain: &Chain<F>,
     mut front: Accumulated<F>,
@@ -30,14 +39,8 @@ fn march<F: Real, K: Kernel>(
 ) -> Marched<F> {
     let Straight { brick, ray } = way;
     let two = F::of(2.0);
-    let lay_out = |from: F| {
-        let span = (t_out - from).most(F::ZERO);
-        let longest = voxel.longest_step::<K>(casting, brick, ray, from);
-        let pairs = (span / (two * longest)).ceil().most(F::ONE);
-        (F::of(0.5) * span / pairs, pairs.to_index())
-    };
     let mut from = t_in;
-    let (mut step, mut count) = lay_out(t_in);
+    let (mut step, mut count) = lay_out::<F, K>(casting, way, voxel, (t_in, t_out));
     let mut marched = Marched { front, samples: 0, is_done: false };
     let mut i = 0;
     let mut known = None;
@@ -46,7 +49,7 @@ fn march<F: Real, K: Kernel>(
         // Steps too short for t to grow by them are counted instead, or there would be no end.
         if brick.has_fractions::<K>() && t0 > from {
             from = t0;
-            (step, count) = lay_out(from);
+            (step, count) = lay_out::<F, K>(casting, way, voxel, (from, t_out));
             i = 0;
         }
         let unseen = brick.pairs_unseen(t0, step);
@@ -92,48 +95,32 @@ fn march<F: Real, K: Kernel>(
 
 #[inline(always)]
 pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -> Cast<F> {
-    let mut front = Accumulated::NOTHING;
-    let mut cast = Cast::NOTHING;
-    let (mut t, t_end) = ray.clip_to_volume(casting.scene.dims);
-    // Not `t >= t_end`: a span that is not a number is empty, too.
-    if !matches!(t.partial_cmp(&t_end), Some(std::cmp::Ordering::Less)) {
-        return cast;
+    let mut walk = Walk::begin(casting, ray);
+    if walk.at == NO_NODE {
+        return walk.end();
     }
     let chain = Chain::start::<K>(casting, ray);
-    let mut at = casting.leaf_at(ray.point(t), ray);
-    while at != NO_NODE {
-        let node = &casting.volume.nodes[at as usize];
-        let exit = casting.exit_of(node, ray);
-        let t_out = exit.t.most(t).least(t_end);
-        if node.slot != NO_SLOT && t_out > t {
-            casting.observer.note(at, node.deficit);
+    while walk.at != NO_NODE {
+        let node = &casting.volume.nodes[walk.at as usize];
+        let exit = walk.exit(casting, node);
+        if walk.looks(casting, node, &exit) {
             let brick = Brick::new::<K>(casting, node, ray);
             let voxel = Voxel::new(casting, node, ray);
-            let mut is_done = false;
+            let mut t = walk.t;
             // Cut where the law of an enhancer is not smooth.
-            while t < t_out && !is_done {
-                let until = chain.next_break::<K>(t).least(t_out);
+            while t < exit.t && !walk.is_done {
+                let until = chain.next_break::<K>(t).least(exit.t);
                 let way = Straight { brick: &brick, ray };
                 let stretch = (t, until);
-                let marched = if K::IS_FULL || chain.acts::<K>(casting, ray, F::of(0.5) * (t + until)) {
-                    march::<F, K>(casting, &chain, front, way, voxel, stretch)
+                walk.add(if K::IS_FULL || chain.acts::<K>(casting, ray, F::of(0.5) * (t + until)) {
+                    march::<F, K>(casting, &chain, walk.front, way, voxel, stretch)
                 } else {
-                    march::<F, K::Plain>(casting, &chain, front, way, voxel, stretch)
-                };
-                (front, is_done) = (marched.front, marched.is_done);
-                cast.samples += marched.samples;
+                    march::<F, K::Plain>(casting, &chain, walk.front, way, voxel, stretch)
+                });
                 t = until;
             }
-            cast.is_missing |= node.deficit > 0.0;
-            if is_done {
-                break;
-            }
         }
-        if t_out >= t_end {
-            break;
-        }
-        t = t_out;
-        at = casting.leaf_beyond(node, exit.axis, ray.point(t), ray);
+        walk.go_on(casting, node, &exit);
     }
-    cast.with_colours(front)
+    walk.end()
 }

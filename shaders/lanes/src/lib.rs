@@ -1,31 +1,91 @@
-//! Eight pixels in one instruction: the one file that knows which library does it.
+//! Eight numbers in one instruction: the one crate that knows which library does it.
 //!
 //! Nothing is contracted or reordered, so every level of instructions gives the same bits.
 
-pub(crate) use fearless_simd::prelude::*;
-pub(crate) use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8, mask32x8};
+pub use fearless_simd::prelude::*;
+pub use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8, mask32x8};
 
 // A closure is compiled without the instructions of the function around it, so none stands where lanes are computed with.
 
 /// The same number eight times.
 #[inline(always)]
-pub(crate) fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
+pub fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
     f32x8::splat(simd, value)
+}
+
+/// Eight numbers made one after another.
+#[macro_export]
+macro_rules! eight {
+    ($lane:ident => $value:expr) => {
+        [
+            {
+                const $lane: usize = 0;
+                $value
+            },
+            {
+                const $lane: usize = 1;
+                $value
+            },
+            {
+                const $lane: usize = 2;
+                $value
+            },
+            {
+                const $lane: usize = 3;
+                $value
+            },
+            {
+                const $lane: usize = 4;
+                $value
+            },
+            {
+                const $lane: usize = 5;
+                $value
+            },
+            {
+                const $lane: usize = 6;
+                $value
+            },
+            {
+                const $lane: usize = 7;
+                $value
+            },
+        ]
+    };
+}
+
+/// `number`, or `other` where that is larger. One that is not a number stays.
+#[inline(always)]
+pub fn not_below<S: Simd>(number: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
+    other.simd_gt(number).select(other, number)
+}
+
+/// `number`, or `other` where that is smaller. One that is not a number stays.
+#[inline(always)]
+pub fn not_above<S: Simd>(number: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
+    other.simd_lt(number).select(other, number)
+}
+
+/// The same number as often as there are in another.
+#[inline(always)]
+pub fn alike<S: Simd>(other: f32x8<S>, value: f32) -> f32x8<S> {
+    splat(other.token(), value)
 }
 
 /// 0 to 7.
 #[inline(always)]
-pub(crate) fn ramp<S: Simd>(simd: S) -> f32x8<S> {
+pub fn ramp<S: Simd>(simd: S) -> f32x8<S> {
     f32x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
 }
 
 /// Eight numbers of a list.
 #[inline(always)]
-pub(crate) fn load<S: Simd>(simd: S, list: &[f32], start: usize) -> f32x8<S> {
+pub fn load<S: Simd>(simd: S, list: &[f32], start: usize) -> f32x8<S> {
     f32x8::from_slice(simd, &list[start..start + 8])
 }
 
 /// Three or four of something, one by one.
+#[macro_export]
 macro_rules! each {
     ($c:ident of 3 => $value:expr) => {{
         let [a, b, c] = [0, 1, 2];
@@ -35,16 +95,14 @@ macro_rules! each {
         [first, second, third]
     }};
     ($c:ident of 4 => $value:expr) => {{
-        let [first, second, third] = each!($c of 3 => $value);
+        let [first, second, third] = $crate::each!($c of 3 => $value);
         let fourth = { let $c = 3; $value };
         [first, second, third, fourth]
     }};
 }
-pub(crate) use each;
-
 /// The largest of eight numbers that are not negative.
 #[inline(always)]
-pub(crate) fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {
+pub fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {
     let mut most = 0.0;
     for number in numbers.to_array() {
         most = if number > most { number } else { most };
@@ -54,7 +112,7 @@ pub(crate) fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {
 
 /// The least of eight numbers.
 #[inline(always)]
-pub(crate) fn least<S: Simd>(numbers: f32x8<S>) -> f32 {
+pub fn least<S: Simd>(numbers: f32x8<S>) -> f32 {
     let mut least = f32::INFINITY;
     for number in numbers.to_array() {
         least = if number < least { number } else { least };
@@ -64,13 +122,13 @@ pub(crate) fn least<S: Simd>(numbers: f32x8<S>) -> f32 {
 
 /// The greatest of eight numbers.
 #[inline(always)]
-pub(crate) fn greatest<S: Simd>(simd: S, numbers: f32x8<S>) -> f32 {
+pub fn greatest<S: Simd>(simd: S, numbers: f32x8<S>) -> f32 {
     -least(splat(simd, 0.0) - numbers)
 }
 
 /// e^−x for x ≥ 0, to a few units of f32.
 #[inline(always)]
-pub(crate) fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
+pub fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
     let t = (x * splat(simd, -std::f32::consts::LOG2_E)).max(splat(simd, -126.0));
     let whole = (t + splat(simd, 0.5)).floor();
     let y = (t - whole) * splat(simd, std::f32::consts::LN_2);
@@ -88,7 +146,7 @@ pub(crate) fn exp_of_negative<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
 
 /// (1 − e^−x) / x for x ≥ 0.
 #[inline(always)]
-pub(crate) fn attenuation_mean<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
+pub fn attenuation_mean<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
     let one = splat(simd, 1.0);
     // The next term is x⁶/5040. Pairs of terms do not wait for each other.
     let square = x * x;
@@ -106,7 +164,7 @@ pub(crate) fn attenuation_mean<S: Simd>(simd: S, x: f32x8<S>) -> f32x8<S> {
 
 /// x^y for x in (0, 1] and y ≥ 0; 0 where x is.
 #[inline(always)]
-pub(crate) fn power<S: Simd>(simd: S, x: f32x8<S>, y: f32x8<S>) -> f32x8<S> {
+pub fn power<S: Simd>(simd: S, x: f32x8<S>, y: f32x8<S>) -> f32x8<S> {
     let least = splat(simd, f32::MIN_POSITIVE);
     let bits: i32x8<S> = x.max(least).bitcast();
     // x = m 2^e with m in [1/√2, √2).
