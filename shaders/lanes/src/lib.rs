@@ -13,63 +13,23 @@ pub fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
     f32x8::splat(simd, value)
 }
 
-/// Eight numbers made one after another.
+/// A list of what an expression is for each of some numbers, written out: a constant holds the number.
 #[macro_export]
-macro_rules! eight {
-    ($lane:ident => $value:expr) => {
-        [
-            {
-                const $lane: usize = 0;
-                $value
-            },
-            {
-                const $lane: usize = 1;
-                $value
-            },
-            {
-                const $lane: usize = 2;
-                $value
-            },
-            {
-                const $lane: usize = 3;
-                $value
-            },
-            {
-                const $lane: usize = 4;
-                $value
-            },
-            {
-                const $lane: usize = 5;
-                $value
-            },
-            {
-                const $lane: usize = 6;
-                $value
-            },
-            {
-                const $lane: usize = 7;
-                $value
-            },
-        ]
+macro_rules! written_out {
+    ($number:ident in [$($value:literal)*] => $what:expr) => {
+        [$({
+            const $number: usize = $value;
+            $what
+        }),*]
     };
 }
 
-/// `number`, or `other` where that is larger. One that is not a number stays.
-#[inline(always)]
-pub fn not_below<S: Simd>(number: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
-    other.simd_gt(number).select(other, number)
-}
-
-/// `number`, or `other` where that is smaller. One that is not a number stays.
-#[inline(always)]
-pub fn not_above<S: Simd>(number: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
-    other.simd_lt(number).select(other, number)
-}
-
-/// The same number as often as there are in another.
-#[inline(always)]
-pub fn alike<S: Simd>(other: f32x8<S>, value: f32) -> f32x8<S> {
-    splat(other.token(), value)
+/// Eight of something, one by one.
+#[macro_export]
+macro_rules! eight {
+    ($lane:ident => $value:expr) => {
+        $crate::written_out!($lane in [0 1 2 3 4 5 6 7] => $value)
+    };
 }
 
 /// 0 to 7.
@@ -100,6 +60,15 @@ macro_rules! each {
         [first, second, third, fourth]
     }};
 }
+
+/// The low and the high half of eight words, as numbers.
+#[inline(always)]
+pub fn halves<S: Simd>(simd: S, words: [i32; 8]) -> [f32x8<S>; 2] {
+    let words = i32x8::load_array(simd, words);
+    let low = i32x8::splat(simd, 0xffff);
+    [(words & low).to_float(), ((words >> 16) & low).to_float()]
+}
+
 /// The largest of eight numbers that are not negative.
 #[inline(always)]
 pub fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {

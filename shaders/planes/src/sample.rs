@@ -34,10 +34,7 @@ pub(crate) fn scalars_at<S: Simd>(simd: S, level: &Level<f32>, x: f32x8<S>) -> f
         pairs[3][lane] = pair(window, LAYER + ROW);
     }
     let along_x = each!(i of 4 => {
-        let words = i32x8::load_array(simd, pairs[i]);
-        let codes = i32x8::splat(simd, 0xffff);
-        let near: f32x8<S> = (words & codes).to_float();
-        let far: f32x8<S> = ((words >> 16) & codes).to_float();
+        let [near, far] = halves(simd, pairs[i]);
         near + (far - near) * part[0]
     });
     let near = along_x[0] + (along_x[1] - along_x[0]) * part[1];

@@ -6,26 +6,9 @@ use super::{Real, real::Number};
 
 /// f of each component, written out.
 macro_rules! each {
-    ($c:ident => $value:expr) => {{
-        [
-            {
-                const $c: usize = 0;
-                $value
-            },
-            {
-                const $c: usize = 1;
-                $value
-            },
-            {
-                const $c: usize = 2;
-                $value
-            },
-            {
-                const $c: usize = 3;
-                $value
-            },
-        ]
-    }};
+    ($c:ident => $value:expr) => {
+        lanes::written_out!($c in [0 1 2 3] => $value)
+    };
 }
 pub(super) use each;
 

@@ -147,7 +147,7 @@ real!(f64);
 impl<S: Simd> Number for f32x8<S> {
     #[inline(always)]
     fn alike(self, value: f64) -> Self {
-        alike(self, value as f32)
+        splat(self.token(), value as f32)
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -163,11 +163,11 @@ impl<S: Simd> Number for f32x8<S> {
     }
     #[inline(always)]
     fn least(self, other: Self) -> Self {
-        not_above(self, other)
+        other.simd_lt(self).select(other, self)
     }
     #[inline(always)]
     fn most(self, other: Self) -> Self {
-        not_below(self, other)
+        other.simd_gt(self).select(other, self)
     }
     #[inline(always)]
     fn exp(self) -> Self {

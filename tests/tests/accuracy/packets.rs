@@ -13,7 +13,7 @@ const PROJECTOR: u32 = 5;
 const RASTER: [u32; 2] = [64, 48];
 /// Coprime with the number of pixels: no two of a packet are neighbours.
 const STRIDE: usize = 1237;
-/// So many codes of the atlas are changed at once by the canary.
+/// The canary changes so many neighbouring codes of the atlas.
 const SPOILED: usize = 64;
 
 /// Scenes with and without skins, levels of detail that are shown, importance and deviations.
@@ -27,6 +27,11 @@ fn all(display: &Display) -> Vec<TestScene> {
     coarse.frame.quality.lod_scale = 2.0;
     all.push(coarse);
     all
+}
+
+/// Those of the raster, line by line.
+fn pixels() -> Vec<(u32, u32)> {
+    (0..RASTER[1]).flat_map(|y| (0..RASTER[0]).map(move |x| (x, y))).collect()
 }
 
 /// The pixels of a raster in another order.
@@ -49,7 +54,7 @@ fn casts(twin: &TwinScene, view: &View<f32>, pixels: &[(u32, u32)]) -> [Vec<Cast
 fn a_ray_sees_the_same_whoever_goes_beside_it() {
     let _turn = draw::turn();
     let display = Display::load("desk8").unwrap().with_rasters(RASTER[0], RASTER[1]);
-    let pixels: Vec<(u32, u32)> = (0..RASTER[1]).flat_map(|y| (0..RASTER[0]).map(move |x| (x, y))).collect();
+    let pixels = pixels();
     for mut scene in all(&display) {
         for (light, blended, tolerance) in
             [(None, true, 1e-4), (Some(Light::default()), false, 1e-4), (None, false, 1e-2)]
@@ -80,6 +85,6 @@ fn a_ray_that_sees_something_else_is_found() {
     let mut spoiled = twin.clone();
     let middle = spoiled.atlas.len() / 2;
     spoiled.atlas[middle..middle + SPOILED].iter_mut().for_each(|code| *code ^= 1);
-    let pixels: Vec<(u32, u32)> = (0..RASTER[1]).flat_map(|y| (0..RASTER[0]).map(move |x| (x, y))).collect();
+    let pixels = pixels();
     assert_ne!(twin.cast_whole(&view, &pixels), spoiled.cast_whole(&view, &pixels));
 }

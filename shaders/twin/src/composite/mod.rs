@@ -46,12 +46,8 @@ impl<F: Number> Accumulated<F> {
     /// `self` with a segment behind it, whatever its importance.
     #[inline(always)]
     pub fn over(self, light: Light<F>) -> Self {
-        let through = self.alpha.alike(1.0) - self.alpha;
-        Self {
-            rgb: self.rgb + light.rgb * through,
-            alpha: self.alpha + light.alpha * through,
-            importance: self.importance,
-        }
+        let Light { rgb, alpha } = Light { rgb: self.rgb, alpha: self.alpha }.then(light);
+        Self { rgb, alpha, importance: self.importance }
     }
 }
 
@@ -67,11 +63,13 @@ pub struct Light<F> {
 impl<F: Real> Light<F> {
     /// Of nothing.
     pub const NONE: Self = Self { rgb: Vec3::ZERO, alpha: F::ZERO };
+}
 
+impl<F: Number> Light<F> {
     /// `self` with another segment behind it.
     #[inline(always)]
     pub fn then(self, behind: Self) -> Self {
-        let through = F::ONE - self.alpha;
+        let through = self.alpha.alike(1.0) - self.alpha;
         Self { rgb: self.rgb + behind.rgb * through, alpha: self.alpha + behind.alpha * through }
     }
 }

@@ -88,10 +88,7 @@ impl<'a, S: Simd> PathsInLevel<'a, S> {
         let windows = eight!(L => &self.codes[base[L] as usize..base[L] as usize + LAYER + ROW + 2]);
         let along_x = each!(corner of 4 => {
             let offset = [0, ROW, LAYER, LAYER + ROW][corner];
-            let pairs = i32x8::load_array(t.token(), eight!(L => pair(windows[L], offset) as i32));
-            let codes = i32x8::splat(t.token(), 0xffff);
-            let low: f32x8<S> = (pairs & codes).to_float();
-            let high: f32x8<S> = ((pairs >> 16) & codes).to_float();
+            let [low, high] = halves(t.token(), eight!(L => pair(windows[L], offset) as i32));
             low + (high - low) * part[0]
         });
         let sample = between_corners(along_x, part[1], part[2]) * t.alike(PER_CODE);
@@ -122,11 +119,7 @@ impl<'a, S: Simd> PathsInLevel<'a, S> {
         macro_rules! row {
             ($j:expr, $k:expr) => {{
                 let offset = $k * LAYER + $j * ROW + 1;
-                let pairs = i32x8::load_array(simd, eight!(L => pair(windows[L], offset) as i32));
-                let codes = i32x8::splat(simd, 0xffff);
-                let low: f32x8<S> = (pairs & codes).to_float();
-                let high: f32x8<S> = ((pairs >> 16) & codes).to_float();
-                [low, high]
+                halves(simd, eight!(L => pair(windows[L], offset) as i32))
             }};
         }
         let inner = [row!(1, 1), row!(2, 1), row!(1, 2), row!(2, 2)];

@@ -75,7 +75,6 @@ fn pass_leaf<S: Simd, K: Kernel<Shade: Local>>(
         company += usize::from(walk.at == at);
     }
     let mut laid = Laid::default();
-    let mut most_extinction = 0.0;
     let mut bricks: [Option<Brick<f32>>; RAYS] = [const { None }; RAYS];
     let mut exits = [Exit { t: 0.0, axis: 0 }; RAYS];
     for lane in 0..RAYS {
@@ -95,12 +94,11 @@ fn pass_leaf<S: Simd, K: Kernel<Shade: Local>>(
             walk.add(march::<f32, K>(casting, chain, walk.front, way, voxel, stretch));
         } else {
             laid.lay(lane, &brick, &voxel, stretch);
-            most_extinction = voxel.most_extinction;
             bricks[lane] = Some(brick);
         }
     }
     if let Some(any) = bricks.iter().flatten().next() {
-        let paths = Paths::new::<K>(simd, (any, most_extinction), &laid);
+        let paths = Paths::new::<K>(simd, any, &laid);
         march_side_by_side::<S, K>(simd, casting, chain, (walks, &bricks), paths, laid.rays);
     }
     for lane in 0..RAYS {

@@ -23,6 +23,7 @@ pub(super) struct Laid {
     voxel: [f32; RAYS],
     from: [f32; RAYS],
     until: [f32; RAYS],
+    most_extinction: f32,
     /// The rays that are in the brick.
     pub(super) rays: u64,
 }
@@ -43,6 +44,7 @@ impl Laid {
             self.pace[axis][lane] = brick.pace.0[axis];
         }
         self.voxel[lane] = voxel.edge;
+        self.most_extinction = voxel.most_extinction;
         (self.from[lane], self.until[lane]) = (from, until);
         self.rays |= 1 << lane;
     }
@@ -72,13 +74,9 @@ pub(super) struct Paths<'a, S: Simd> {
 }
 
 impl<'a, S: Simd> Paths<'a, S> {
-    /// Paths through a brick and its voxels, which are those of any of them; they have no steps yet.
+    /// Paths through a brick, which is that of any of them; they have no steps yet.
     #[inline(always)]
-    pub(super) fn new<K: Kernel>(
-        simd: S,
-        (brick, most_extinction): (&Brick<'a, f32>, f32),
-        laid: &Laid,
-    ) -> Self {
+    pub(super) fn new<K: Kernel>(simd: S, brick: &Brick<'a, f32>, laid: &Laid) -> Self {
         let zero = splat(simd, 0.0);
         Self {
             simd,
@@ -88,7 +86,7 @@ impl<'a, S: Simd> Paths<'a, S> {
             weights: brick.has_fractions::<K>().then_some([brick.weights.low, brick.weights.high]),
             pace: each!(axis of 3 => load(simd, &laid.pace[axis], 0)),
             voxel: load(simd, &laid.voxel, 0),
-            most_extinction,
+            most_extinction: laid.most_extinction,
             from: load(simd, &laid.from, 0),
             until: load(simd, &laid.until, 0),
             step: zero,
