@@ -45,14 +45,14 @@ impl TileGrid {
         if tiles.is_empty() { 0 } else { before(tiles.end) - before(tiles.start) }
     }
 
-    /// The pixels that a tile casts, within a raster of `width` × `height`.
+    /// The pixels that a tile casts, within a raster of `width` × `height`: neighbours one after another, in blocks of 4 × 2.
     pub fn pixels(&self, tile: u32, width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
         let Lattice { step, first } = self.lattice;
         let corner = [tile % self.across * TILE_EDGE, tile / self.across * TILE_EDGE];
         (0..TILE_EDGE * TILE_EDGE)
             .map(move |i| {
                 let at = |axis: usize, i: u32| (corner[axis] + i) * step[axis] + first[axis];
-                (at(0, i % TILE_EDGE), at(1, i / TILE_EDGE))
+                (at(0, i % 4 + i / 8 % (TILE_EDGE / 4) * 4), at(1, i / 4 % 2 + i / TILE_EDGE / 2 * 2))
             })
             .filter(move |&(x, y)| x < width && y < height)
     }

@@ -7,7 +7,6 @@ use crate::brick::{PairOfSteps, Straight, add_pair, segment_light};
 use crate::composite::{Accumulated, Composite};
 use crate::enhance::Chain;
 use crate::kernel::Kernel;
-use crate::levels::Brick;
 use crate::refine::{Emitted, parts_of_step, scalars_in_reach};
 use crate::shade::{Lighting, Lit, Local, Shade};
 use crate::tables::is_vacant_between;
@@ -96,16 +95,16 @@ impl<S: Simd> Pairs<S> {
 pub(super) fn add_one_by_one<S: Simd, K: Kernel>(
     casting: &Casting<f32>,
     chain: &Chain<f32>,
-    (walks, bricks): (&mut [Walk<f32>; RAYS], &[Option<Brick<f32>>; RAYS]),
+    walks: &mut [Walk<f32>; RAYS],
+    paths: &Paths<S>,
     pairs: &Pairs<S>,
     mut rays: u64,
 ) -> u64 {
     let mut ended = 0;
     while rays != 0 {
         let lane = first_of(&mut rays);
-        let Some(brick) = &bricks[lane] else { continue };
+        let Some(way) = paths.ways[lane] else { continue };
         let walk = &mut walks[lane];
-        let way = Straight { brick, ray: walk.ray };
         let (front, between) = add_pair::<f32, K, _>(casting, chain, walk.front, &pairs.of(lane, way));
         walk.front = front;
         walk.cast.samples += between;
@@ -121,6 +120,40 @@ pub(super) struct Gathered<S: Simd> {
     /// Samples between those of pairs.
     pub(super) samples: i32x8<S>,
     lit: Lit<f32x8<S>>,
+    waiting: Waiting<S>,
+}
+
+/// Pairs of steps that are to be split: they wait until no ray goes on without, so that as many as can be are split together.
+struct Waiting<S: Simd> {
+    rays: mask32x8<S>,
+    /// Where the steps of each begin.
+    t: [f32x8<S>; 2],
+    length: f32x8<S>,
+    scalars: [f32x8<S>; 3],
+    /// What each step is split into.
+    parts: f32x8<S>,
+}
+
+impl<S: Simd> Waiting<S> {
+    #[inline(always)]
+    fn none(simd: S) -> Self {
+        let (rays, zero) = (mask32x8::splat(simd, false), splat(simd, 0.0));
+        Self { rays, t: [zero; 2], length: zero, scalars: [zero; 3], parts: zero }
+    }
+
+    /// Has the pairs of some rays wait as well.
+    #[inline(always)]
+    fn add(&mut self, pairs: &Pairs<S>, parts: f32x8<S>, rays: mask32x8<S>) {
+        self.rays |= rays;
+        for i in 0..2 {
+            self.t[i] = rays.select(pairs.t[i], self.t[i]);
+        }
+        self.length = rays.select(pairs.length, self.length);
+        for i in 0..3 {
+            self.scalars[i] = rays.select(pairs.scalars[i], self.scalars[i]);
+        }
+        self.parts = rays.select(parts, self.parts);
+    }
 }
 
 impl<S: Simd> Gathered<S> {
@@ -129,6 +162,7 @@ impl<S: Simd> Gathered<S> {
         let scene = casting.scene;
         Self {
             simd,
+            waiting: Waiting::none(simd),
             front: Accumulated {
                 rgb: Vec3(each!(c of 3 => f32x8::load_array(simd, eight!(L => walks[L].front.rgb.0[c])))),
                 alpha: f32x8::load_array(simd, eight!(L => walks[L].front.alpha)),
@@ -145,6 +179,12 @@ impl<S: Simd> Gathered<S> {
         }
     }
 
+    /// The rays that wait with their pairs.
+    #[inline(always)]
+    pub(super) fn waiting(&self) -> mask32x8<S> {
+        self.waiting.rays
+    }
+
     /// Gives it back to the rays.
     #[inline(always)]
     pub(super) fn give_back(self, walks: &mut [Walk<f32>; RAYS]) {
@@ -155,7 +195,8 @@ impl<S: Simd> Gathered<S> {
         }
     }
 
-    /// Adds the pairs of some rays. Returns those of which nothing that follows can be seen.
+    /// Adds the pairs of some rays, but for those that are to be split: these wait. Returns the rays of which nothing that follows
+    /// can be seen.
     #[inline(always)]
     pub(super) fn add<K: Kernel<Shade: Local>>(
         &mut self,
@@ -174,20 +215,37 @@ impl<S: Simd> Gathered<S> {
         let parts = parts_of_step(emitted, thickness, visible, spread, tolerance).most(one);
         let in_parts = parts.simd_gt(one) & rays;
         let whole = rays & !in_parts;
+        if in_parts.any_true() {
+            self.waiting.add(pairs, parts, in_parts);
+        }
         if whole.any_true() {
             let shows = first[3].most(second[3]).simd_gt(splat(simd, 0.0)) & whole;
             let light = self.light::<K>(casting, paths, pairs.t[1], shows);
             self.add_segments(first, thickness, light, whole);
             self.add_segments(second, thickness, light, whole);
         }
-        if in_parts.any_true() {
-            let [s0, s1, s2] = pairs.scalars;
-            let steps = [(pairs.t[0], s0, s1), (pairs.t[1], s1, s2)];
-            for (t, from, to) in steps {
-                self.add_in_parts::<K>(casting, paths, (t, pairs.length, parts), (from, to), in_parts);
-            }
+        self.ended(casting, whole)
+    }
+
+    /// Adds the pairs that wait. Returns the rays of which nothing that follows can be seen.
+    #[inline(always)]
+    pub(super) fn add_waiting<K: Kernel<Shade: Local>>(
+        &mut self,
+        casting: &Casting<f32>,
+        paths: &Paths<S>,
+    ) -> mask32x8<S> {
+        let Waiting { rays, t: [t0, t1], length, scalars: [s0, s1, s2], parts } = self.waiting;
+        for (t, from, to) in [(t0, s0, s1), (t1, s1, s2)] {
+            self.add_in_parts::<K>(casting, paths, (t, length, parts), (from, to), rays);
         }
-        (one - self.front.alpha).simd_lt(splat(simd, scene.termination)) & rays
+        self.waiting.rays = mask32x8::splat(self.simd, false);
+        self.ended(casting, rays)
+    }
+
+    #[inline(always)]
+    fn ended(&self, casting: &Casting<f32>, rays: mask32x8<S>) -> mask32x8<S> {
+        let one = splat(self.simd, 1.0);
+        (one - self.front.alpha).simd_lt(splat(self.simd, casting.scene.termination)) & rays
     }
 
     /// The light on segments at `t` of some rays: plain colours on all others.
@@ -204,7 +262,7 @@ impl<S: Simd> Gathered<S> {
         if !K::Shade::reads_gradients(casting.needs) || !rays.any_true() {
             return none;
         }
-        let gradient = paths.gradients(casting, t);
+        let gradient = paths.gradients::<K>(casting, t, rays);
         let gradient = Vec3(each!(axis of 3 => rays.select(gradient.0[axis], zero)));
         let material = casting.scene.material;
         let material = each!(c of 4 => splat(self.simd, material[c]));
@@ -259,7 +317,7 @@ impl<S: Simd> Gathered<S> {
             let inner = number.simd_lt(parts) & going;
             let mut to = end;
             if inner.any_true() {
-                to = inner.select(paths.scalars(t), end);
+                to = inner.select(paths.scalars::<K>(casting, t, inner), end);
                 self.samples += inner.select(i32x8::splat(simd, 1), i32x8::splat(simd, 0));
             }
             let middle = t - half * part;

@@ -97,9 +97,13 @@ fn pass_leaf<S: Simd, K: Kernel<Shade: Local>>(
             bricks[lane] = Some(brick);
         }
     }
-    if let Some(any) = bricks.iter().flatten().next() {
-        let paths = Paths::new::<K>(simd, any, &laid);
-        march_side_by_side::<S, K>(simd, casting, chain, (walks, &bricks), paths, laid.rays);
+    let ways = eight!(L => match &bricks[L] {
+        Some(brick) => Some(Straight { brick, ray: walks[L].ray }),
+        None => None,
+    });
+    if let Some(any) = ways.iter().flatten().next() {
+        let paths = Paths::new::<K>(simd, &ways, any, &laid);
+        march_side_by_side::<S, K>(simd, casting, chain, walks, paths, laid.rays);
     }
     for lane in 0..RAYS {
         if walks[lane].at == at {
@@ -114,7 +118,7 @@ fn march_side_by_side<S: Simd, K: Kernel<Shade: Local>>(
     simd: S,
     casting: &Casting<f32>,
     chain: &Chain<f32>,
-    (walks, bricks): (&mut [Walk<f32>; RAYS], &[Option<Brick<f32>>; RAYS]),
+    walks: &mut [Walk<f32>; RAYS],
     mut paths: Paths<S>,
     rays: u64,
 ) {
@@ -127,9 +131,15 @@ fn march_side_by_side<S: Simd, K: Kernel<Shade: Local>>(
     let rays = mask32x8::from_bitmask(simd, rays);
     let mut count = rays.select(paths.lay_out::<K>(casting, paths.begin(), rays), none);
     loop {
-        let under_way = at.simd_lt(count);
+        let under_way = at.simd_lt(count) & !gathered.waiting();
         if !under_way.any_true() {
-            break;
+            if !gathered.waiting().any_true() {
+                break;
+            }
+            let ended = gathered.add_waiting::<K>(casting, &paths);
+            count = ended.select(none, count);
+            all_ended |= ended;
+            continue;
         }
         let t0 = paths.t(at);
         if paths.has_fractions() {
@@ -151,14 +161,14 @@ fn march_side_by_side<S: Simd, K: Kernel<Shade: Local>>(
         let fresh = under_way & !is_known;
         let mut s0 = known;
         if fresh.any_true() {
-            s0 = is_known.select(known, paths.scalars(t0));
+            s0 = is_known.select(known, paths.scalars::<K>(casting, t0, fresh));
             samples += fresh.select(one, none);
         }
         let t1 = t0 + paths.step;
-        let s1 = paths.scalars(t1);
-        let s2 = paths.scalars(t0 + splat(simd, 2.0) * paths.step);
+        let s1 = paths.scalars::<K>(casting, t1, under_way);
+        let s2 = paths.scalars::<K>(casting, t0 + splat(simd, 2.0) * paths.step, under_way);
         samples += under_way.select(two, none);
-        (known, is_known) = (s2, under_way);
+        (known, is_known) = (under_way.select(s2, known), is_known | under_way);
         let mut spreads = [splat(simd, 0.0); 2];
         if K::BLENDS && casting.needs.spreads {
             spreads[0] = paths.spreads(t0 + splat(simd, 0.5) * paths.step);
@@ -173,7 +183,7 @@ fn march_side_by_side<S: Simd, K: Kernel<Shade: Local>>(
             let looked_at = mask32x8::from_bitmask(simd, looked_at);
             gathered.add::<K>(casting, &paths, &pairs, looked_at)
         } else {
-            let ended = add_one_by_one::<S, K>(casting, chain, (walks, bricks), &pairs, looked_at);
+            let ended = add_one_by_one::<S, K>(casting, chain, walks, &paths, &pairs, looked_at);
             mask32x8::from_bitmask(simd, ended)
         };
         count = ended.select(none, count);

@@ -2,9 +2,10 @@
 //! order, so that a ray sees the same to the bit whoever goes beside it.
 
 use super::in_level::{LaidInLevel, PathsInLevel};
-use super::segments::RAYS;
+use super::segments::{RAYS, first_of};
 use crate::Casting;
-use crate::brick::{ACROSS, CELL, points_asked};
+use crate::along::Along;
+use crate::brick::{ACROSS, CELL, Straight, points_asked};
 use crate::kernel::Kernel;
 use crate::levels::{Brick, parents_share};
 use crate::real::Number;
@@ -50,9 +51,14 @@ impl Laid {
     }
 }
 
+/// So few rays look things up each alone: eight side by side take longer.
+const FEW: u32 = 2;
+
 /// Paths through a brick.
 pub(super) struct Paths<'a, S: Simd> {
     simd: S,
+    /// Each alone, where it is in the brick.
+    pub(super) ways: &'a [Option<Straight<'a, f32>>; RAYS],
     cells: &'a [u32; CELL_WORDS],
     own: PathsInLevel<'a, S>,
     parent: PathsInLevel<'a, S>,
@@ -74,12 +80,18 @@ pub(super) struct Paths<'a, S: Simd> {
 }
 
 impl<'a, S: Simd> Paths<'a, S> {
-    /// Paths through a brick, which is that of any of them; they have no steps yet.
+    /// Paths through a brick, which is that of `any` of them; they have no steps yet.
     #[inline(always)]
-    pub(super) fn new<K: Kernel>(simd: S, brick: &Brick<'a, f32>, laid: &Laid) -> Self {
-        let zero = splat(simd, 0.0);
+    pub(super) fn new<K: Kernel>(
+        simd: S,
+        ways: &'a [Option<Straight<'a, f32>>; RAYS],
+        any: &Straight<'a, f32>,
+        laid: &Laid,
+    ) -> Self {
+        let (brick, zero) = (any.brick, splat(simd, 0.0));
         Self {
             simd,
+            ways,
             cells: brick.cells,
             own: PathsInLevel::new(simd, &brick.own, &laid.own),
             parent: PathsInLevel::new(simd, &brick.parent, &laid.parent),
@@ -228,9 +240,25 @@ impl<'a, S: Simd> Paths<'a, S> {
         pairs.most(self.number(1.0)).least(self.number(1e6)).to_int()
     }
 
-    /// The scalars at `t`: see [`Brick::scalar_at`].
+    /// The scalars of some rays at `t`: see [`Brick::scalar_at`].
     #[inline(always)]
-    pub(super) fn scalars(&self, t: f32x8<S>) -> f32x8<S> {
+    pub(super) fn scalars<K: Kernel>(
+        &self,
+        casting: &Casting<f32>,
+        t: f32x8<S>,
+        rays: mask32x8<S>,
+    ) -> f32x8<S> {
+        let mut rays = rays.to_bitmask();
+        if rays.count_ones() <= FEW {
+            let mut scalars = [0.0; RAYS];
+            while rays != 0 {
+                let lane = first_of(&mut rays);
+                if let Some(way) = &self.ways[lane] {
+                    scalars[lane] = way.scalar_at::<K>(casting, t[lane]);
+                }
+            }
+            return load(self.simd, &scalars, 0);
+        }
         let mut scalars = self.own.scalars(t);
         if let Some(share) = self.parents_share(t) {
             scalars = self.blended(share, scalars, self.parent.scalars(t));
@@ -248,9 +276,28 @@ impl<'a, S: Simd> Paths<'a, S> {
         }
     }
 
-    /// The gradients at `t`: see [`crate::gradient::Gradients`].
+    /// The gradients of some rays at `t`: see [`crate::gradient::Gradients`].
     #[inline(always)]
-    pub(super) fn gradients(&self, casting: &Casting<f32>, t: f32x8<S>) -> Vec3<f32x8<S>> {
+    pub(super) fn gradients<K: Kernel>(
+        &self,
+        casting: &Casting<f32>,
+        t: f32x8<S>,
+        rays: mask32x8<S>,
+    ) -> Vec3<f32x8<S>> {
+        let mut rays = rays.to_bitmask();
+        if rays.count_ones() <= FEW {
+            let mut gradients = [[0.0; RAYS]; 3];
+            while rays != 0 {
+                let lane = first_of(&mut rays);
+                if let Some(way) = &self.ways[lane] {
+                    let gradient = way.gradients_at::<K>(casting, t[lane]).at;
+                    for axis in 0..3 {
+                        gradients[axis][lane] = gradient.0[axis];
+                    }
+                }
+            }
+            return Vec3(each!(axis of 3 => load(self.simd, &gradients[axis], 0)));
+        }
         let own = self.own.gradients(casting, t);
         let Some(share) = self.parents_share(t) else { return own };
         let parent = self.parent.gradients(casting, t);
