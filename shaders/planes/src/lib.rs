@@ -31,6 +31,7 @@ mod view_row;
 pub use fan::Fan;
 pub use fans::Fans;
 pub use march::RowCast;
+pub use need::samples_per_voxel;
 pub use raster::RasterWarp;
 pub use row::{Planes, Scratch};
 pub use slab::Slab;

@@ -5,7 +5,7 @@ use crate::fill::Grid;
 use crate::fine::FineTable;
 use crate::leaves::{Leaf, leaves, volume_from_display};
 use crate::march::{March, Room, RowCast};
-use crate::need::halvings;
+use crate::need::{SPACING_ERROR, halvings};
 use crate::rough::{Roughness, Variation};
 use crate::slab::Keeps;
 use crate::steep::Steep;
@@ -19,9 +19,7 @@ use twin::composite::Over;
 use twin::kernel::{Blended, Full, Kernel, Lean};
 use twin::shade::Plain;
 
-/// Largest errors of a cell's light, in tolerances: of what distances between samples make, and of means. They are found for the
-/// worst of a block, and lie far above those of pictures; chosen from studies of both.
-const SPACING_ERROR: f32 = 250.0;
+/// As [`SPACING_ERROR`], of what means make.
 const MEAN_ERROR: f32 = 300.0;
 /// The same of the order of what a cell shows.
 const ORDER_ERROR: f32 = 10.0;

@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use std::time::Instant;
 use twin::{Cast, FeedbackCell, cast_pixels};
 
-/// Pixels along the edge of what a thread casts at once, as the renderer's tiles are.
+/// Pixels along the edge of what a thread casts at once, and of the blocks in it that go one after another, as in the renderer's tiles.
 const TILE: u32 = 8;
+const BLOCK: [u32; 2] = [4, 2];
 
 pub fn run(scenes: &[Scene]) -> Result<(), String> {
     let mut results = Results::new(Program::Bench("planes"), "planes", "packets");
@@ -63,7 +64,9 @@ fn tiles([width, height]: [u32; 2]) -> Vec<Vec<(u32, u32)>> {
         .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (x, y)));
     let tile = |(x0, y0): (u32, u32)| {
         let row = |y| (x0..(x0 + TILE).min(width)).map(move |x| (x, y));
-        (y0..(y0 + TILE).min(height)).flat_map(row).collect()
+        let mut pixels: Vec<(u32, u32)> = (y0..(y0 + TILE).min(height)).flat_map(row).collect();
+        pixels.sort_by_key(|(x, y)| (y / BLOCK[1], x / BLOCK[0]));
+        pixels
     };
     corners.map(tile).collect()
 }

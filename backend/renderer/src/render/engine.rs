@@ -1,6 +1,7 @@
 //! What frames are drawn with: the device, the working set, and what stands between them.
 
 use super::RenderError;
+use super::closeness::Closeness;
 use super::easing::Easing;
 use super::known::Known;
 use super::live_memory::Live;
@@ -27,6 +28,7 @@ pub(super) struct Engine {
     pub(super) stock: Stock,
     pub(super) shelf: Shelf,
     pub(super) tables: TableCache,
+    pub(super) closeness: Closeness,
     pub(super) live: Live,
     pub(super) easing: Easing,
     pub(super) known: Known,
@@ -62,6 +64,7 @@ impl Engine {
             device,
             stock: Stock::new(source, loader),
             tables: TableCache::default(),
+            closeness: Closeness::default(),
             live: Live::default(),
             easing: Easing::default(),
             known: Known::default(),

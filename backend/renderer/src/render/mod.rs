@@ -9,6 +9,7 @@ mod account;
 mod ancestors;
 mod brick_ranges;
 mod caster;
+mod closeness;
 mod complete;
 mod course;
 mod damage;

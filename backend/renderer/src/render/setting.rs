@@ -46,7 +46,9 @@ impl Setting {
         let all = rays_of(display, frame)?;
         let dims = shape.dims().as_dvec3();
         let asked = engine.options.caster;
-        let caster = CasterOfFrame::choose(asked, &engine.device, &needs, (&projectors, &all), frame, dims)?;
+        let closeness = || engine.closeness.of(&*engine.stock.source, display, frame);
+        let views = (&projectors[..], &all[..]);
+        let caster = CasterOfFrame::choose(asked, &engine.device, &needs, views, frame, dims, closeness)?;
         let own_rays: Vec<_> = projectors.iter().map(|&projector| all[projector as usize]).collect();
         let rays = match &caster.fans {
             Some(fans) => fans.rays().collect(),
