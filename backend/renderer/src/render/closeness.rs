@@ -4,16 +4,16 @@ use bricks::{BRICK_EDGE, Brick, BrickSource, NodeKey, OctreeShape, is_shown};
 use display_config::Display;
 use optics::Optics;
 use protocol::FrameState;
-use std::collections::HashSet;
+use std::collections::HashMap;
 
-/// Bricks that are looked at, at most.
+/// Ways down to bricks that are looked at.
 const BRICKS: u64 = 64;
 /// Every so many lines of samples of a brick, along each axis.
 const LINES: usize = 4;
 /// The odd number next to 2⁶⁴ over the golden ratio: its multiples spread evenly.
 const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Samples on a row's plane per voxel that shows, as of the latest optics.
+/// Samples that row planes take per voxel of the volume, as of the latest optics.
 #[derive(Debug, Default)]
 pub(super) struct Closeness {
     latest: Option<(Seen, f64)>,
@@ -49,7 +49,7 @@ impl Seen {
 }
 
 impl Closeness {
-    /// For a frame: at least 1. It depends on the volume and the frame alone, so that all back-ends find the same; a brick that
+    /// For a frame. It depends on the volume and the frame alone, so that all back-ends find the same; a brick that
     /// cannot be read counts for nothing.
     pub(super) fn of(&mut self, source: &dyn BrickSource, display: &Display, frame: &FrameState) -> f64 {
         let seen = Seen::of(&source.shape(), display, frame);
@@ -65,38 +65,56 @@ impl Closeness {
 }
 
 fn estimate(source: &dyn BrickSource, seen: &Seen) -> f64 {
-    let nodes: HashSet<NodeKey> = (0..BRICKS).filter_map(|number| wander(source, seen, number)).collect();
-    let (mut samples, mut voxels) = (0, 0);
-    for node in nodes {
-        let Ok(brick) = source.brick(node) else { continue };
-        let found = samples_and_voxels(&brick, source.shape().level(node.depth), seen);
-        (samples, voxels) = (samples + found.0, voxels + found.1);
+    let mut known: HashMap<NodeKey, f64> = HashMap::new();
+    let mut sum = 0.0;
+    for number in 0..BRICKS {
+        let Some((node, share)) = wander(source, seen, number) else { continue };
+        let level = source.shape().level(node.depth);
+        let look = || source.brick(node).map_or(0.0, |brick| samples_per_voxel(&brick, level, seen));
+        sum += share * *known.entry(node).or_insert_with(look);
     }
-    samples.max(1) as f64 / voxels.max(1) as f64
+    sum / BRICKS as f64
 }
 
-/// A node that shows something and is as fine as is asked for, another one for most numbers. None where the way down ends before.
-fn wander(source: &dyn BrickSource, seen: &Seen, number: u64) -> Option<NodeKey> {
+/// A node that shows something and is as fine as is asked for, another one for most numbers; and the share of the volume that may
+/// show something, as the way there tells. Nodes are met as often as they are large: so what is found there, times the share, is
+/// what is found in all of the volume, on average. None where nothing shows on the way.
+fn wander(source: &dyn BrickSource, seen: &Seen, number: u64) -> Option<(NodeKey, f64)> {
     let shape = source.shape();
-    let mut node = NodeKey::ROOT;
+    let size = |node: NodeKey| {
+        let (low, high) = shape.region(node);
+        (high - low).element_product()
+    };
+    let (mut node, mut share) = (NodeKey::ROOT, 1.0);
     let mut choice = (number + 1).wrapping_mul(SPREAD);
     while node.depth < seen.depth {
-        let children = (0..8).map(|octant| node.child(octant)).filter(|&child| shape.contains(child));
-        let shown: Vec<NodeKey> =
-            children.filter(|&child| is_shown(&seen.optics, source.summary(child))).collect();
-        node = *shown.get((choice >> 32) as usize % shown.len().max(1))?;
-        choice = choice.wrapping_mul(SPREAD) ^ choice >> 29;
+        let (mut all, mut shown) = (0.0, Vec::new());
+        for child in (0..8).map(|octant| node.child(octant)).filter(|&child| shape.contains(child)) {
+            all += size(child);
+            if is_shown(&seen.optics, source.summary(child)) {
+                shown.push(child);
+            }
+        }
+        let visible: f64 = shown.iter().copied().map(size).sum();
+        share *= visible / all;
+        let mut left = visible * (choice >> 32) as f64 / f64::from(u32::MAX);
+        let is_met = |&child: &NodeKey| {
+            left -= size(child);
+            left <= 0.0
+        };
+        node = shown.iter().copied().find(is_met).or(shown.last().copied())?;
+        choice = choice.wrapping_mul(SPREAD) ^ (choice >> 29);
     }
-    Some(node)
+    Some((node, share))
 }
 
-/// Samples that planes would take of the voxels between neighbours of which one shows, and how many of these there are. What
-/// the middle of two voxels shows is off from the mean of both by as much as planes with samples a voxel apart err.
-fn samples_and_voxels(brick: &Brick, level: u8, seen: &Seen) -> (u64, u64) {
+/// Samples that planes would take of a voxel of a brick, on average: none where neither of two neighbours shows. What the middle
+/// of two voxels shows is off from the mean of both by as much as planes with samples a voxel apart err.
+fn samples_per_voxel(brick: &Brick, level: u8, seen: &Seen) -> f64 {
     let (optics, voxel_m) = (&seen.optics, seen.voxel_m());
     let per_voxel = optics.extinction_per_metre(voxel_m) * voxel_m * f64::from(1u32 << level);
     let depth = |scalar: f64| optics.extinction.at(scalar) * per_voxel;
-    let (mut samples, mut voxels) = (0, 0);
+    let (mut samples, mut voxels) = (0, 0u32);
     for axis in 0..3 {
         let mut step = [0; 3];
         step[axis] = 1;
@@ -114,13 +132,13 @@ fn samples_and_voxels(brick: &Brick, level: u8, seen: &Seen) -> (u64, u64) {
                         let middle = depth(0.5 * (before.0 + here.0));
                         let error = (middle - 0.5 * (before.1 + here.1)).abs();
                         samples += planes::samples_per_voxel(error as f32, seen.tolerance as f32);
-                        voxels += 1;
                     }
+                    voxels += 1;
                 }
             }
         }
     }
-    (samples, voxels)
+    samples as f64 / f64::from(voxels)
 }
 
 #[cfg(test)]
@@ -128,17 +146,15 @@ mod tests {
     use super::super::test_scene::{display, frame};
     use super::*;
     use bricks::procedural::ProceduralVolume;
-    use glam::{DAffine3, DVec3, UVec3};
+    use glam::{DAffine3, UVec3};
     use optics::Curve;
 
-    /// The estimate of shells with some extinction, at a size and turned by an angle.
-    fn closeness(extinction: Vec<(f64, f64)>, size: f64, angle: f64) -> f64 {
+    /// The estimate of shells with some extinction, turned by an angle.
+    fn closeness(extinction: Vec<(f64, f64)>, angle: f64) -> f64 {
         let source = ProceduralVolume::new("shells", UVec3::splat(100), 1e-3).unwrap();
         let mut frame = frame(0.4);
         frame.optics.extinction = Curve::new(extinction).unwrap();
-        frame.display_from_volume = DAffine3::from_rotation_y(angle)
-            * DAffine3::from_scale(DVec3::splat(size))
-            * frame.display_from_volume;
+        frame.display_from_volume = DAffine3::from_rotation_y(angle) * frame.display_from_volume;
         Closeness::default().of(&source, &display(), &frame)
     }
 
@@ -151,21 +167,30 @@ mod tests {
 
     #[test]
     fn thin_fog_needs_a_sample_a_voxel_and_steep_surfaces_need_more() {
-        assert_eq!(closeness(rising(0.01), 1.0, 0.0), 1.0);
-        let (soft, steep) = (closeness(rising(0.5), 1.0, 0.0), closeness(rising(50.0), 1.0, 0.0));
-        assert!(1.0 < soft && soft < 2.0 && steep > 2.0 * soft, "{soft} {steep}");
-        assert_eq!(closeness(vec![(0.0, 0.0)], 1.0, 0.0), 1.0, "nothing shows");
+        let [thin, soft, steep] = [0.01, 0.1, 50.0].map(|depth| closeness(rising(depth), 0.0));
+        assert!(0.0 < thin && thin < 1.0, "{thin}: what shows of it has a sample a voxel");
+        assert!(thin <= soft && soft < 2.0 * thin && 10.0 * soft < steep, "{thin} {soft} {steep}");
+        assert_eq!(closeness(vec![(0.0, 0.0)], 0.0), 0.0, "nothing shows");
     }
 
     #[test]
     fn it_does_not_depend_on_how_the_volume_is_turned() {
         for angle in [0.1, 1.0, 2.5] {
-            assert_eq!(closeness(rising(5.0), 1.0, angle), closeness(rising(5.0), 1.0, 0.0));
+            assert_eq!(closeness(rising(5.0), angle), closeness(rising(5.0), 0.0));
         }
-        assert_ne!(
-            closeness(rising(5.0), 0.2, 0.0),
-            closeness(rising(5.0), 1.0, 0.0),
-            "smaller ones have thinner voxels"
-        );
+    }
+
+    #[test]
+    fn ways_down_meet_what_shows_as_often_as_it_is_large() {
+        // Its last bricks along x are a ninth as wide as others.
+        let source = ProceduralVolume::new("shells", UVec3::new(115, 56, 56), 1e-3).unwrap();
+        let mut frame = frame(0.0);
+        frame.optics.extinction = Curve::constant(1.0);
+        let seen = Seen::of(&source.shape(), &display(), &frame);
+        let ways: Vec<(NodeKey, f64)> =
+            (0..1000).filter_map(|number| wander(&source, &seen, number)).collect();
+        assert!(ways.len() == 1000 && ways.iter().all(|&(_, share)| share == 1.0));
+        let narrow = ways.iter().filter(|(node, _)| node.cell.x == 4).count();
+        assert!((10..50).contains(&narrow), "{narrow} for 26");
     }
 }
