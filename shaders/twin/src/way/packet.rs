@@ -97,6 +97,7 @@ fn pass_leaf<S: Simd, K: Kernel<Shade: Local>>(
             bricks[lane] = Some(brick);
         }
     }
+    #[expect(clippy::manual_map, reason = "a closure that is not inlined loses the wider instructions")]
     let ways = eight!(L => match &bricks[L] {
         Some(brick) => Some(Straight { brick, ray: walks[L].ray }),
         None => None,

@@ -291,8 +291,8 @@ impl<'a, S: Simd> Paths<'a, S> {
                 let lane = first_of(&mut rays);
                 if let Some(way) = &self.ways[lane] {
                     let gradient = way.gradients_at::<K>(casting, t[lane]).at;
-                    for axis in 0..3 {
-                        gradients[axis][lane] = gradient.0[axis];
+                    for (list, along) in gradients.iter_mut().zip(gradient.0) {
+                        list[lane] = along;
                     }
                 }
             }
