@@ -1,10 +1,11 @@
 //! Row planes against single rays: seconds next to the error at which they were measured.
 //!
-//! `cargo bench -p lightloom-tests --bench planes`; LIGHTLOOM_BENCH_PARTS="cpu,packets,front,scaling" takes some of its parts,
-//! LIGHTLOOM_BENCH_SCENES="name;name" some scenes of the first three, LIGHTLOOM_BENCH_RAY_VIEWS=n casts n views ray by ray in the first
+//! `cargo bench -p lightloom-tests --bench planes`; LIGHTLOOM_BENCH_PARTS="cpu,packets,looks,front,scaling" takes some of its parts,
+//! LIGHTLOOM_BENCH_SCENES="name;name" some scenes of those with a table of them, LIGHTLOOM_BENCH_RAY_VIEWS=n casts n views ray by ray in the first
 //! (0: none), and LIGHTLOOM_BENCH_REPEATS=n draws each n times.
 
 mod front;
+mod looks;
 mod measure;
 mod packets;
 mod scaling;
@@ -24,6 +25,9 @@ fn main() -> Result<(), String> {
     }
     if is_wanted("packets") {
         packets::run(&scenes)?;
+    }
+    if is_wanted("looks") {
+        looks::run()?;
     }
     if is_wanted("front") {
         front::run(&scenes)?;
