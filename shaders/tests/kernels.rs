@@ -2,11 +2,14 @@
 
 use layout::present::{Layer, MarkedPixel};
 use layout::{
-    FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, PaintBlock, PresentBlock, SceneBlock,
-    TableCell, TableEntry, ViewBlock, binding,
+    FanBlock, FeedbackEntry, ImportanceEntry, IndexEntry, Link, NodeRecord, PaintBlock, PlaneBand,
+    PlaneLayer, PlaneVariation, PresentBlock, SceneBlock, TableCell, TableEntry, ViewBlock, binding,
 };
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use shaders::compose::{KernelKey, PAINT_CORNER, PAINT_PIXEL, PresentKernel, paint_wgsl, tally_wgsl};
+use needs::Needs;
+use shaders::compose::{
+    KernelKey, KernelRays, PAINT_CORNER, PAINT_PIXEL, PlaneStep, PresentKernel, paint_wgsl, tally_wgsl,
+};
 use std::mem::{offset_of, size_of};
 
 fn parse(wgsl: &str) -> naga::Module {
@@ -144,6 +147,50 @@ fn host_structs_and_wgsl_structs_agree() {
     assert_layout!(&module, IndexEntry, value, slope, jumps);
     assert_layout!(&module, FeedbackEntry, deficit_code, rays);
     assert_layout!(&module, Link, a, b, c, d);
+    let step = KernelRays::OfPlanes(PlaneStep::Errors);
+    let module = parse(&KernelKey { rays: step, needs: Needs::PLAIN, ..key }.wgsl());
+    assert_layout!(
+        &module,
+        FanBlock,
+        raster,
+        way,
+        most_spacing_error,
+        most_mean_error,
+        views,
+        blocks,
+        sweeps,
+        step,
+        first_row,
+        rows,
+        bands
+    );
+    assert_layout!(
+        &module,
+        PlaneBand,
+        at,
+        first_layer,
+        layers,
+        first_column,
+        columns,
+        first_block,
+        blocks,
+        padding
+    );
+    assert_layout!(
+        &module,
+        PlaneLayer,
+        z,
+        slab_z,
+        phases,
+        first,
+        width,
+        at,
+        block_at,
+        has_cell,
+        has_cell_before,
+        padding
+    );
+    assert_layout!(&module, PlaneVariation, most, padding, each, value);
     let module = parse(&PresentKernel::Finish.wgsl());
     assert_layout!(&module, PresentBlock, raster, steps, numbers, stages, black);
     let module = parse(&PresentKernel::Layers.wgsl());

@@ -11,7 +11,7 @@ use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scanned_head::{self, DIMS};
 use lightloom_tests::{compare, draw, scenes};
 use optics::{Light, Quality};
-use protocol::{DeviceChoice, FrameState, Pace};
+use protocol::{CasterChoice, DeviceChoice, FrameState, Pace};
 use std::sync::Arc;
 
 /// Views whose pictures are compared with the reference.
@@ -35,11 +35,15 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
     let one_voxel =
         Quality { step_voxels: 1.0, tolerance: f64::INFINITY, lod_scale: 0.0, ..Quality::default() };
     let loose = Quality { tolerance: 3e-3, ..Quality::default() };
-    let settings = [
-        ("default", Quality::default()),
-        ("a tolerance of 3e-3", loose),
-        ("one-voxel steps, finest level", one_voxel),
+    let mut settings = vec![
+        ("default", Quality::default(), CasterChoice::Rays),
+        ("a tolerance of 3e-3", loose, CasterChoice::Rays),
+        ("one-voxel steps, finest level", one_voxel, CasterChoice::Rays),
     ];
+    if device != DeviceChoice::Cpu {
+        // Those of the CPU are measured by the bench `planes`.
+        settings.insert(1, ("default, by row planes", Quality::default(), CasterChoice::Planes));
+    }
     results.line(format!("{} of 72 views\n", projectors.len()));
     results.line(
         "| scene | setting | seconds | Msamples/s | Gsamples | RMS, 99.9 %, largest error of 255 | peak MiB |",
@@ -49,10 +53,10 @@ fn measure_device(plan: &Plan, device: DeviceChoice, part: &'static str) -> Resu
         ("semi-transparent", scanned_head::semi_transparent(), None),
         ("opaque, shaded", scanned_head::opaque(), Some(Light::default())),
     ] {
-        for (setting, quality) in settings {
+        for &(setting, quality, caster) in &settings {
             let mut frame = scenes::frame(display, place, optics.clone(), light);
             frame.quality = quality;
-            let with = draw::With { cache_bytes: 512 << 20, ..draw::With::device(device) };
+            let with = draw::With { cache_bytes: 512 << 20, caster, ..draw::With::device(device) };
             let (mut renderer, info) = draw::renderer(display, source, projectors, with);
             results.drawn_by(&info.adapter);
             if device != DeviceChoice::Cpu {

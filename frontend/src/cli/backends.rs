@@ -84,11 +84,12 @@ impl From<FilterArg> for FilterChoice {
 /// See [`CasterChoice`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CasterArg {
-    /// Planes where they can draw the scene, many projectors share them and the tolerance is not below 3e-5; rays elsewhere.
+    /// Planes on the CPU where they can draw the scene, many projectors share them and the tolerance is not below 3e-5; rays
+    /// elsewhere.
     Auto,
     /// Each ray alone.
     Rays,
-    /// Each screen row sampled once for all views: several times faster, and less exact. On the CPU alone.
+    /// Each screen row sampled once for all views: several times faster, and less exact.
     Planes,
 }
 

@@ -80,6 +80,24 @@ bindings! {
     TALLIES = 32;
     /// The [`PaintBlock`](crate::PaintBlock).
     PAINT = 33;
+    /// The [`FanBlock`](crate::FanBlock), then A of each view.
+    FAN = 34;
+    /// The [`PlaneBand`](crate::PlaneBand)s.
+    BANDS = 35;
+    /// Their [`PlaneLayer`](crate::PlaneLayer)s.
+    PLANE_LAYERS = 36;
+    /// What is sampled of each column of a row plane.
+    SAMPLES = 37;
+    /// Means of what lies behind each.
+    MEANS = 38;
+    /// What those of each block of pixels err.
+    ERRORS = 39;
+    /// Of each row of each view, how often each block of pixels was swept and saw farther.
+    OPEN = 40;
+    /// A [`PlaneFound`](crate::PlaneFound) for each row of tiles.
+    FOUND = 41;
+    /// The [`PlaneVariation`](crate::PlaneVariation)s.
+    VARIATION = 42;
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The geometry that the rows of some views share.
 
 use crate::raster::{Footprint, RasterWarp};
+use layout::FanBlock;
 use twin::ProjectorRays;
 
 /// Views whose rows lie in the same planes and differ by a shift alone.
@@ -94,6 +95,21 @@ impl Fan {
                 None => [0, 0],
             },
         }
+    }
+
+    /// What kernels are told of the grid.
+    pub(crate) fn block(&self) -> FanBlock {
+        FanBlock {
+            raster: [self.x[0], self.x[1], self.y[0], self.y[1]].map(|c| c as f32),
+            way: [self.slope, self.observer[0], self.observer[1]].map(|c| c as f32),
+            views: self.offsets.len() as u32,
+            ..FanBlock::default()
+        }
+    }
+
+    /// A of each view.
+    pub fn offsets(&self) -> impl Iterator<Item = f32> + '_ {
+        self.offsets.iter().map(|&offset| offset as f32)
     }
 
     /// Whether the grid goes as far from the viewers as z.

@@ -53,21 +53,6 @@ impl Grid<'_> {
         view.find_ends(self.fan, (index, self.row), self.volume_from_display, dims);
     }
 
-    /// Columns of pixels, the first and the last, that some view meets in leaves between two depths, or more.
-    pub(crate) fn extent(&self, leaves: &[Leaf], ends: [&AtDepth; 2]) -> [i64; 2] {
-        let mut seen = [f64::MAX, f64::MIN];
-        let mut held = [f64::MAX, f64::MIN];
-        for depth in ends {
-            let (low, high) = self.fan.seen(depth);
-            seen = [seen[0].min(low), seen[1].max(high)];
-            for x in leaves.iter().flat_map(|leaf| leaf.x) {
-                let column = self.fan.column_of(x, depth);
-                held = [held[0].min(column), held[1].max(column)];
-            }
-        }
-        [seen[0].max(held[0]).floor() as i64 - 2, seen[1].min(held[1]).ceil() as i64 + 2]
-    }
-
     /// The columns of each leaf at each depth of a slab.
     pub(crate) fn spans(&self, slab: &Slab, leaves: &[Leaf], spans: &mut Vec<Span>) {
         spans.clear();

@@ -1,9 +1,10 @@
 //! The leaves of the cut, as rows of the screen meet them.
 
 use crate::Fan;
+use crate::fan::AtDepth;
 use glam::{DAffine3, DMat3, DVec3};
-use layout::{NO_NODE, NO_SLOT};
-use twin::Casting;
+use layout::{NO_NODE, NO_SLOT, NodeRecord};
+use twin::SceneNumbers;
 use twin::traverse::OWN_EDGE;
 
 /// A leaf with a brick.
@@ -47,20 +48,20 @@ impl Leaf {
 }
 
 /// The affine map of a scene from the display to the volume.
-pub(crate) fn volume_from_display(casting: &Casting<f32>) -> DAffine3 {
-    let [x, y, z, w] = casting.scene.volume_from_display.map(|c| DVec3::from_array(c.0.map(f64::from)));
+pub(crate) fn volume_from_display(scene: &SceneNumbers<f32>) -> DAffine3 {
+    let [x, y, z, w] = scene.volume_from_display.map(|c| DVec3::from_array(c.0.map(f64::from)));
     DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: w }
 }
 
 /// All leaves that some row meets.
-pub(crate) fn leaves(casting: &Casting<f32>, fan: &Fan) -> Vec<Leaf> {
-    let display_from_volume = volume_from_display(casting).inverse();
-    let dims = DVec3::from_array(casting.scene.dims.0.map(f64::from));
-    let finest = casting.scene.finest_depth;
+pub(crate) fn leaves(scene: &SceneNumbers<f32>, nodes: &[NodeRecord], fan: &Fan) -> Vec<Leaf> {
+    let display_from_volume = volume_from_display(scene).inverse();
+    let dims = DVec3::from_array(scene.dims.0.map(f64::from));
+    let finest = scene.finest_depth;
     let [_, rows] = fan.raster;
     let (farthest, nearest) = fan.depths();
-    let nodes = casting.volume.nodes.iter().enumerate();
-    let leaf = |(index, node): (usize, &layout::NodeRecord)| {
+    let nodes = nodes.iter().enumerate();
+    let leaf = |(index, node): (usize, &NodeRecord)| {
         if node.first_child != NO_NODE || node.slot == NO_SLOT {
             return None;
         }
@@ -101,4 +102,19 @@ pub(crate) fn leaves(casting: &Casting<f32>, fan: &Fan) -> Vec<Leaf> {
         })
     };
     nodes.filter_map(leaf).collect()
+}
+
+/// Columns of pixels, the first and the last, that some view meets in leaves between two depths, or more.
+pub(crate) fn extent(fan: &Fan, leaves: &[Leaf], ends: [&AtDepth; 2]) -> [i64; 2] {
+    let mut seen = [f64::MAX, f64::MIN];
+    let mut held = [f64::MAX, f64::MIN];
+    for depth in ends {
+        let (low, high) = fan.seen(depth);
+        seen = [seen[0].min(low), seen[1].max(high)];
+        for x in leaves.iter().flat_map(|leaf| leaf.x) {
+            let column = fan.column_of(x, depth);
+            held = [held[0].min(column), held[1].max(column)];
+        }
+    }
+    [seen[0].max(held[0]).floor() as i64 - 2, seen[1].min(held[1]).ceil() as i64 + 2]
 }

@@ -4,8 +4,9 @@ use crate::blocks::Blocks;
 use crate::classify::Classing;
 use crate::fill::{Grid, Span};
 use crate::gradients::gradients_every;
-use crate::leaves::Leaf;
+use crate::leaves::{Leaf, extent};
 use crate::need::{Judge, SPACINGS};
+use crate::parts::{Part, parts, phases_of};
 use crate::rough::Variation;
 use crate::slab::{Keeps, Slab};
 use crate::steep::Steep;
@@ -14,17 +15,8 @@ use crate::view_row::ViewRow;
 use lanes::Simd;
 use twin::kernel::Kernel;
 
-/// Cells of a slab at the widest spacing: what of it needs a closer one is found out for all of its depth.
-const CELLS: usize = 4;
 /// Cells of a slab at closer spacings: what is sampled of them fits a core's own cache beside the views' rows.
 const FINE_CELLS: usize = 16;
-
-/// The widest distance between samples, in voxels of the finest leaf around: from one depth to the next, and from one column to
-/// the next, at most.
-const WIDEST: [f64; 2] = [1.0, 1.0];
-
-/// Columns per pixel, at most: more are worth no memory.
-const MOST_PHASES: f64 = 256.0;
 
 /// What one thread keeps from slab to slab.
 #[derive(Debug, Default)]
@@ -69,14 +61,6 @@ pub(crate) struct March<'a> {
     pub(crate) tolerances: [f32; 2],
 }
 
-/// A part of a row's plane, from z to z, of voxels of some edge.
-#[derive(Clone, Copy)]
-struct Part {
-    z: [f64; 2],
-    edge: f64,
-    cells: usize,
-}
-
 impl March<'_> {
     /// Adds all that the leaves show to the views.
     #[inline(always)]
@@ -89,19 +73,10 @@ impl March<'_> {
     ) -> RowCast {
         let mut cast = RowCast::default();
         let mut has_ends = false;
-        let bottom = leaves.iter().fold(f64::MAX, |z, leaf| z.min(leaf.z[1]));
-        let mut z = leaves.iter().fold(f64::MIN, |z, leaf| z.max(leaf.z[0]));
-        while z > bottom {
-            let Some((edge, to)) = next_slab(leaves, z, CELLS as f64 * WIDEST[0] / self.speed) else {
-                z = leaves.iter().filter(|leaf| leaf.z[0] < z).fold(f64::MIN, |z, leaf| z.max(leaf.z[0]));
-                continue;
-            };
-            let to = to.max(bottom);
-            let cells = ((z - to) * self.speed / (edge * WIDEST[0])).ceil().max(1.0) as usize;
-            let part = Part { z: [z, to], edge, cells };
+        for part in parts(leaves, self.speed) {
+            let [z, to] = part.z;
             room.near.clear();
             room.near.extend(leaves.iter().filter(|leaf| leaf.z[0] > to && leaf.z[1] < z));
-            z = to;
             self.add_part::<S, K>(simd, part, views, room, &mut has_ends, &mut cast);
         }
         cast
@@ -120,7 +95,7 @@ impl March<'_> {
         let is_outer = room.near.iter().any(|leaf| leaf.is_outer);
         let slab = &mut room.wide;
         self.lay_out(slab, part, 0, is_outer);
-        let columns = self.grid.extent(&room.near, slab.ends());
+        let columns = extent(self.grid.fan, &room.near, slab.ends());
         if columns[0] >= columns[1] {
             return;
         }
@@ -263,10 +238,12 @@ impl March<'_> {
         slab.depths.extend((0..=cells).map(|k| at(k as f64)));
         slab.middles.clear();
         slab.middles.extend((0..cells).map(|k| at(k as f64 + 0.5)));
-        let across = fan.pitch(&slab.depths[0]).max(fan.pitch(&slab.depths[cells]));
-        let voxels = across * self.grid.volume_from_display.matrix3.x_axis.length() / edge;
-        let closer = f64::from(1 << spacing);
-        let phases = (voxels * closer / WIDEST[1]).ceil().clamp(1.0, MOST_PHASES) as usize;
+        let per_metre = self.grid.volume_from_display.matrix3.x_axis.length();
+        let phases = phases_of(
+            [&slab.depths[0], &slab.depths[cells]].map(|at| fan.pitch(at) * per_metre),
+            edge,
+            spacing,
+        );
         slab.phases = phases.next_multiple_of(gradients_every(spacing, self.keeps.halvings));
         slab.is_outer = is_outer;
     }
@@ -304,19 +281,4 @@ fn pixels_of(
         pixels.subtract_moved(closer, [-most, -least]);
     }
     !pixels.is_empty()
-}
-
-/// The voxel's edge by which the slab from z on is spaced, the coarsest that no leaf in it is finer than; and where it ends,
-/// that many times `depth` away. None where no leaf is.
-fn next_slab(leaves: &[Leaf], z: f64, depth: f64) -> Option<(f64, f64)> {
-    let mut edges: Vec<f64> = leaves.iter().map(|leaf| leaf.edge).collect();
-    edges.sort_by(|a, b| b.total_cmp(a));
-    edges.dedup();
-    let meets = |to: f64| leaves.iter().filter(move |leaf| leaf.z[0] > to && leaf.z[1] < z);
-    let end = |edge: f64| z - edge * depth;
-    meets(end(*edges.last()?)).next()?;
-    edges
-        .into_iter()
-        .map(|edge| (edge, end(edge)))
-        .find(|&(edge, to)| meets(to).all(|leaf| leaf.edge >= edge))
 }

@@ -1,5 +1,6 @@
 //! How far a transfer function is from linear between two scalars.
 
+use layout::PlaneVariation;
 use needs::tables::{TABLE_CELLS, Tables};
 use twin::tables::locate;
 
@@ -78,6 +79,17 @@ impl Variation {
         }
         let value = |cell: usize| locate(tables, cell as f32 / TABLE_CELLS as f32).value();
         Self { most, each, values: (0..=TABLE_CELLS).map(value).collect(), importance }
+    }
+
+    /// The borders of the tables' cells, as kernels read them.
+    pub(crate) fn entries(&self) -> Vec<PlaneVariation> {
+        let entry = |cell: usize| PlaneVariation {
+            most: self.most[cell],
+            padding: [0.0; 3],
+            each: self.each[cell],
+            value: self.values[cell],
+        };
+        (0..=TABLE_CELLS).map(entry).collect()
     }
 
     /// The cells' borders around scalars from `low` to `high`, and `around` them.

@@ -20,7 +20,7 @@ use twin::kernel::{Blended, Full, Kernel, Lean};
 use twin::shade::Plain;
 
 /// As [`SPACING_ERROR`], of what means make.
-const MEAN_ERROR: f32 = 300.0;
+pub(crate) const MEAN_ERROR: f32 = 300.0;
 /// The same of the order of what a cell shows.
 const ORDER_ERROR: f32 = 10.0;
 
@@ -52,8 +52,8 @@ impl<'a> Planes<'a> {
             casting,
             fan,
             enhancers,
-            volume_from_display: volume_from_display(casting),
-            leaves: leaves(casting, fan),
+            volume_from_display: volume_from_display(casting.scene),
+            leaves: leaves(casting.scene, casting.volume.nodes, fan),
             roughness: Roughness::of(casting.tables),
             fine: FineTable::of(casting.tables),
             variation: Variation::of(casting.tables),

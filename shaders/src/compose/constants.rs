@@ -5,8 +5,8 @@ use layout::present::{
     MOST_PAIRS, NOWHERE,
 };
 use layout::{
-    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, SHORT_RAYS, TALLIED_TILES,
-    TILE_EDGE, binding, brick,
+    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, PLANE_COLUMNS, SHORT_RAYS,
+    TALLIED_TILES, TILE_EDGE, binding, brick,
 };
 use optics::MOST_ENHANCERS;
 
@@ -37,6 +37,7 @@ pub(super) fn wgsl() -> String {
         ("MISSING", MISSING),
         ("TILE_EDGE", TILE_EDGE),
         ("SHORT_RAYS", SHORT_RAYS),
+        ("PLANE_COLUMNS", PLANE_COLUMNS),
         ("TALLIED_TILES", TALLIED_TILES),
         ("CODED_PIXELS", CODED_PIXELS),
         ("DITHER_BITS", DITHER_BITS),

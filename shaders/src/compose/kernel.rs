@@ -36,6 +36,26 @@ pub enum KernelRays {
     OfTiles,
     /// A list of rays that end early.
     Short,
+    /// Those of the pixels of tiles, by row planes: one of their steps.
+    OfPlanes(PlaneStep),
+}
+
+/// The steps of casting row planes, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PlaneStep {
+    /// Samples the grid.
+    Fill,
+    /// Finds means of what lies between samples.
+    Means,
+    /// Finds what these err.
+    Errors,
+    /// Takes all views through.
+    Sweep,
+}
+
+impl PlaneStep {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Fill, Self::Means, Self::Errors, Self::Sweep];
 }
 
 /// How the place of a scalar in the tables is found.
@@ -116,6 +136,21 @@ fn shade_wgsl(needs: &Needs) -> Vec<&'static str> {
     vec![material, law, shade]
 }
 
+/// What a step of row planes has besides the modules of rays.
+fn planes_wgsl(step: PlaneStep, needs: &Needs) -> Vec<&'static str> {
+    let spread =
+        if needs.spreads { "const SPREAD_WORDS: u32 = 1u;\n" } else { "const SPREAD_WORDS: u32 = 0u;\n" };
+    let light = if needs.shading == Shading::Plain { module!("planes/unlit") } else { module!("planes/lit") };
+    let mut modules = vec![spread, light, module!("planes/kept"), module!("planes/grid")];
+    modules.extend(match step {
+        PlaneStep::Fill => [module!("planes/place"), module!("planes/fill")],
+        PlaneStep::Means => [module!("planes/place"), module!("planes/means")],
+        PlaneStep::Errors => [module!("planes/place"), module!("planes/errors")],
+        PlaneStep::Sweep => [module!("listed"), module!("planes/sweep")],
+    });
+    modules
+}
+
 fn composite_wgsl(needs: &Needs) -> Vec<&'static str> {
     let mut modules = if needs.reads_importance() {
         vec![module!("importance"), module!("composite/sample")]
@@ -140,6 +175,10 @@ impl KernelKey {
         match self.rays {
             KernelRays::OfTiles => "cast_tile",
             KernelRays::Short => "cast_short",
+            KernelRays::OfPlanes(PlaneStep::Fill) => "fill",
+            KernelRays::OfPlanes(PlaneStep::Means) => "find_means",
+            KernelRays::OfPlanes(PlaneStep::Errors) => "find_errors",
+            KernelRays::OfPlanes(PlaneStep::Sweep) => "sweep",
         }
     }
 
@@ -185,8 +224,9 @@ impl KernelKey {
         ]);
         modules.extend(way);
         modules.extend(match self.rays {
-            KernelRays::OfTiles => &[module!("listed"), module!("cast")][..],
-            KernelRays::Short => &[module!("short")],
+            KernelRays::OfTiles => vec![module!("listed"), module!("cast")],
+            KernelRays::Short => vec![module!("short")],
+            KernelRays::OfPlanes(step) => planes_wgsl(step, needs),
         });
         modules.join("\n")
     }
@@ -278,6 +318,24 @@ impl KernelKey {
         let compositing = Compositing::Mimda(MimdaForm::Consistent);
         let rich = Needs { shading: Shading::Phong, compositing, blends: true, chain, ..Needs::PLAIN };
         keys.extend([plain, Self { needs: rich, ..plain }]);
+        // Steps of row planes look at levels, spreads, gradients and the light.
+        for step in PlaneStep::ALL {
+            for (shading, levels, blends, spreads) in [
+                (Shading::Plain, Levels::Single, false, false),
+                (Shading::Phong, Levels::Single, false, false),
+                (Shading::Phong, Levels::Single, true, true),
+                (Shading::Phong, Levels::Quadrilinear, false, true),
+            ] {
+                let needs = Needs { shading, levels, blends, spreads, ..Needs::PLAIN };
+                let rays = KernelRays::OfPlanes(step);
+                keys.extend([Filter::Gathered, Filter::Hardware].map(|filter| Self {
+                    rays,
+                    filter,
+                    needs,
+                    ..plain
+                }));
+            }
+        }
         keys
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! | slot | modules |
 //! | --- | --- |
-//! | rays | `listed` and `cast`, or `short` |
+//! | rays | `listed` and `cast`, or `short`, or a step of row planes: `planes/fill`, `means`, `errors` or `sweep` |
 //! | filter | `sample/hardware`, or `gathered` or `exact` with `quads` |
 //! | look-up | `place/listed`, `place/halved` |
 //! | levels | `levels/one`, `levels/two`, `levels/three` |
@@ -27,7 +27,7 @@ mod paint;
 mod present;
 mod tally;
 
-pub use kernel::{Filter, KernelKey, KernelRays, Lookup};
+pub use kernel::{Filter, KernelKey, KernelRays, Lookup, PlaneStep};
 pub use paint::{PAINT_CORNER, PAINT_PIXEL, paint_wgsl};
 pub use present::PresentKernel;
 pub use tally::{TALLY_ENTRY_POINT, tally_wgsl};

@@ -68,15 +68,9 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
     return marched;
 }
 
-// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
-fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
-    var front = nothing_accumulated();
-    let span = clip_to_volume(ray);
-    if span.x >= span.y {
-        return vec4<f32>(0.0);
-    }
-    start_chain(ray);
-    follow_chain(ray);
+// Goes on along a part of a ray. `count` is the number of samples so far, with MISSING where a node was too coarse.
+fn follow(ray: Ray, span: vec2<f32>, accumulated: ptr<function, Accumulated>, count: ptr<function, u32>) {
+    var front = *accumulated;
     var t = span.x;
     var at = leaf_at(point_on(ray, t), ray);
     while at != NO_NODE {
@@ -108,5 +102,18 @@ fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
         t = t_out;
         at = leaf_beyond(at, node, exit.axis, point_on(ray, t), ray);
     }
+    *accumulated = front;
+}
+
+// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
+fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
+    let span = clip_to_volume(ray);
+    if span.x >= span.y {
+        return vec4<f32>(0.0);
+    }
+    start_chain(ray);
+    follow_chain(ray);
+    var front = nothing_accumulated();
+    follow(ray, span, &front, count);
     return vec4<f32>(front.rgb, front.alpha);
 }

@@ -23,6 +23,7 @@ mod packets;
 mod paper;
 mod planes;
 mod planes_in_hard_cases;
+mod planes_on_gpu;
 mod planes_shared;
 mod planes_techniques;
 mod random;

@@ -170,7 +170,7 @@ fn auto_casts_planes_where_many_views_share_them() {
     assert_eq!(caster(&wide, DeviceChoice::Cpu, &[0, 5, 70]), "row planes, each for 3 views");
     let few = "rays: the display has fewer than 24 projectors, too few for row planes to save time";
     assert_eq!(caster(&desk, DeviceChoice::Cpu, &[0, 5]), few);
-    let gpu = "rays: a GPU has no kernels for them yet, --device cpu has";
+    let gpu = "rays: on a GPU row planes have not been timed against rays yet";
     assert_eq!(caster(&wide, DeviceChoice::Gpu, &[0]), gpu);
     let exact = "rays: the tolerance is below 3e-5, where row planes err by more than it allows or take longer than rays";
     assert_eq!(caster_at(2e-5, &wide, DeviceChoice::Cpu, &[0]), exact);

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::present::Raster;
 use layout::NodeRecord;
+use needs::Needs;
 use needs::tables::Tables;
 use protocol::CodesAt;
 use std::borrow::Cow;
@@ -38,8 +39,17 @@ impl Device {
         on_device!(self, device => device.slots())
     }
 
-    /// Whether it casts rows of all views at once.
-    pub fn has_planes(&self) -> bool {
+    /// Why it cannot cast row planes for a scene with these needs, on rasters of which some are resampled or none.
+    pub fn refuses_planes(&self, needs: &Needs, are_resampled: bool) -> Option<&'static str> {
+        match self {
+            Self::Cpu(_) => None,
+            #[cfg(feature = "gpu")]
+            Self::Gpu(device) => device.refuses_planes(needs, are_resampled),
+        }
+    }
+
+    /// Whether it is the CPU.
+    pub fn is_cpu(&self) -> bool {
         matches!(self, Self::Cpu(_))
     }
 

@@ -19,6 +19,7 @@ const TOO_FEW_VIEWS: &str = "the display has fewer than 24 projectors, too few f
 /// the library on a CT. Planes draw those with up to 0.7 as soon or sooner, rays those with 1.7 and more.
 const MOST_SAMPLES: f64 = 1.0;
 const BY_PIXEL: &str = "importance, enhancers, materials, detail and debug views go pixel by pixel through row planes, which saves no time";
+const UNTIMED: &str = "on a GPU row planes have not been timed against rays yet";
 const TOO_MANY_FANS: &str =
     "the display's projectors differ: fewer than 24 of them share row planes, too few to save time";
 
@@ -49,6 +50,9 @@ impl CasterOfFrame {
         let spares = asked == CasterChoice::Auto && !frame.welcomes_planes;
         if asked == CasterChoice::Rays {
             return Ok(rays(Caster::Rays));
+        }
+        if asked == CasterChoice::Auto && !device.is_cpu() {
+            return Ok(because(UNTIMED));
         }
         if spares && all.len() < FEWEST_VIEWS {
             return Ok(because(TOO_FEW_VIEWS));
@@ -95,13 +99,13 @@ fn fans_of(
     frame: &FrameState,
     dims: DVec3,
 ) -> Result<Fans, &'static str> {
-    if !device.has_planes() {
-        return Err("a GPU has no kernels for them yet, --device cpu has");
-    }
     if let Some(why) = Planes::refusal(needs) {
         return Err(why);
     }
     let fans = Fans::of(all)?;
+    if let Some(why) = device.refuses_planes(needs, fans.resampled() > 0) {
+        return Err(why);
+    }
     let corner = |i: u32| dims * DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
     let is_near = (0..8).all(|i| fans.reaches(frame.display_from_volume.transform_point3(corner(i)).z));
     if is_near { Ok(fans) } else { Err("the volume reaches to where all beams cross") }

@@ -31,38 +31,32 @@ impl GpuDevice {
         arena: &Arena,
         feedback: &Storage,
     ) -> wgpu::BindGroup {
-        let buffers = [
-            (binding::NODES, &self.nodes),
+        self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &self.entries(key, arena, feedback),
+        })
+    }
+
+    /// What kernels that cast rays read and write.
+    pub(super) fn entries<'a>(
+        &'a self,
+        key: KernelKey,
+        arena: &'a Arena,
+        feedback: &'a Storage,
+    ) -> Vec<wgpu::BindGroupEntry<'a>> {
+        let mut entries = self.entries_of_volume(key, feedback);
+        entries.extend(entries_of([
             (binding::OPTICS, &self.optics),
+            (binding::TABLE_CELLS, &self.table_cells),
             (binding::VIEWS, &arena.views),
             (binding::LISTED, &arena.listed),
             (binding::PIXELS, &arena.pixels),
             (binding::COUNTS, &arena.counts),
-            (binding::FEEDBACK, feedback),
-            (binding::TABLE_CELLS, &self.table_cells),
-            (binding::CELLS, &self.cells),
-        ];
-        let mut entries: Vec<wgpu::BindGroupEntry> = buffers
-            .into_iter()
-            .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
-            .collect();
-        let scene = self.scene.as_entire_binding();
-        entries.push(wgpu::BindGroupEntry { binding: binding::SCENE, resource: scene });
-        let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
-        entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
-        if let Some(deviations) = self.deviations.as_ref().filter(|_| key.needs.spreads) {
-            let resource = wgpu::BindingResource::TextureView(&deviations.view);
-            entries.push(wgpu::BindGroupEntry { binding: binding::DEVIATIONS, resource });
-        }
-        if key.filter != Filter::Exact {
-            let sampler = wgpu::BindingResource::Sampler(&self.sampler);
-            entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });
-        }
+        ]));
         if !key.needs.chain.is_empty() {
-            entries.push(wgpu::BindGroupEntry {
-                binding: binding::LINKS,
-                resource: self.links.as_entire_binding(),
-            });
+            let resource = self.links.as_entire_binding();
+            entries.push(wgpu::BindGroupEntry { binding: binding::LINKS, resource });
         }
         let tables = [
             (binding::IMPORTANCE, &self.importance, key.needs.reads_importance()),
@@ -73,10 +67,53 @@ impl GpuDevice {
         for (binding, storage, _) in tables.into_iter().filter(|&(.., is_read)| is_read) {
             entries.push(wgpu::BindGroupEntry { binding, resource: storage.binding() });
         }
-        self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        })
+        entries
     }
+
+    /// What kernels read that look up the transfer functions alone.
+    pub(super) fn entries_of_tables(&self) -> Vec<wgpu::BindGroupEntry<'_>> {
+        let tables = [(binding::OPTICS, &self.optics), (binding::TABLE_CELLS, &self.table_cells)];
+        self.with_scene(tables)
+    }
+
+    /// What kernels read and write that sample the volume.
+    pub(super) fn entries_of_volume<'a>(
+        &'a self,
+        key: KernelKey,
+        feedback: &'a Storage,
+    ) -> Vec<wgpu::BindGroupEntry<'a>> {
+        let volume =
+            [(binding::NODES, &self.nodes), (binding::CELLS, &self.cells), (binding::FEEDBACK, feedback)];
+        let mut entries = self.with_scene(volume);
+        let atlas = wgpu::BindingResource::TextureView(&self.atlas.view);
+        entries.push(wgpu::BindGroupEntry { binding: binding::ATLAS, resource: atlas });
+        if let Some(deviations) = self.deviations.as_ref().filter(|_| key.needs.spreads) {
+            let resource = wgpu::BindingResource::TextureView(&deviations.view);
+            entries.push(wgpu::BindGroupEntry { binding: binding::DEVIATIONS, resource });
+        }
+        if key.filter != Filter::Exact {
+            let sampler = wgpu::BindingResource::Sampler(&self.sampler);
+            entries.push(wgpu::BindGroupEntry { binding: binding::SAMPLER, resource: sampler });
+        }
+        entries
+    }
+
+    /// Some buffers, and the numbers of the scene.
+    fn with_scene<'a, const N: usize>(
+        &'a self,
+        buffers: [(u32, &'a Storage); N],
+    ) -> Vec<wgpu::BindGroupEntry<'a>> {
+        let resource = self.scene.as_entire_binding();
+        let scene = wgpu::BindGroupEntry { binding: binding::SCENE, resource };
+        std::iter::once(scene).chain(entries_of(buffers)).collect()
+    }
+}
+
+/// A buffer under each number.
+pub(super) fn entries_of<'a>(
+    buffers: impl IntoIterator<Item = (u32, &'a Storage)>,
+) -> impl Iterator<Item = wgpu::BindGroupEntry<'a>> {
+    buffers
+        .into_iter()
+        .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
 }

@@ -7,6 +7,7 @@ use super::context::Context;
 use super::device::GpuDevice;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
+use super::storage::Storage;
 use crate::device::job::{TileGrid, ViewJob};
 use crate::device::{CastJob, CastOutcome, DeviceError, Gather, TileList};
 use layout::{FeedbackEntry, TALLIED_TILES, TileTally, ViewBlock};
@@ -20,16 +21,16 @@ use twin::Tiling;
 
 /// Tiles of some views whose pictures lie in one arena.
 #[derive(Default)]
-struct Listing {
-    views: Vec<ViewBlock>,
+pub(super) struct Listing {
+    pub(super) views: Vec<ViewBlock>,
     /// Runs of them, each of a view.
-    runs: Vec<(u32, Range<u32>)>,
-    tiles: u32,
+    pub(super) runs: Vec<(u32, Range<u32>)>,
+    pub(super) tiles: u32,
 }
 
 impl Listing {
     /// Writes it as [`binding::LISTED`](layout::binding::LISTED) says.
-    fn write(&self, context: &Context, arena: &mut Arena) {
+    pub(super) fn write(&self, context: &Context, arena: &mut Arena) {
         let mut place = 0;
         let runs = self.runs.iter().map(|(view, run)| {
             let first = place;
@@ -61,17 +62,31 @@ impl GpuDevice {
         }
         context.submit(encoder);
         let views: Vec<(usize, ViewJob)> = job.view_jobs().collect();
-        let done = self.cast_tiles(job, &views)?;
+        let sharing = job.sharing.filter(|_| job.lattice().step[0] == 1);
+        // Of each view, the tiles that were cast and those that are left.
+        let done: Vec<[TileList; 2]> = match sharing {
+            Some(sharing) => self.cast_planes(job, sharing, &views)?,
+            None => {
+                let done = self.cast_tiles(job, &views)?;
+                let parts = |((_, view), done): (&(usize, ViewJob), usize)| {
+                    [view.tiles.part(0..done), view.tiles.part(done..view.tiles.len())]
+                };
+                views.iter().zip(done).map(parts).collect()
+            }
+        };
         let mut outcome = CastOutcome::nothing(job);
         let mut cast = Vec::new();
-        for ((index, view), done) in views.into_iter().zip(done) {
-            outcome.left[index] = view.tiles.part(done..view.tiles.len());
-            if done > 0 {
-                let tiles = Cow::Owned(view.tiles.part(0..done));
-                cast.push((index, ViewJob { tiles, ..view.clone() }));
+        for ((index, view), [tiles, left]) in views.into_iter().zip(done) {
+            outcome.left[index] = left;
+            if !tiles.is_empty() {
+                cast.push((index, ViewJob { tiles: Cow::Owned(tiles), ..view.clone() }));
             }
         }
-        self.bring_back(job, &cast, outcome)
+        let outcome = self.bring_back(job, &cast, outcome)?;
+        match sharing {
+            Some(_) if job.counts => self.add_found(&cast, outcome),
+            _ => Ok(outcome),
+        }
     }
 
     /// Casts the tiles of some views, batch by batch, until it is asked to leave off. How many it has cast of each.
@@ -125,11 +140,7 @@ impl GpuDevice {
             }
             listing.runs = self.batch.dealt(listing.runs);
             listing.write(&self.context, &mut self.pictures.arenas[arena]);
-            let feedback = match gather {
-                Gather::Own => &self.feedback,
-                Gather::Frame => self.frame_feedback.table(),
-            };
-            let bind_group = self.bind(pipeline, key, &self.pictures.arenas[arena], feedback);
+            let bind_group = self.bind(pipeline, key, &self.pictures.arenas[arena], self.feedback_of(gather));
             note_pass(encoder, pipeline, &bind_group, in_rows(listing.tiles));
         }
     }
@@ -143,15 +154,28 @@ impl GpuDevice {
         let mut listing = Listing::default();
         for (view, tiles) in parts {
             if self.lies_in(view, arena) {
-                let Room { first, .. } = self.pictures.room(view.picture);
-                let TileGrid { lattice, across, .. } = view.grid;
                 let place = listing.views.len() as u32;
-                listing.views.push(view.rays.block(&Tiling { lattice, across, first_pixel: first as u32 }));
+                listing.views.push(self.block_of(view));
                 listing.runs.extend(tiles.runs().iter().map(|run| (place, run.clone())));
                 listing.tiles += tiles.len() as u32;
             }
         }
         listing
+    }
+
+    /// A view as kernels know it.
+    pub(super) fn block_of(&self, view: &ViewJob) -> ViewBlock {
+        let Room { first, .. } = self.pictures.room(view.picture);
+        let TileGrid { lattice, across, .. } = view.grid;
+        view.rays.block(&Tiling { lattice, across, first_pixel: first as u32 })
+    }
+
+    /// Where a cast's feedback goes.
+    pub(super) fn feedback_of(&self, gather: Gather) -> &Storage {
+        match gather {
+            Gather::Own => &self.feedback,
+            Gather::Frame => self.frame_feedback.table(),
+        }
     }
 
     /// Brings back what a cast found: feedback, and a tally of each tile, view by view.
@@ -162,7 +186,7 @@ impl GpuDevice {
         mut outcome: CastOutcome,
     ) -> Result<CastOutcome, DeviceError> {
         outcome.rays = cast.iter().map(|(_, view)| view.ray_count()).sum();
-        let entries = if job.gather == Gather::Own { self.places } else { 0 };
+        let entries = if job.gather == Gather::Own { self.records.len() } else { 0 };
         let feedback_bytes = (entries * size_of::<FeedbackEntry>()) as u64;
         let context = Arc::clone(&self.context);
         let mut encoder = context.new_encoder();
@@ -212,7 +236,7 @@ impl GpuDevice {
         listings.filter(|(_, listing)| listing.tiles > 0).collect()
     }
 
-    fn lies_in(&self, view: &ViewJob, arena: usize) -> bool {
+    pub(super) fn lies_in(&self, view: &ViewJob, arena: usize) -> bool {
         self.pictures.room(view.picture).arena == arena
     }
 }

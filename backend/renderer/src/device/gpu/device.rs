@@ -6,6 +6,7 @@ use super::batch::{BatchSize, views_at_once};
 use super::context::Context;
 use super::feedback::FrameFeedback;
 use super::pictures::Pictures;
+use super::planes::PlaneBuffers;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};
@@ -16,6 +17,7 @@ use bricks::BRICK_VOXELS;
 use layout::{FeedbackEntry, Link, NodeRecord, SceneBlock};
 use needs::tables::Tables;
 use optics::MOST_ENHANCERS;
+use planes::Plan;
 use protocol::{CodesAt, DeviceInfo, FilterChoice};
 use shaders::compose::{Filter, Lookup};
 use std::borrow::Cow;
@@ -50,8 +52,9 @@ pub struct GpuDevice {
     /// Short rays, each with a colour of its own beside the pictures, and the way of these to the host.
     pub(super) short: Arena,
     pub(super) short_back: Readback,
-    /// Places of the index.
-    pub(super) places: usize,
+    /// The nodes of the index, as they lie in their buffer.
+    pub(super) records: Arc<[NodeRecord]>,
+    pub(super) planes: PlaneBuffers,
     pub(super) batch: BatchSize,
 }
 
@@ -113,7 +116,8 @@ impl GpuDevice {
             found_back: Readback::new(),
             short: Arena::new(&context),
             short_back: Readback::new(),
-            places: 0,
+            records: Arc::new([]),
+            planes: PlaneBuffers::new(&context),
             batch: BatchSize::new(context.is_software),
             context,
         })
@@ -166,9 +170,9 @@ impl GpuDevice {
         let _turn = self.context.turn();
         self.nodes.write(&self.context, nodes);
         self.cells.write(&self.context, cells);
-        self.places = nodes.len();
-        self.feedback.reserve(&self.context, (self.places * size_of::<FeedbackEntry>()) as u64);
-        self.frame_feedback.resize(&self.context, self.places);
+        self.records = nodes.into();
+        self.feedback.reserve(&self.context, (nodes.len() * size_of::<FeedbackEntry>()) as u64);
+        self.frame_feedback.resize(&self.context, nodes.len());
     }
 
     pub(in crate::device) fn write_tables(&mut self, tables: Tables) {
@@ -179,6 +183,7 @@ impl GpuDevice {
         self.importance.write_if_any(&self.context, &tables.importance);
         self.importance_most.write_if_any(&self.context, &tables.importance_most);
         self.index.write_if_any(&self.context, &tables.index);
+        self.planes.variation.write(&self.context, &Plan::variation(&tables));
         self.materials.write_if_any(&self.context, &tables.materials);
     }
 

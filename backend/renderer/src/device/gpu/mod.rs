@@ -3,6 +3,7 @@
 mod adapters;
 mod arena;
 mod atlas;
+mod bands;
 mod batch;
 mod bind;
 mod cache_file;
@@ -18,6 +19,7 @@ mod layers;
 mod pass;
 mod pictures;
 mod pipeline_cache;
+mod planes;
 mod precision;
 mod present;
 mod readback;

@@ -1,0 +1,343 @@
+//! Row planes on the GPU: rows of tiles of all views of a fan, slab after slab from the front to the back. What some view still
+//! sees of a slab is sampled once, and all views sweep it; what is too steep for that each ray samples itself.
+
+use super::bands::{Band, Slice};
+use super::bind::entries_of;
+use super::cast::Listing;
+use super::context::Context;
+use super::device::GpuDevice;
+use super::kernels::Kernel;
+use super::pass::{in_rows, note_pass};
+use super::storage::Storage;
+use crate::device::job::ViewJob;
+use crate::device::{CastJob, CastOutcome, DeviceError, Sharing, TileList};
+use layout::{FanBlock, PLANE_COLUMNS, PlaneFound, TILE_EDGE, binding};
+use needs::{Needs, Shading};
+use planes::{Fan, Plan, Planes};
+use shaders::compose::{KernelRays, PlaneStep};
+use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
+
+/// Words that the largest buffer keeps of a column.
+const WORDS_OF_COLUMN: u64 = 7;
+/// Columns that are kept at a time, at most; of these a batch takes as many bands as fit.
+const MOST_COLUMNS: usize = 1 << 22;
+/// The same for a driver in software: a row of tiles of many views takes it seconds, and whoever asks it to leave off waits.
+const MOST_COLUMNS_OF_SOFTWARE: usize = 1 << 19;
+/// Sweeps that the driver has at once, besides the one that is waited for.
+const AT_ONCE: usize = 1;
+
+/// What is kept of planes on the device.
+#[derive(Debug)]
+pub(super) struct PlaneBuffers {
+    fan: Storage,
+    bands: Storage,
+    layers: Storage,
+    samples: Storage,
+    means: Storage,
+    errors: Storage,
+    open: Storage,
+    pub(super) variation: Storage,
+    /// What each row of tiles found, since a cast began.
+    pub(super) found: Storage,
+}
+
+impl PlaneBuffers {
+    pub(super) fn new(context: &Context) -> Self {
+        let storage = |label| Storage::new(context, label);
+        Self {
+            fan: storage("the grid of planes"),
+            bands: storage("bands of planes"),
+            layers: storage("layers of planes"),
+            samples: storage("samples of planes"),
+            means: storage("means of planes"),
+            errors: storage("errors of means"),
+            open: storage("blocks that see farther"),
+            variation: storage("variation of the tables"),
+            found: storage("what planes found"),
+        }
+    }
+}
+
+/// Storage buffers of the kernel that sweeps planes.
+const STORAGE_BUFFERS: u32 = 15;
+
+impl GpuDevice {
+    /// Why it cannot cast them for a scene with these needs, on rasters of which some are resampled or none.
+    pub(in crate::device) fn refuses_planes(
+        &self,
+        needs: &Needs,
+        are_resampled: bool,
+    ) -> Option<&'static str> {
+        if Planes::is_by_pixel(needs) {
+            return Some(
+                "on a GPU, importance, enhancers, materials, detail and debug views need each ray alone",
+            );
+        }
+        if are_resampled {
+            return Some("the CPU alone resamples planes to calibrated rasters");
+        }
+        let most = self.context.device.limits().max_storage_buffers_per_shader_stage;
+        (most < STORAGE_BUFFERS).then_some("the GPU binds too few storage buffers at a time")
+    }
+
+    /// Casts the tiles of some views by planes, fan by fan. Of each view, those that were cast and those that are left.
+    pub(super) fn cast_planes(
+        &mut self,
+        job: &CastJob,
+        sharing: Sharing,
+        views: &[(usize, ViewJob)],
+    ) -> Result<Vec<[TileList; 2]>, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let rows_of_tiles = views.iter().map(|(_, view)| view.grid.down).max().unwrap_or(0);
+        self.planes.found.reserve(&context, u64::from(rows_of_tiles) * size_of::<PlaneFound>() as u64);
+        let mut encoder = context.new_encoder();
+        encoder.clear_buffer(&self.planes.found.buffer, 0, None);
+        context.submit(encoder);
+        let mut cast = vec![[TileList::default(), TileList::default()]; views.len()];
+        for fan in sharing.fans.iter() {
+            let of_fan: Vec<usize> =
+                (0..views.len()).filter(|&place| fan.views.contains(&views[place].0)).collect();
+            let jobs: Vec<(usize, &ViewJob)> =
+                of_fan.iter().map(|&place| (views[place].0, &views[place].1)).collect();
+            let rows = self.cast_fan(job, fan, &jobs)?;
+            for place in of_fan {
+                let view = &views[place].1;
+                for tile in view.tiles.iter() {
+                    let is_left = !rows.contains(&(tile / view.grid.across));
+                    cast[place][usize::from(is_left)].push(tile);
+                }
+            }
+        }
+        Ok(cast)
+    }
+
+    /// The rows of tiles that were cast, until it was asked to leave off.
+    fn cast_fan(
+        &mut self,
+        job: &CastJob,
+        fan: &Fan,
+        views: &[(usize, &ViewJob)],
+    ) -> Result<BTreeSet<u32>, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let lattice = job.lattice();
+        let rows_of_band = TILE_EDGE * lattice.step[1];
+        let most = if context.is_software { MOST_COLUMNS_OF_SOFTWARE } else { MOST_COLUMNS };
+        let nodes = Arc::clone(&self.records);
+        let plan = Plan::new(job.scene, &nodes, fan);
+        let tiles = views.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
+        let asked: BTreeSet<u32> = tiles.collect();
+        let band = |at: u32| {
+            let above = at * rows_of_band;
+            let rows = above..(above + rows_of_band).min(fan.raster[1]);
+            Band { at, slabs: plan.layers(&rows) }
+        };
+        let mut bands = asked.iter().map(|&at| band(at)).peekable();
+        let mut under_way = VecDeque::new();
+        let mut cast = BTreeSet::new();
+        let mut is_stopped = false;
+        while bands.peek().is_some() && !is_stopped && !(job.stop)() {
+            let (mut batch, mut columns) = (Vec::new(), 0);
+            while let Some(band) =
+                bands.next_if(|band| batch.is_empty() || columns + band.most_columns() <= most)
+            {
+                columns += band.most_columns();
+                batch.push(band);
+            }
+            let sweeps = batch.iter().map(Band::sweeps).max().unwrap_or(0);
+            for number in 0..sweeps.max(1) {
+                is_stopped = number > 0 && (job.stop)();
+                if is_stopped {
+                    break;
+                }
+                let block =
+                    FanBlock { sweeps: number as u32, bands: batch.len() as u32, ..plan.block(&lattice) };
+                let slice = Slice::of(&batch, number);
+                under_way.push_back(self.sweep_slice(job, (fan, &block), views, &slice)?);
+                if under_way.len() > AT_ONCE
+                    && let Some(submission) = under_way.pop_front()
+                {
+                    context.wait_for(submission)?;
+                }
+            }
+            if !is_stopped {
+                cast.extend(batch.iter().map(|band| band.at));
+            }
+        }
+        under_way.into_iter().try_for_each(|submission| context.wait_for(submission))?;
+        Ok(cast)
+    }
+
+    /// Samples some slabs of some bands, and takes all views through them.
+    fn sweep_slice(
+        &mut self,
+        job: &CastJob,
+        (fan, block): (&Fan, &FanBlock),
+        views: &[(usize, &ViewJob)],
+        slice: &Slice,
+    ) -> Result<wgpu::SubmissionIndex, DeviceError> {
+        let context = Arc::clone(&self.context);
+        if WORDS_OF_COLUMN * 4 * slice.columns as u64 > context.most_bound_bytes() {
+            let why =
+                "a slice of the row planes has more columns than the GPU binds at a time; take --caster rays";
+            return Err(DeviceError(why.into()));
+        }
+        self.planes.prepare(&context, &job.needs, (fan, block), slice);
+        let mut encoder = context.new_encoder();
+        if block.sweeps == 0 {
+            encoder.clear_buffer(&self.planes.open.buffer, 0, None);
+        }
+        let groups =
+            [slice.widest.div_ceil(PLANE_COLUMNS), slice.deepest, TILE_EDGE * slice.bands.len() as u32];
+        if slice.columns > 0 {
+            for step in [PlaneStep::Fill, PlaneStep::Means, PlaneStep::Errors] {
+                self.note_step(&mut encoder, job, step, groups);
+            }
+        }
+        let rows: BTreeSet<u32> = slice.bands.iter().map(|band| band.at).collect();
+        let key = self.key(KernelRays::OfPlanes(PlaneStep::Sweep), job.needs);
+        let pipeline = context.kernel(Kernel::Cast(key));
+        for arena in 0..self.pictures.arenas.len() {
+            let listing = self.listing_of_rows(arena, fan, views, &rows);
+            if listing.tiles == 0 {
+                continue;
+            }
+            listing.write(&context, &mut self.pictures.arenas[arena]);
+            let mut entries = self.entries(key, &self.pictures.arenas[arena], self.feedback_of(job.gather));
+            entries.extend(self.planes.entries(PlaneStep::Sweep));
+            let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            });
+            note_pass(&mut encoder, &pipeline, &bind_group, in_rows(listing.tiles));
+        }
+        Ok(context.submit(encoder))
+    }
+
+    fn note_step(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        job: &CastJob,
+        step: PlaneStep,
+        [across, down, deep]: [u32; 3],
+    ) {
+        let key = self.key(KernelRays::OfPlanes(step), job.needs);
+        let pipeline = self.context.kernel(Kernel::Cast(key));
+        let mut entries = match step {
+            PlaneStep::Fill => self.entries_of_volume(key, self.feedback_of(job.gather)),
+            _ => self.entries_of_tables(),
+        };
+        entries.extend(self.planes.entries(step));
+        let bind_group = self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bind_group, &[]);
+        pass.dispatch_workgroups(across, down, deep);
+    }
+
+    /// The tiles of some rows, of the views whose pictures lie in an arena. All views are listed, in the order of the fan.
+    fn listing_of_rows(
+        &self,
+        arena: usize,
+        fan: &Fan,
+        views: &[(usize, &ViewJob)],
+        rows: &BTreeSet<u32>,
+    ) -> Listing {
+        let mut listing = Listing::default();
+        for (place, view) in fan.views.iter().enumerate() {
+            let Some((_, view)) = views.iter().find(|(known, _)| known == view) else {
+                // Nothing of it is cast.
+                listing.views.push(bytemuck::Zeroable::zeroed());
+                continue;
+            };
+            listing.views.push(self.block_of(view));
+            if !self.lies_in(view, arena) {
+                continue;
+            }
+            let is_in = |tile: &u32| rows.contains(&(tile / view.grid.across));
+            let tiles: TileList = view.tiles.iter().filter(is_in).collect();
+            listing.runs.extend(tiles.runs().iter().map(|run| (place as u32, run.clone())));
+            listing.tiles += tiles.len() as u32;
+        }
+        listing
+    }
+
+    /// Adds what planes found to what rays did: of a row of tiles that met a node that is too coarse, all tiles are missing it.
+    pub(super) fn add_found(
+        &mut self,
+        cast: &[(usize, ViewJob)],
+        mut outcome: CastOutcome,
+    ) -> Result<CastOutcome, DeviceError> {
+        let context = Arc::clone(&self.context);
+        let bytes = self.planes.found.used_bytes;
+        let mut encoder = context.new_encoder();
+        self.found_back.begin(&context, bytes);
+        self.found_back.copy(&mut encoder, &self.planes.found.whole());
+        context.submit(encoder);
+        let found: Vec<PlaneFound> = self.found_back.read(&context, bytemuck::pod_collect_to_vec)?;
+        outcome.samples += found.iter().map(|row| u64::from(row.samples)).sum::<u64>();
+        for (index, view) in cast {
+            let missing = &mut outcome.missing_tiles[*index];
+            let is_missing = |tile: u32| found[(tile / view.grid.across) as usize].is_missing != 0;
+            let of_rays: BTreeSet<u32> = missing.iter().collect();
+            *missing =
+                view.tiles.iter().filter(|&tile| is_missing(tile) || of_rays.contains(&tile)).collect();
+        }
+        Ok(outcome)
+    }
+}
+
+impl PlaneBuffers {
+    /// Writes what a slice is made of, and makes room for what is kept of it.
+    fn prepare(&mut self, context: &Context, needs: &Needs, (fan, block): (&Fan, &FanBlock), slice: &Slice) {
+        let mut words: Vec<u32> = bytemuck::cast_slice(std::slice::from_ref(block)).to_vec();
+        words.extend(fan.offsets().map(f32::to_bits));
+        self.fan.write(context, &words);
+        self.bands.write(context, &slice.bands);
+        self.layers.write(context, &slice.layers);
+        let gradient = if needs.shading == Shading::Plain { 0 } else { 3 };
+        let columns = 4 * slice.columns as u64;
+        self.samples.reserve(context, columns * (1 + u64::from(needs.spreads) + gradient));
+        self.means.reserve(context, columns * (4 + gradient));
+        self.errors.reserve(context, 4 * slice.blocks as u64);
+        let blocks = u64::from(TILE_EDGE * block.bands * block.views * block.blocks);
+        self.open.reserve(context, 4 * blocks);
+    }
+
+    /// What each step reads and writes of them.
+    fn entries(&self, step: PlaneStep) -> Vec<wgpu::BindGroupEntry<'_>> {
+        let mut all = vec![
+            (binding::FAN, &self.fan),
+            (binding::BANDS, &self.bands),
+            (binding::PLANE_LAYERS, &self.layers),
+        ];
+        all.extend(match step {
+            PlaneStep::Fill => {
+                vec![
+                    (binding::SAMPLES, &self.samples),
+                    (binding::ERRORS, &self.errors),
+                    (binding::OPEN, &self.open),
+                    (binding::FOUND, &self.found),
+                ]
+            }
+            PlaneStep::Means => vec![(binding::SAMPLES, &self.samples), (binding::MEANS, &self.means)],
+            PlaneStep::Errors => vec![
+                (binding::SAMPLES, &self.samples),
+                (binding::MEANS, &self.means),
+                (binding::ERRORS, &self.errors),
+                (binding::VARIATION, &self.variation),
+            ],
+            PlaneStep::Sweep => vec![
+                (binding::MEANS, &self.means),
+                (binding::ERRORS, &self.errors),
+                (binding::OPEN, &self.open),
+            ],
+        });
+        entries_of(all).collect()
+    }
+}

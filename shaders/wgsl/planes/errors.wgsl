@@ -1,0 +1,170 @@
+// What means err between a column and the next: how far scalars bend between samples and means between columns, what hides
+// between them, and how much the order of what a cell shows matters.
+
+// How much (τ c, τ) vary up to each border of the tables' cells.
+struct PlaneVariation {
+    // Of the channel that varies most.
+    most: f32,
+    padding: array<f32, 3>,
+    // Of each.
+    each: vec4<f32>,
+    // (τ c, τ) there.
+    value: vec4<f32>,
+}
+
+// What the means of each block err, at most: a code.
+@group(0) @binding(BINDING_ERRORS) var<storage, read_write> block_errors: array<atomic<u32>>;
+@group(0) @binding(BINDING_VARIATION) var<storage, read> variation: array<PlaneVariation>;
+
+struct Borders {
+    low: u32,
+    high: u32,
+}
+
+// The borders of cells around scalars, and `around` them.
+fn borders_of(low: f32, high: f32, around: f32) -> Borders {
+    let cells = scene.tables.x;
+    return Borders(min(u32(max(low - around, 0.0) * f32(cells)), cells - 1u),
+        min(u32(min(high + around, 1.0) * f32(cells)) + 1u, cells));
+}
+
+// How much a mean over scalars from `low` to `high` changes if both are wrong by `error`.
+fn change_of(low: f32, high: f32, error: f32) -> f32 {
+    let borders = borders_of(low, high, error);
+    let share = 2.0 * error * f32(scene.tables.x) / f32(borders.high - borders.low);
+    return (variation[borders.high].most - variation[borders.low].most) * min(share, 1.0);
+}
+
+// What goes up between two scalars and comes down again, which their own values do not tell.
+fn hidden_between(low: f32, high: f32) -> f32 {
+    let borders = borders_of(low, high, 0.0);
+    let rise = abs(variation[borders.high].value - variation[borders.low].value);
+    return 0.5 * largest(variation[borders.high].each - variation[borders.low].each - rise);
+}
+
+// How far the middle one of three scalars is from straight between the others; 0 where not all are known.
+fn bend(a: f32, b: f32, c: f32) -> f32 {
+    return select(0.0, abs(a - 2.0 * b + c), min(min(a, b), c) >= 0.0);
+}
+
+// The scalars of four columns, from the one before a column on, at the depth that is kept at `at`; its layer has so many.
+fn four_scalars(at: u32, column: u32, width: u32) -> vec4<f32> {
+    var four = vec4<f32>(UNKNOWN, known_scalar(at), UNKNOWN, UNKNOWN);
+    if column > 0u {
+        four.x = known_scalar(at - 1u);
+    }
+    if column + 1u < width {
+        four.z = known_scalar(at + 1u);
+    }
+    if column + 2u < width {
+        four.w = known_scalar(at + 2u);
+    }
+    return four;
+}
+
+// How much the order of what a column shows in a cell matters, as light.
+fn disorder_in(s0: f32, s1: f32, spread: f32, thickness: f32) -> f32 {
+    if min(s0, s1) < 0.0 {
+        return 0.0;
+    }
+    let near = locate(s0);
+    let far = locate(s1);
+    let mean = sample_over(near, far, s0, s1, spread).k;
+    let a = abs(near.value * mean.w - mean * near.value.w);
+    let b = abs(mean * far.value.w - far.value * mean.w);
+    let order = max(a.x, max(a.y, a.z)) + max(b.x, max(b.y, b.z));
+    let depth = mean.w * thickness;
+    return 0.125 * order * thickness * thickness / (1.0 + depth * depth);
+}
+
+// The same of a cell and the one behind it.
+fn disorder_of_both(at: u32, behind: u32) -> f32 {
+    let a = known_mean(at);
+    let b = known_mean(behind);
+    let order = abs(a.xyz * b.w - b.xyz * a.w);
+    return max(order.x, max(order.y, order.z));
+}
+
+// The code of what means err between a column and the next.
+fn error_at(place: PlanePlace, column: u32) -> u32 {
+    let width = place.layer.width;
+    let at = kept_at(place, column);
+    let front = four_scalars(at, column, width);
+    let back = four_scalars(at + width, column, width);
+    let corners = vec4<f32>(front.yz, back.yz);
+    let are_known = corners >= vec4<f32>(0.0);
+    let known = select(vec4<f32>(2.0), corners, are_known);
+    let lowest = min(min(known.x, known.y), min(known.z, known.w));
+    let highest = largest(corners);
+    if highest < 0.0 {
+        return EMPTY;
+    }
+    let spreads = vec4<f32>(known_spread(at), known_spread(at + 1u), known_spread(at + width), known_spread(at + width + 1u));
+    let spread = largest(select(vec4<f32>(0.0), spreads, are_known));
+    // How far a scalar between samples may be off.
+    let across = max(max(bend(front.x, front.y, front.z), bend(front.y, front.z, front.w)),
+        max(bend(back.x, back.y, back.z), bend(back.y, back.z, back.w)));
+    var along = vec2<f32>(0.0);
+    if place.layer.has_cell_before != 0u {
+        along = vec2<f32>(bend(known_scalar(at - width), front.y, back.y), bend(known_scalar(at + 1u - width), front.z, back.z));
+    }
+    let has_cell_behind = plane_layers[place.band.first_layer + place.number_of_layer + 1u].has_cell != 0u;
+    if has_cell_behind {
+        let beyond = at + 2u * width;
+        along = max(along, vec2<f32>(bend(front.y, back.y, known_scalar(beyond)), bend(front.z, back.z, known_scalar(beyond + 1u))));
+    }
+    let twist = select(0.0, abs((corners.w - corners.z) - (corners.y - corners.x)), all(are_known));
+    let error = 0.125 * (across + max(along.x, along.y) + twist);
+    if is_vacant_around(vec2<f32>(lowest, highest), spread + error) {
+        return EMPTY;
+    }
+    // Where one side of what shows is unknown, no mean tells it.
+    if !all(are_known) {
+        return code_of_error(STEEP);
+    }
+    let thickness = thickness_of(place.layer);
+    if thickness * change_of(lowest, highest, error) > fan.grid.most_spacing_error {
+        return code_of_error(STEEP);
+    }
+    // How far means bend.
+    let mean = known_mean(at);
+    let next = known_mean(at + 1u);
+    var most = 0.0;
+    if column > 0u {
+        most = largest(abs(known_mean(at - 1u) - 2.0 * mean + next));
+    }
+    if column + 2u < width {
+        most = max(most, largest(abs(mean - 2.0 * next + known_mean(at + 2u))));
+    }
+    most *= 0.125;
+    // What neither of two columns shows.
+    let hidden_low = min(max(corners.x, corners.z), max(corners.y, corners.w)) + spread;
+    let hidden_high = max(min(corners.x, corners.z), min(corners.y, corners.w)) - spread;
+    if hidden_high > hidden_low {
+        most = max(most, thickness * hidden_between(hidden_low, hidden_high));
+    }
+    most = max(most, max(disorder_in(corners.x, corners.z, spread, thickness), disorder_in(corners.y, corners.w, spread, thickness)));
+    if place.layer.has_cell_before != 0u {
+        most = max(most, max(disorder_of_both(at - width, at), disorder_of_both(at + 1u - width, at + 1u)));
+    }
+    if has_cell_behind {
+        most = max(most, max(disorder_of_both(at, at + width), disorder_of_both(at + 1u, at + 1u + width)));
+    }
+    return code_of_error(most);
+}
+
+@compute @workgroup_size(PLANE_COLUMNS, 1, 1)
+fn find_errors(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let place = plane_place(group);
+    let column = place.first + lane;
+    if !place.exists || place.layer.has_cell == 0u || column >= place.layer.width {
+        return;
+    }
+    // The last column has none beside it.
+    if column + 1u < place.layer.width {
+        let code = error_at(place, column);
+        if code != EMPTY {
+            atomicMax(&block_errors[block_kept_at(place, column)], code);
+        }
+    }
+}
