@@ -2,7 +2,7 @@
 
 use super::arena::Arena;
 use super::device::GpuDevice;
-use super::storage::Storage;
+use super::storage::{Storage, entries_of};
 use layout::binding;
 use needs::{Needs, Way};
 use shaders::compose::{Filter, KernelKey, KernelRays};
@@ -107,13 +107,4 @@ impl GpuDevice {
         let scene = wgpu::BindGroupEntry { binding: binding::SCENE, resource };
         std::iter::once(scene).chain(entries_of(buffers)).collect()
     }
-}
-
-/// A buffer under each number.
-pub(super) fn entries_of<'a>(
-    buffers: impl IntoIterator<Item = (u32, &'a Storage)>,
-) -> impl Iterator<Item = wgpu::BindGroupEntry<'a>> {
-    buffers
-        .into_iter()
-        .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
 }

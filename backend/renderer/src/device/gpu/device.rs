@@ -6,7 +6,7 @@ use super::batch::{BatchSize, views_at_once};
 use super::context::Context;
 use super::feedback::FrameFeedback;
 use super::pictures::Pictures;
-use super::planes::PlaneBuffers;
+use super::plane_buffers::PlaneBuffers;
 use super::precision::{filter_error, is_precise};
 use super::readback::Readback;
 use super::storage::{Storage, uniform};

@@ -19,6 +19,7 @@ mod layers;
 mod pass;
 mod pictures;
 mod pipeline_cache;
+mod plane_buffers;
 mod planes;
 mod precision;
 mod present;

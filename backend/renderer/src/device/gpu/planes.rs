@@ -2,17 +2,14 @@
 //! sees of a slab is sampled once, and all views sweep it; what is too steep for that each ray samples itself.
 
 use super::bands::{Band, Slice};
-use super::bind::entries_of;
 use super::cast::Listing;
-use super::context::Context;
 use super::device::GpuDevice;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
-use super::storage::Storage;
 use crate::device::job::ViewJob;
 use crate::device::{CastJob, CastOutcome, DeviceError, Sharing, TileList};
-use layout::{FanBlock, PLANE_COLUMNS, PlaneFound, TILE_EDGE, binding};
-use needs::{Needs, Shading};
+use layout::{FanBlock, PLANE_COLUMNS, PlaneFound, TILE_EDGE};
+use needs::Needs;
 use planes::{Fan, Plan, Planes};
 use shaders::compose::{KernelRays, PlaneStep};
 use std::collections::{BTreeSet, VecDeque};
@@ -26,38 +23,6 @@ const MOST_COLUMNS: usize = 1 << 22;
 const MOST_COLUMNS_OF_SOFTWARE: usize = 1 << 19;
 /// Sweeps that the driver has at once, besides the one that is waited for.
 const AT_ONCE: usize = 1;
-
-/// What is kept of planes on the device.
-#[derive(Debug)]
-pub(super) struct PlaneBuffers {
-    fan: Storage,
-    bands: Storage,
-    layers: Storage,
-    samples: Storage,
-    means: Storage,
-    errors: Storage,
-    open: Storage,
-    pub(super) variation: Storage,
-    /// What each row of tiles found, since a cast began.
-    pub(super) found: Storage,
-}
-
-impl PlaneBuffers {
-    pub(super) fn new(context: &Context) -> Self {
-        let storage = |label| Storage::new(context, label);
-        Self {
-            fan: storage("the grid of planes"),
-            bands: storage("bands of planes"),
-            layers: storage("layers of planes"),
-            samples: storage("samples of planes"),
-            means: storage("means of planes"),
-            errors: storage("errors of means"),
-            open: storage("blocks that see farther"),
-            variation: storage("variation of the tables"),
-            found: storage("what planes found"),
-        }
-    }
-}
 
 /// Storage buffers of the kernel that sweeps planes.
 const STORAGE_BUFFERS: u32 = 15;
@@ -289,55 +254,5 @@ impl GpuDevice {
                 view.tiles.iter().filter(|&tile| is_missing(tile) || of_rays.contains(&tile)).collect();
         }
         Ok(outcome)
-    }
-}
-
-impl PlaneBuffers {
-    /// Writes what a slice is made of, and makes room for what is kept of it.
-    fn prepare(&mut self, context: &Context, needs: &Needs, (fan, block): (&Fan, &FanBlock), slice: &Slice) {
-        let mut words: Vec<u32> = bytemuck::cast_slice(std::slice::from_ref(block)).to_vec();
-        words.extend(fan.offsets().map(f32::to_bits));
-        self.fan.write(context, &words);
-        self.bands.write(context, &slice.bands);
-        self.layers.write(context, &slice.layers);
-        let gradient = if needs.shading == Shading::Plain { 0 } else { 3 };
-        let columns = 4 * slice.columns as u64;
-        self.samples.reserve(context, columns * (1 + u64::from(needs.spreads) + gradient));
-        self.means.reserve(context, columns * (4 + gradient));
-        self.errors.reserve(context, 4 * slice.blocks as u64);
-        let blocks = u64::from(TILE_EDGE * block.bands * block.views * block.blocks);
-        self.open.reserve(context, 4 * blocks);
-    }
-
-    /// What each step reads and writes of them.
-    fn entries(&self, step: PlaneStep) -> Vec<wgpu::BindGroupEntry<'_>> {
-        let mut all = vec![
-            (binding::FAN, &self.fan),
-            (binding::BANDS, &self.bands),
-            (binding::PLANE_LAYERS, &self.layers),
-        ];
-        all.extend(match step {
-            PlaneStep::Fill => {
-                vec![
-                    (binding::SAMPLES, &self.samples),
-                    (binding::ERRORS, &self.errors),
-                    (binding::OPEN, &self.open),
-                    (binding::FOUND, &self.found),
-                ]
-            }
-            PlaneStep::Means => vec![(binding::SAMPLES, &self.samples), (binding::MEANS, &self.means)],
-            PlaneStep::Errors => vec![
-                (binding::SAMPLES, &self.samples),
-                (binding::MEANS, &self.means),
-                (binding::ERRORS, &self.errors),
-                (binding::VARIATION, &self.variation),
-            ],
-            PlaneStep::Sweep => vec![
-                (binding::MEANS, &self.means),
-                (binding::ERRORS, &self.errors),
-                (binding::OPEN, &self.open),
-            ],
-        });
-        entries_of(all).collect()
     }
 }

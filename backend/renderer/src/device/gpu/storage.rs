@@ -100,3 +100,12 @@ pub(super) fn uniform<T>(context: &Context, label: &str) -> wgpu::Buffer {
         mapped_at_creation: false,
     })
 }
+
+/// A buffer under each number.
+pub(super) fn entries_of<'a>(
+    buffers: impl IntoIterator<Item = (u32, &'a Storage)>,
+) -> impl Iterator<Item = wgpu::BindGroupEntry<'a>> {
+    buffers
+        .into_iter()
+        .map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() })
+}
