@@ -11,6 +11,7 @@ use super::{
 use crate::present::{Raster, Show, Thresholds};
 use bricks::BRICK_VOXELS;
 use layout::{NodeRecord, SHORT_RAYS};
+use needs::Needs;
 use needs::tables::Tables;
 use protocol::CodesAt;
 use rayon::prelude::*;
@@ -70,6 +71,11 @@ impl CpuDevice {
 
     pub(super) fn slots(&self) -> u32 {
         (self.held.atlas.len() / BRICK_VOXELS) as u32
+    }
+
+    #[expect(clippy::unused_self, reason = "as other devices have it")]
+    pub(super) fn refuses_planes(&self, _needs: &Needs, _are_resampled: bool) -> Option<&'static str> {
+        None
     }
 
     pub(super) fn write_brick(&mut self, slot: u32, samples: &[u16]) {

@@ -41,11 +41,7 @@ impl Device {
 
     /// Why it cannot cast row planes for a scene with these needs, on rasters of which some are resampled or none.
     pub fn refuses_planes(&self, needs: &Needs, are_resampled: bool) -> Option<&'static str> {
-        match self {
-            Self::Cpu(_) => None,
-            #[cfg(feature = "gpu")]
-            Self::Gpu(device) => device.refuses_planes(needs, are_resampled),
-        }
+        on_device!(self, device => device.refuses_planes(needs, are_resampled))
     }
 
     /// Whether it is the CPU.
