@@ -10,8 +10,10 @@ var<workgroup> is_wanted: atomic<u32>;
 var<workgroup> samples_taken: atomic<u32>;
 var<workgroup> leaves: array<u32, PLANE_COLUMNS>;
 
-// Columns beside those that a view meets, of which it hears: neighbours say how far a scalar bends.
+// Columns beside those of the blocks that a view meets, of which it hears: neighbours say how far a scalar bends.
 const BESIDE: f32 = 4.0;
+// Pixels that a block reaches beyond what a pixel meets of it.
+const AROUND: f32 = f32(TILE_EDGE) + 1.0;
 
 // Whether a view still sees some of the columns of a group.
 fn is_seen_by(view: u32, place: PlanePlace, band: u32) -> bool {
@@ -22,8 +24,8 @@ fn is_seen_by(view: u32, place: PlanePlace, band: u32) -> bool {
     let a = shift_of(offset, place.layer.slab_z.x);
     let b = shift_of(offset, place.layer.slab_z.y);
     let first = f32(place.layer.first + i32(place.first)) - BESIDE;
-    let low = first / place.layer.phases - max(a, b) - 1.0;
-    let high = (first + f32(PLANE_COLUMNS) + 2.0 * BESIDE) / place.layer.phases - min(a, b) + 1.0;
+    let low = first / place.layer.phases - max(a, b) - AROUND;
+    let high = (first + f32(PLANE_COLUMNS) + 2.0 * BESIDE) / place.layer.phases - min(a, b) + AROUND;
     let last = f32(fan.grid.blocks * TILE_EDGE) - 1.0;
     if high < 0.0 || low > last {
         return false;
