@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 const SHOWS: &str = "it casts no rays: the CPU device shows with it, and nobody asks for it in f64";
 /// The same of row planes.
 const BY_BLOCKS: &str =
-    "the CPU decides for eight columns or pixels at a time, and samples closer where a GPU casts rays";
+    "the CPU goes through eight columns or pixels at a time, and samples closer where a GPU casts rays";
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
 const ODD_TWINS: [(&str, Option<&str>, &str); 43] = [
