@@ -4,7 +4,7 @@
 use super::context::Context;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
-use super::storage::{Storage, Stretch};
+use super::storage::{Storage, Stretch, entries_of};
 use layout::{TALLIED_TILES, TileTally, ViewBlock, binding};
 
 /// Pictures begin at whole multiples of so many pixels: of 256 bytes of colours, as parts of buffers that are bound have to.
@@ -85,20 +85,14 @@ impl Arena {
         let bytes = tally_bytes(tiles);
         self.tallies.reserve(context, bytes);
         let pipeline = context.kernel(Kernel::Tally);
-        let buffers = [
+        let entries: Vec<_> = entries_of([
             (binding::VIEWS, &self.views),
             (binding::LISTED, &self.listed),
             (binding::COUNTS, &self.counts),
             (binding::TALLIES, &self.tallies),
-        ];
-        let entries =
-            buffers.map(|(binding, storage)| wgpu::BindGroupEntry { binding, resource: storage.binding() });
-        let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        note_pass(encoder, &pipeline, &bind_group, in_rows(groups));
+        ])
+        .collect();
+        note_pass(&context.device, encoder, &pipeline, &entries, in_rows(groups));
         self.tallies.stretch(0, bytes)
     }
 }

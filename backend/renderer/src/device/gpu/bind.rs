@@ -23,22 +23,7 @@ impl GpuDevice {
         }
     }
 
-    /// All that a kernel reads and writes: of an arena, what is listed there.
-    pub(super) fn bind(
-        &self,
-        pipeline: &wgpu::ComputePipeline,
-        key: KernelKey,
-        arena: &Arena,
-        feedback: &Storage,
-    ) -> wgpu::BindGroup {
-        self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &self.entries(key, arena, feedback),
-        })
-    }
-
-    /// What kernels that cast rays read and write.
+    /// What kernels that cast rays read and write: of an arena, what is listed there.
     pub(super) fn entries<'a>(
         &'a self,
         key: KernelKey,

@@ -140,8 +140,8 @@ impl GpuDevice {
             }
             listing.runs = self.batch.dealt(listing.runs);
             listing.write(&self.context, &mut self.pictures.arenas[arena]);
-            let bind_group = self.bind(pipeline, key, &self.pictures.arenas[arena], self.feedback_of(gather));
-            note_pass(encoder, pipeline, &bind_group, in_rows(listing.tiles));
+            let entries = self.entries(key, &self.pictures.arenas[arena], self.feedback_of(gather));
+            note_pass(&self.context.device, encoder, pipeline, &entries, in_rows(listing.tiles));
         }
     }
 

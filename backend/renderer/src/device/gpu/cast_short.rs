@@ -57,8 +57,9 @@ impl GpuDevice {
         self.short_back.begin(&context, COLOUR_BYTES * count);
         let mut encoder = context.new_encoder();
         // What they meet is noted where nobody looks: the whole rays of their pixels have told it.
-        let bind_group = self.bind(&pipeline, key, &self.short, &self.feedback);
-        note_pass(&mut encoder, &pipeline, &bind_group, in_rows((count as u32).div_ceil(SHORT_RAYS)));
+        let entries = self.entries(key, &self.short, &self.feedback);
+        let groups = in_rows((count as u32).div_ceil(SHORT_RAYS));
+        note_pass(&context.device, &mut encoder, &pipeline, &entries, groups);
         self.short_back.copy(&mut encoder, &self.short.pixels.stretch(0, COLOUR_BYTES * count));
         context.submit(encoder);
         self.short_back.items(&context)

@@ -109,6 +109,8 @@ impl GpuDevice {
                 columns += band.most_columns();
                 batch.push(band);
             }
+            let rows: BTreeSet<u32> = batch.iter().map(|band| band.at).collect();
+            let listed = self.list_rows(fan, views, &rows);
             let sweeps = batch.iter().map(Band::sweeps).max().unwrap_or(0);
             for number in 0..sweeps.max(1) {
                 is_stopped = number > 0 && (job.stop)();
@@ -118,7 +120,7 @@ impl GpuDevice {
                 let block =
                     FanBlock { sweeps: number as u32, bands: batch.len() as u32, ..plan.block(&lattice) };
                 let slice = Slice::of(&batch, number);
-                under_way.push_back(self.sweep_slice(job, (fan, &block), views, &slice)?);
+                under_way.push_back(self.sweep_slice(job, (fan, &block), &listed, &slice)?);
                 if under_way.len() > AT_ONCE
                     && let Some(submission) = under_way.pop_front()
                 {
@@ -126,11 +128,29 @@ impl GpuDevice {
                 }
             }
             if !is_stopped {
-                cast.extend(batch.iter().map(|band| band.at));
+                cast.extend(rows);
             }
         }
         under_way.into_iter().try_for_each(|submission| context.wait_for(submission))?;
         Ok(cast)
+    }
+
+    /// Lists the tiles of some rows in the arenas where they lie: each of these, and how many they are.
+    fn list_rows(
+        &mut self,
+        fan: &Fan,
+        views: &[(usize, &ViewJob)],
+        rows: &BTreeSet<u32>,
+    ) -> Vec<(usize, u32)> {
+        let mut listed = Vec::new();
+        for arena in 0..self.pictures.arenas.len() {
+            let listing = self.listing_of_rows(arena, fan, views, rows);
+            if listing.tiles > 0 {
+                listing.write(&self.context, &mut self.pictures.arenas[arena]);
+                listed.push((arena, listing.tiles));
+            }
+        }
+        listed
     }
 
     /// Samples some slabs of some bands, and takes all views through them.
@@ -138,7 +158,7 @@ impl GpuDevice {
         &mut self,
         job: &CastJob,
         (fan, block): (&Fan, &FanBlock),
-        views: &[(usize, &ViewJob)],
+        listed: &[(usize, u32)],
         slice: &Slice,
     ) -> Result<wgpu::SubmissionIndex, DeviceError> {
         let context = Arc::clone(&self.context);
@@ -159,23 +179,12 @@ impl GpuDevice {
                 self.note_step(&mut encoder, job, step, groups);
             }
         }
-        let rows: BTreeSet<u32> = slice.bands.iter().map(|band| band.at).collect();
         let key = self.key(KernelRays::OfPlanes(PlaneStep::Sweep), job.needs);
         let pipeline = context.kernel(Kernel::Cast(key));
-        for arena in 0..self.pictures.arenas.len() {
-            let listing = self.listing_of_rows(arena, fan, views, &rows);
-            if listing.tiles == 0 {
-                continue;
-            }
-            listing.write(&context, &mut self.pictures.arenas[arena]);
+        for &(arena, tiles) in listed {
             let mut entries = self.entries(key, &self.pictures.arenas[arena], self.feedback_of(job.gather));
             entries.extend(self.planes.entries(PlaneStep::Sweep));
-            let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            });
-            note_pass(&mut encoder, &pipeline, &bind_group, in_rows(listing.tiles));
+            note_pass(&context.device, &mut encoder, &pipeline, &entries, in_rows(tiles));
         }
         Ok(context.submit(encoder))
     }
@@ -185,7 +194,7 @@ impl GpuDevice {
         encoder: &mut wgpu::CommandEncoder,
         job: &CastJob,
         step: PlaneStep,
-        [across, down, deep]: [u32; 3],
+        groups: [u32; 3],
     ) {
         let key = self.key(KernelRays::OfPlanes(step), job.needs);
         let pipeline = self.context.kernel(Kernel::Cast(key));
@@ -194,15 +203,7 @@ impl GpuDevice {
             _ => self.entries_of_tables(),
         };
         entries.extend(self.planes.entries(step));
-        let bind_group = self.context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
-        pass.dispatch_workgroups(across, down, deep);
+        note_pass(&self.context.device, encoder, &pipeline, &entries, groups);
     }
 
     /// The tiles of some rows, of the views whose pictures lie in an arena. All views are listed, in the order of the fan.

@@ -29,17 +29,13 @@ pub(super) fn filter_error(context: &Context, sampler: &wgpu::Sampler) -> Result
         usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     });
-    let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&atlas.view) },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(sampler) },
-            wgpu::BindGroupEntry { binding: 2, resource: found.as_entire_binding() },
-        ],
-    });
+    let entries = [
+        wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&atlas.view) },
+        wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(sampler) },
+        wgpu::BindGroupEntry { binding: 2, resource: found.as_entire_binding() },
+    ];
     let mut encoder = context.new_encoder();
-    note_pass(&mut encoder, &pipeline, &bind_group, [POINTS / 64, 1]);
+    note_pass(&context.device, &mut encoder, &pipeline, &entries, [POINTS / 64, 1, 1]);
     let mut readback = Readback::new();
     readback.begin(context, found.size());
     readback.copy(&mut encoder, &Stretch { buffer: &found, offset: 0, bytes: found.size() });

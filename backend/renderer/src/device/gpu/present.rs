@@ -40,13 +40,9 @@ impl PresentPass {
         entries.extend(
             buffers.map(|(binding, stretch)| wgpu::BindGroupEntry { binding, resource: stretch.binding() }),
         );
-        let bind_group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
         let [width, height, ..] = block.raster;
-        let groups = [width.div_ceil(TILE_EDGE * self.kernel.pixels_at_once()), height.div_ceil(TILE_EDGE)];
-        note_pass(encoder, &pipeline, &bind_group, groups);
+        let groups =
+            [width.div_ceil(TILE_EDGE * self.kernel.pixels_at_once()), height.div_ceil(TILE_EDGE), 1];
+        note_pass(&context.device, encoder, &pipeline, &entries, groups);
     }
 }
