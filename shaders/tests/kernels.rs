@@ -190,7 +190,7 @@ fn host_structs_and_wgsl_structs_agree() {
         has_cell_before,
         padding
     );
-    assert_layout!(&module, PlaneVariation, most, padding, each, value);
+    assert_layout!(&module, PlaneVariation, most, importance, padding, each, value);
     let module = parse(&PresentKernel::Finish.wgsl());
     assert_layout!(&module, PresentBlock, raster, steps, numbers, stages, black);
     let module = parse(&PresentKernel::Layers.wgsl());

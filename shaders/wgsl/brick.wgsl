@@ -129,6 +129,59 @@ fn add_parts(accumulated: ptr<function, Accumulated>, brick: Brick, ray: Ray, st
     return samples;
 }
 
+// A pair of steps, each along a straight path of its own, which is the same where light is not bent.
+struct PairOfSteps {
+    first: Ray,
+    second: Ray,
+    // Where each begins, and the length of both, metres.
+    t: vec2<f32>,
+    length: f32,
+    // The scalars before, between and behind them, and all that the pair may meet.
+    s: vec3<f32>,
+    range: vec2<f32>,
+}
+
+// The gradients in the middle of both steps, where enhancers look at them.
+struct PairGradients {
+    near: Gradients,
+    far: Gradients,
+}
+
+// What enhancers make of a pair: each step is seen by its own gradient, so the pair tells how much what is made of it varies.
+fn enhanced(plain: Pair, steps: PairOfSteps, gradients: PairGradients) -> Pair {
+    let half = 0.5 * steps.length;
+    let middle = steps.t.x + steps.length;
+    let halfway = gradients_halfway(gradients.near, gradients.far);
+    let s = steps.s;
+    var pair = plain;
+    pair.first = enhance(plain.first, steps.first, steps.t.x + half, steps.length, s.x, s.y, gradients.near);
+    pair.second = enhance(plain.second, steps.second, steps.t.y + half, steps.length, s.y, s.z, gradients.far);
+    pair.both = enhance(plain.both, steps.first, middle, 2.0 * steps.length, s.x, s.z, halfway);
+    pair.reach = enhance(plain.reach, steps.first, middle, 2.0 * steps.length, steps.range.x, steps.range.y, halfway);
+    return pair;
+}
+
+// Parts that each step of a pair has to be cut into, where a step is `length` metres long.
+fn parts_of_pair(front: Accumulated, pair: Pair, length: f32) -> f32 {
+    let parts = parts_of_step(pair, scene.quality.z * length, still_to_come(front));
+    return max(parts, parts_of_rise(front, pair.reach));
+}
+
+// Adds both steps of a pair as they are. Unless enhancers look at the gradient in the middle of each, that in the middle of the
+// pair, `near`, serves both.
+fn add_both(front: ptr<function, Accumulated>, pair: Pair, steps: PairOfSteps, gradients: PairGradients) {
+    let half = 0.5 * steps.length;
+    let thickness = scene.quality.z * steps.length;
+    let material = material_of_pair(steps.s.x, steps.s.y, steps.s.z);
+    let light = lighting(gradients.near, steps.first, material);
+    var light_beyond = light;
+    if chain_looks(steps.t.x + steps.length) {
+        light_beyond = lighting(gradients.far, steps.first, material);
+    }
+    *front = add_whole(*front, pair.first, thickness, light, steps.first, steps.t.x + half);
+    *front = add_whole(*front, pair.second, thickness, light_beyond, steps.second, steps.t.y + half);
+}
+
 // A pair of steps, each to be cut into so many parts; with one part, they have been added.
 struct CutPair {
     parts: f32,
@@ -136,42 +189,26 @@ struct CutPair {
     second: Step,
 }
 
-// Adds a pair of steps that meets nothing but scalars within `range`, each step standing for a spread, unless it has to be cut: the first along one straight
-// path, the second along another, which is the same where light is not bent.
-fn add_pair(front: ptr<function, Accumulated>, brick: Brick, ray: Ray, t0: f32, next_brick: Brick, next_ray: Ray,
-    t1: f32, step: f32, s0: f32, s1: f32, s2: f32, range: vec2<f32>, spreads: vec2<f32>) -> CutPair {
-    let thickness = scene.quality.z * step;
-    var pair = pair_of(s0, s1, s2, range, spreads);
-    let middle = t0 + step;
-    // Each step is seen by its own gradient: so the pair tells how much what is made of it varies.
-    var near = NO_GRADIENTS;
-    var far = NO_GRADIENTS;
-    var gradients = NO_GRADIENTS;
+// Adds a pair of steps, the first through one brick, the second through another or the same, each standing for a spread, unless it
+// has to be cut.
+fn add_pair(front: ptr<function, Accumulated>, brick: Brick, next_brick: Brick, steps: PairOfSteps, spreads: vec2<f32>) -> CutPair {
+    let s = steps.s;
+    var pair = pair_of(s.x, s.y, s.z, steps.range, spreads);
+    let middle = steps.t.x + steps.length;
+    var gradients = PairGradients(NO_GRADIENTS, NO_GRADIENTS);
     let enhancers_look = chain_looks(middle);
     if enhancers_look && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
-        near = gradients_at(brick, ray, t0 + 0.5 * step);
-        far = gradients_at(next_brick, next_ray, t1 + 0.5 * step);
-        gradients = gradients_halfway(near, far);
+        gradients.near = gradients_at(brick, steps.first, steps.t.x + 0.5 * steps.length);
+        gradients.far = gradients_at(next_brick, steps.second, steps.t.y + 0.5 * steps.length);
     }
-    pair.first = enhance(pair.first, ray, t0 + 0.5 * step, step, s0, s1, near);
-    pair.second = enhance(pair.second, next_ray, t1 + 0.5 * step, step, s1, s2, far);
-    pair.both = enhance(pair.both, ray, middle, 2.0 * step, s0, s2, gradients);
-    pair.reach = enhance(pair.reach, ray, middle, 2.0 * step, range.x, range.y, gradients);
-    let visible = still_to_come(*front);
-    let parts = max(parts_of_step(pair, thickness, visible), parts_of_rise(*front, pair.reach));
+    pair = enhanced(pair, steps, gradients);
+    let parts = parts_of_pair(*front, pair, steps.length);
     if parts == 1.0 {
-        // The light in the middle of the pair serves both steps, unless the gradient is known in the middle of each.
         if SHADES && !enhancers_look && max(pair.first.k.w, pair.second.k.w) > 0.0 {
-            near = gradients_at(brick, ray, middle);
+            gradients.near = gradients_at(brick, steps.first, middle);
         }
-        let material = material_of_pair(s0, s1, s2);
-        let light = lighting(near, ray, material);
-        var light_beyond = light;
-        if enhancers_look {
-            light_beyond = lighting(far, ray, material);
-        }
-        *front = add_whole(*front, pair.first, thickness, light, ray, t0 + 0.5 * step);
-        *front = add_whole(*front, pair.second, thickness, light_beyond, next_ray, t1 + 0.5 * step);
+        add_both(front, pair, steps, gradients);
     }
-    return CutPair(parts, Step(pair.first, s0, s1, t0, step), Step(pair.second, s1, s2, t1, step));
+    return CutPair(parts, Step(pair.first, s.x, s.y, steps.t.x, steps.length),
+        Step(pair.second, s.y, s.z, steps.t.y, steps.length));
 }

@@ -98,6 +98,10 @@ bindings! {
     FOUND = 41;
     /// The [`PlaneVariation`](crate::PlaneVariation)s.
     VARIATION = 42;
+    /// The most that enhancers multiply an extinction by, block by block of each band's layers.
+    FACTORS = 43;
+    /// The largest importance that each pixel of the bands has met.
+    MOST_IMPORTANT = 44;
 }
 
 #[cfg(test)]

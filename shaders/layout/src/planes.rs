@@ -89,14 +89,16 @@ impl PlaneLayer {
     }
 }
 
-/// How much (τ c, τ) vary from the lowest scalar to a border of the tables' cells.
+/// How much (τ c, τ) and importance vary from the lowest scalar to a border of the tables' cells.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct PlaneVariation {
     /// Of the channel that varies most.
     pub most: f32,
+    /// Of importance.
+    pub importance: f32,
     /// Fills 16 bytes.
-    pub padding: [f32; 3],
+    pub padding: [f32; 2],
     /// Of each.
     pub each: [f32; 4],
     /// (τ c, τ) at the border.

@@ -157,6 +157,16 @@ impl Needs {
         self.shading != Shading::Plain || self.way == Way::Refracted || self.chain.needs_gradient()
     }
 
+    /// Whether what follows a sample of a row plane goes pixel by pixel through the rays' own code: what views make of it differs.
+    pub fn is_by_pixel(&self) -> bool {
+        self.compositing != Compositing::Over
+            || self.tells_importance
+            || self.chain != Chain::EMPTY
+            || self.has_materials
+            || self.shading.has_detail()
+            || self.debug.is_some()
+    }
+
     /// Whether it reads the bricks of ancestors.
     pub fn reads_ancestors(&self) -> bool {
         self.blends || self.reads_grandparents()

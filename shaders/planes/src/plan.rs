@@ -9,6 +9,7 @@ use crate::row::MEAN_ERROR;
 use glam::{DAffine3, DVec3};
 use layout::{FanBlock, NodeRecord, PlaneLayer, PlaneVariation, TILE_EDGE};
 use needs::tables::Tables;
+use optics::Enhancer;
 use std::ops::Range;
 use twin::{Lattice, SceneNumbers};
 
@@ -17,6 +18,7 @@ use twin::{Lattice, SceneNumbers};
 pub struct Plan<'a> {
     fan: &'a Fan,
     leaves: Vec<Leaf>,
+    enhancers: &'a [Enhancer],
     volume_from_display: DAffine3,
     /// How many times closer by half than a voxel samples are.
     halvings: usize,
@@ -24,10 +26,16 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// For a scene whose index has these nodes.
-    pub fn new(scene: &SceneNumbers<f32>, nodes: &[NodeRecord], fan: &'a Fan) -> Self {
+    /// For a scene with some enhancers whose index has these nodes.
+    pub fn new(
+        scene: &SceneNumbers<f32>,
+        nodes: &[NodeRecord],
+        fan: &'a Fan,
+        enhancers: &'a [Enhancer],
+    ) -> Self {
         Self {
             fan,
+            enhancers,
             leaves: leaves(scene, nodes, fan),
             volume_from_display: volume_from_display(scene),
             halvings: halvings(scene.tolerance),
@@ -64,6 +72,26 @@ impl<'a> Plan<'a> {
         let fastest = speed(rows.start).max(speed(rows.end.saturating_sub(1)));
         let slab = |part| self.slab(&leaves, part);
         parts(&leaves, fastest).filter_map(slab).collect()
+    }
+
+    /// The most that enhancers multiply an extinction by in some rows, block by block of a layer's slab.
+    pub fn factors(&self, rows: &Range<u32>, layer: &PlaneLayer) -> Vec<f32> {
+        let ends = layer.slab_z.map(|z| self.fan.at(f64::from(z)));
+        let ends_of_rows = [rows.start, rows.end.saturating_sub(1)];
+        let first = layer.first / layer.phases as i32;
+        let factor = |block: u32| {
+            let low = first + (block * TILE_EDGE) as i32;
+            // What a cell of the last column lies in ends at the block beyond.
+            let columns = [low, low + 2 * TILE_EDGE as i32];
+            let corners: [DVec3; 8] = std::array::from_fn(|corner| {
+                let pick = |bit: usize| corner >> bit & 1;
+                let depth = &ends[pick(2)];
+                let x = self.fan.x_of(f64::from(columns[pick(0)]), depth);
+                DVec3::new(x, self.fan.y_at(ends_of_rows[pick(1)], depth), depth.z)
+            });
+            self.enhancers.iter().map(|enhancer| enhancer.most_factor(&corners)).product::<f64>() as f32
+        };
+        (0..layer.blocks()).map(factor).collect()
     }
 
     fn slab(&self, leaves: &[Leaf], Part { z: [from, to], edge, cells }: Part) -> Option<Vec<PlaneLayer>> {

@@ -85,7 +85,8 @@ impl Variation {
     pub(crate) fn entries(&self) -> Vec<PlaneVariation> {
         let entry = |cell: usize| PlaneVariation {
             most: self.most[cell],
-            padding: [0.0; 3],
+            importance: self.importance.get(cell).copied().unwrap_or(0.0),
+            padding: [0.0; 2],
             each: self.each[cell],
             value: self.values[cell],
         };

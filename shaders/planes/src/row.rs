@@ -12,7 +12,7 @@ use crate::steep::Steep;
 use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
 use lanes::{Level, Simd, dispatch};
-use needs::{Chain, Compositing, Needs, Shading, Way};
+use needs::{Compositing, Needs, Shading, Way};
 use optics::{DebugView, Enhancer};
 use twin::Casting;
 use twin::composite::Over;
@@ -76,17 +76,6 @@ impl<'a> Planes<'a> {
         }
     }
 
-    /// Whether what follows a sample goes pixel by pixel through the rays' own code, which takes about as long as rays do.
-    pub fn is_by_pixel(needs: &Needs) -> bool {
-        let &Needs { compositing, tells_importance, chain, has_materials, shading, debug, .. } = needs;
-        compositing != Compositing::Over
-            || tells_importance
-            || chain != Chain::EMPTY
-            || has_materials
-            || shading.has_detail()
-            || debug.is_some()
-    }
-
     /// Casts a row of all views into `out`: for each view RGBA, pixel by pixel.
     pub fn cast_row(&self, row: u32, scratch: &mut Scratch, out: &mut [&mut [f32]]) -> RowCast {
         dispatch!(self.level, simd => self.cast_row_on(simd, row, scratch, out))
@@ -143,7 +132,7 @@ impl<'a> Planes<'a> {
             Shading::Phong => 1,
             Shading::Plain => usize::from(needs.chain.needs_gradient()),
         };
-        let is_by_pixel = Self::is_by_pixel(needs);
+        let is_by_pixel = needs.is_by_pixel();
         let march = March {
             grid: Grid {
                 casting: self.casting,

@@ -140,14 +140,34 @@ fn shade_wgsl(needs: &Needs) -> Vec<&'static str> {
 fn planes_wgsl(step: PlaneStep, needs: &Needs) -> Vec<&'static str> {
     let spread =
         if needs.spreads { "const SPREAD_WORDS: u32 = 1u;\n" } else { "const SPREAD_WORDS: u32 = 0u;\n" };
-    let light = if needs.shading == Shading::Plain { module!("planes/unlit") } else { module!("planes/lit") };
-    let mut modules = vec![spread, light, module!("planes/kept"), module!("planes/grid")];
-    modules.extend(match step {
-        PlaneStep::Fill => [module!("planes/place"), module!("planes/fill")],
-        PlaneStep::Means => [module!("planes/place"), module!("planes/means")],
-        PlaneStep::Errors => [module!("planes/place"), module!("planes/errors")],
-        PlaneStep::Sweep => [module!("listed"), module!("planes/sweep")],
-    });
+    let gradient = match (needs.reads_gradients(), needs.shading.has_detail()) {
+        (false, _) => module!("planes/gradient/none"),
+        (true, false) => module!("planes/gradient/one"),
+        (true, true) => module!("planes/gradient/three"),
+    };
+    let mut modules = vec![spread, gradient, module!("planes/kept"), module!("planes/grid")];
+    if !needs.is_by_pixel() {
+        let is_lit = needs.shading != Shading::Plain;
+        let light = if is_lit { module!("planes/shared/lit") } else { module!("planes/shared/unlit") };
+        modules.extend([module!("planes/shared/kept"), light]);
+    }
+    match (step, needs.is_by_pixel()) {
+        (PlaneStep::Fill, _) => modules.extend([module!("planes/place"), module!("planes/fill")]),
+        (PlaneStep::Means, _) => modules.extend([module!("planes/place"), module!("planes/shared/means")]),
+        (PlaneStep::Errors, by_pixel) => {
+            let errors =
+                if by_pixel { module!("planes/alone/errors") } else { module!("planes/shared/errors") };
+            modules.extend([module!("planes/place"), module!("planes/errors"), errors]);
+        }
+        (PlaneStep::Sweep, by_pixel) => {
+            let cell = if by_pixel { module!("planes/alone/cell") } else { module!("planes/shared/cell") };
+            let front = match needs.compositing {
+                Compositing::Over => module!("planes/front/over"),
+                Compositing::Mimda(_) => module!("planes/front/importance"),
+            };
+            modules.extend([module!("listed"), front, cell, module!("planes/sweep")]);
+        }
+    }
     modules
 }
 
@@ -318,15 +338,29 @@ impl KernelKey {
         let compositing = Compositing::Mimda(MimdaForm::Consistent);
         let rich = Needs { shading: Shading::Phong, compositing, blends: true, chain, ..Needs::PLAIN };
         keys.extend([plain, Self { needs: rich, ..plain }]);
-        // Steps of row planes look at levels, spreads, gradients and the light.
+        // Steps of row planes look at levels, spreads, gradients and the light; what goes by pixel, at all the rest.
         for step in PlaneStep::ALL {
-            for (shading, levels, blends, spreads) in [
+            let mut some: Vec<Needs> = [
                 (Shading::Plain, Levels::Single, false, false),
                 (Shading::Phong, Levels::Single, false, false),
                 (Shading::Phong, Levels::Single, true, true),
                 (Shading::Phong, Levels::Quadrilinear, false, true),
-            ] {
-                let needs = Needs { shading, levels, blends, spreads, ..Needs::PLAIN };
+            ]
+            .map(|(shading, levels, blends, spreads)| Needs {
+                shading,
+                levels,
+                blends,
+                spreads,
+                ..Needs::PLAIN
+            })
+            .into();
+            if step != PlaneStep::Means {
+                some.extend(Compositing::ALL.map(|compositing| Needs { compositing, blends: false, ..rich }));
+                some.push(Needs { chain: Chain::of_kinds(&[EnhancerKind::ClipPlane]), ..Needs::PLAIN });
+                some.push(Needs { shading: Shading::Exaggerated, has_materials: true, ..Needs::PLAIN });
+                some.push(Needs { debug: Some(DebugView::Lod), ..Needs::PLAIN });
+            }
+            for needs in some {
                 let rays = KernelRays::OfPlanes(step);
                 keys.extend([Filter::Gathered, Filter::Hardware].map(|filter| Self {
                     rays,

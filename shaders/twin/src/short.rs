@@ -1,5 +1,7 @@
 //! Rays that end before what lies behind something.
 
+use super::ray::far;
+
 /// A ray of a projector that is followed no further than to its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShortRay {
@@ -10,6 +12,11 @@ pub struct ShortRay {
 }
 
 impl ShortRay {
+    /// All of a pixel's ray.
+    pub fn whole(pixel: u32) -> Self {
+        Self { pixel, end_m: far() }
+    }
+
     /// As the kernel reads it.
     pub fn words(&self) -> [u32; 2] {
         [self.pixel, self.end_m.to_bits()]

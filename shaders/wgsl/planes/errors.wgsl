@@ -1,18 +1,20 @@
-// What means err between a column and the next: how far scalars bend between samples and means between columns, what hides
-// between them, and how much the order of what a cell shows matters.
+// What is wrong between a column and the next, where what lies there is made of samples: how far scalars bend between these, and
+// what is made of them says what else.
 
-// How much (τ c, τ) vary up to each border of the tables' cells.
+// How much (τ c, τ) and importance vary up to each border of the tables' cells.
 struct PlaneVariation {
     // Of the channel that varies most.
     most: f32,
-    padding: array<f32, 3>,
+    // Of importance.
+    importance: f32,
+    padding: array<f32, 2>,
     // Of each.
     each: vec4<f32>,
     // (τ c, τ) there.
     value: vec4<f32>,
 }
 
-// What the means of each block err, at most: a code.
+// What is wrong in each block, at most: a code.
 @group(0) @binding(BINDING_ERRORS) var<storage, read_write> block_errors: array<atomic<u32>>;
 @group(0) @binding(BINDING_VARIATION) var<storage, read> variation: array<PlaneVariation>;
 
@@ -28,18 +30,19 @@ fn borders_of(low: f32, high: f32, around: f32) -> Borders {
         min(u32(min(high + around, 1.0) * f32(cells)) + 1u, cells));
 }
 
-// How much a mean over scalars from `low` to `high` changes if both are wrong by `error`.
-fn change_of(low: f32, high: f32, error: f32) -> f32 {
+// How much light changes, and what importance erases of it, if scalars within a range are wrong by `error`.
+fn spacing_error(place: PlanePlace, column: u32, low: f32, high: f32, error: f32) -> f32 {
     let borders = borders_of(low, high, error);
+    let from_border = variation[borders.low];
+    let to_border = variation[borders.high];
+    let most = thickness_of(place.layer) * factor_at(place, column) * (to_border.most - from_border.most);
     let share = 2.0 * error * f32(scene.tables.x) / f32(borders.high - borders.low);
-    return (variation[borders.high].most - variation[borders.low].most) * min(share, 1.0);
+    return max(most, scene.mimda.x * (to_border.importance - from_border.importance)) * min(share, 1.0);
 }
 
-// What goes up between two scalars and comes down again, which their own values do not tell.
-fn hidden_between(low: f32, high: f32) -> f32 {
-    let borders = borders_of(low, high, 0.0);
-    let rise = abs(variation[borders.high].value - variation[borders.low].value);
-    return 0.5 * largest(variation[borders.high].each - variation[borders.low].each - rise);
+// Whether there is a cell behind the next layer.
+fn has_cell_behind(place: PlanePlace) -> bool {
+    return plane_layers[place.band.first_layer + place.number_of_layer + 1u].has_cell != 0u;
 }
 
 // How far the middle one of three scalars is from straight between the others; 0 where not all are known.
@@ -62,30 +65,7 @@ fn four_scalars(at: u32, column: u32, width: u32) -> vec4<f32> {
     return four;
 }
 
-// How much the order of what a column shows in a cell matters, as light.
-fn disorder_in(s0: f32, s1: f32, spread: f32, thickness: f32) -> f32 {
-    if min(s0, s1) < 0.0 {
-        return 0.0;
-    }
-    let near = locate(s0);
-    let far = locate(s1);
-    let mean = sample_over(near, far, s0, s1, spread).k;
-    let a = abs(near.value * mean.w - mean * near.value.w);
-    let b = abs(mean * far.value.w - far.value * mean.w);
-    let order = max(a.x, max(a.y, a.z)) + max(b.x, max(b.y, b.z));
-    let depth = mean.w * thickness;
-    return 0.125 * order * thickness * thickness / (1.0 + depth * depth);
-}
-
-// The same of a cell and the one behind it.
-fn disorder_of_both(at: u32, behind: u32) -> f32 {
-    let a = known_mean(at);
-    let b = known_mean(behind);
-    let order = abs(a.xyz * b.w - b.xyz * a.w);
-    return max(order.x, max(order.y, order.z));
-}
-
-// The code of what means err between a column and the next.
+// The code of what is wrong between a column and the next.
 fn error_at(place: PlanePlace, column: u32) -> u32 {
     let width = place.layer.width;
     let at = kept_at(place, column);
@@ -108,8 +88,7 @@ fn error_at(place: PlanePlace, column: u32) -> u32 {
     if place.layer.has_cell_before != 0u {
         along = vec2<f32>(bend(known_scalar(at - width), front.y, back.y), bend(known_scalar(at + 1u - width), front.z, back.z));
     }
-    let has_cell_behind = plane_layers[place.band.first_layer + place.number_of_layer + 1u].has_cell != 0u;
-    if has_cell_behind {
+    if has_cell_behind(place) {
         let beyond = at + 2u * width;
         along = max(along, vec2<f32>(bend(front.y, back.y, known_scalar(beyond)), bend(front.z, back.z, known_scalar(beyond + 1u))));
     }
@@ -118,39 +97,14 @@ fn error_at(place: PlanePlace, column: u32) -> u32 {
     if is_vacant_around(vec2<f32>(lowest, highest), spread + error) {
         return EMPTY;
     }
-    // Where one side of what shows is unknown, no mean tells it.
+    // Where one side of what shows is unknown, samples do not tell it.
     if !all(are_known) {
         return code_of_error(STEEP);
     }
-    let thickness = thickness_of(place.layer);
-    if thickness * change_of(lowest, highest, error) > fan.grid.most_spacing_error {
+    if spacing_error(place, column, lowest, highest, error) > fan.grid.most_spacing_error {
         return code_of_error(STEEP);
     }
-    // How far means bend.
-    let mean = known_mean(at);
-    let next = known_mean(at + 1u);
-    var most = 0.0;
-    if column > 0u {
-        most = largest(abs(known_mean(at - 1u) - 2.0 * mean + next));
-    }
-    if column + 2u < width {
-        most = max(most, largest(abs(mean - 2.0 * next + known_mean(at + 2u))));
-    }
-    most *= 0.125;
-    // What neither of two columns shows.
-    let hidden_low = min(max(corners.x, corners.z), max(corners.y, corners.w)) + spread;
-    let hidden_high = max(min(corners.x, corners.z), min(corners.y, corners.w)) - spread;
-    if hidden_high > hidden_low {
-        most = max(most, thickness * hidden_between(hidden_low, hidden_high));
-    }
-    most = max(most, max(disorder_in(corners.x, corners.z, spread, thickness), disorder_in(corners.y, corners.w, spread, thickness)));
-    if place.layer.has_cell_before != 0u {
-        most = max(most, max(disorder_of_both(at - width, at), disorder_of_both(at + 1u - width, at + 1u)));
-    }
-    if has_cell_behind {
-        most = max(most, max(disorder_of_both(at, at + width), disorder_of_both(at + 1u, at + 1u + width)));
-    }
-    return code_of_error(most);
+    return code_of_error(error_between(place, column, corners, spread));
 }
 
 @compute @workgroup_size(PLANE_COLUMNS, 1, 1)

@@ -73,7 +73,7 @@ fn fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
                 if is_visible_at(brick, point_in(brick.own, 0.0)) {
                     scalar = scalar_at(brick, ray, 0.0);
                     keep_spread(at, brick, ray);
-                    keep_gradient(at, brick, ray);
+                    keep_gradients(at, brick, ray);
                     atomicAdd(&samples_taken, 1u);
                 }
             }

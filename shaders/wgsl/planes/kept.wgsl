@@ -1,12 +1,9 @@
-// What is kept of each column of a layer: a scalar, its spread and its gradient, and the mean of what lies between it and the
-// next layer.
+// What is kept of each column of a layer: a scalar, its spread and its gradients.
 
 @group(0) @binding(BINDING_SAMPLES) var<storage, read_write> plane_samples: array<f32>;
-@group(0) @binding(BINDING_MEANS) var<storage, read_write> plane_means: array<f32>;
 
 // Words of a sample: the scalar, then what follows.
 const SAMPLE_WORDS: u32 = 1u + SPREAD_WORDS + GRADIENT_WORDS;
-const MEAN_WORDS: u32 = 4u + GRADIENT_WORDS;
 
 fn known_scalar(at: u32) -> f32 {
     return plane_samples[SAMPLE_WORDS * at];
@@ -19,16 +16,16 @@ fn known_spread(at: u32) -> f32 {
     return plane_samples[SAMPLE_WORDS * at + SPREAD_WORDS];
 }
 
-// (τ c, τ) of a cell, lit but for the highlight.
-fn known_mean(at: u32) -> vec4<f32> {
-    let word = MEAN_WORDS * at;
-    return vec4<f32>(plane_means[word], plane_means[word + 1u], plane_means[word + 2u], plane_means[word + 3u]);
+fn gradient_word(at: u32) -> u32 {
+    return SAMPLE_WORDS * at + 1u + SPREAD_WORDS;
 }
 
-fn keep_mean(at: u32, mean: vec4<f32>) {
-    let word = MEAN_WORDS * at;
-    plane_means[word] = mean.x;
-    plane_means[word + 1u] = mean.y;
-    plane_means[word + 2u] = mean.z;
-    plane_means[word + 3u] = mean.w;
+fn known_vector(word: u32) -> vec3<f32> {
+    return vec3<f32>(plane_samples[word], plane_samples[word + 1u], plane_samples[word + 2u]);
+}
+
+fn keep_vector(word: u32, vector: vec3<f32>) {
+    plane_samples[word] = vector.x;
+    plane_samples[word + 1u] = vector.y;
+    plane_samples[word + 2u] = vector.z;
 }

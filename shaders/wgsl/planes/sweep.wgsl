@@ -1,34 +1,39 @@
-// Pixels of all views: means of cells are shifted to where each ray meets them, and what they cannot tell the ray samples itself.
+// Pixels of all views: what lies between layers is shifted to where each ray meets it, and what it cannot tell the ray samples
+// itself.
 
 @group(0) @binding(BINDING_OPEN) var<storage, read_write> open_blocks: array<atomic<u32>>;
 
 @group(0) @binding(BINDING_ERRORS) var<storage, read> block_errors: array<u32>;
 
-// What a view's pixel meets of a cell: between a column and the next, this share of the way.
+// What a view's pixel meets at a depth: between a column of a layer's and the next, this share of the way.
 struct Meeting {
     column: f32,
     part: f32,
 }
 
-fn meeting(layer: PlaneLayer, pixel: u32) -> Meeting {
-    let z = 0.5 * (layer.z.x + layer.z.y);
+fn meeting(layer: PlaneLayer, pixel: u32, z: f32) -> Meeting {
     let place = layer.phases * (f32(pixel) + 0.5 + shift_of(projector.beam.x, z)) - 0.5;
     let column = floor(place);
     return Meeting(column - f32(layer.first), place - column);
 }
 
-// What the means of a cell err, at most, where the pixels of a block meet it, the first of which is `pixel`: a code, the same for
-// all of them, so that they go on alike.
+// Whether a layer has both of the columns.
+fn is_met(layer: PlaneLayer, met: Meeting) -> bool {
+    return met.column >= 0.0 && met.column + 1.0 < f32(layer.width);
+}
+
+// What is wrong in a cell, at most, where the pixels of a block meet it, the first of which is `pixel`: a code, the same for all
+// of them, so that they go on alike.
 fn error_of_block(layer: PlaneLayer, row_at: u32, pixel: u32) -> u32 {
-    let columns = i32(columns_of_block(layer));
-    let first = i32(meeting(layer, pixel).column);
-    let last = first + columns - i32(layer.phases) + 1;
+    let columns = columns_of_block(layer);
+    let met = columns_met(layer, pixel);
+    let first = max(i32(met.x), 0);
+    let last = min(i32(met.y + f32(columns) - layer.phases) + 1, i32(layer.width) - 1);
     var code = EMPTY;
-    if first >= 0 && first < i32(layer.width) {
-        code = block_errors[row_at + layer.block_at + u32(first / columns)];
-    }
-    if last >= 0 && last < i32(layer.width) {
-        code = max(code, block_errors[row_at + layer.block_at + u32(last / columns)]);
+    if first <= last {
+        for (var block = u32(first) / columns; block <= u32(last) / columns; block++) {
+            code = max(code, block_errors[row_at + layer.block_at + block]);
+        }
     }
     return code;
 }
@@ -61,11 +66,14 @@ fn sweep(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
     let index = projector.raster.w + pixel.y * projector.raster.x + pixel.x;
     let ray = ray_of_pixel(vec2<f32>(pixel) + 0.5);
     let span = clip_to_volume(ray);
+    start_chain(ray);
+    follow_chain(ray);
+    let band_row = ((number * TILE_EDGE + local.y) * fan.grid.views + tile.view) * fan.grid.blocks;
+    let place_in_bands = band_row * TILE_EDGE + pixel.x;
     var front = nothing_accumulated();
     var count = 0u;
     if fan.grid.sweeps > 0u {
-        let known = pixels[index];
-        front = Accumulated(known.xyz, known.w);
+        front = front_at(index, place_in_bands);
         count = counts[index];
     }
     let per_depth = 1.0 / ray.direction_in_display.z;
@@ -89,28 +97,14 @@ fn sweep(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
             if layer.has_cell == 0u || code == EMPTY || from_t >= to_t {
                 continue;
             }
-            let visible = still_to_come(front);
             // Rounded up, so that neighbours seldom differ in what they go on with.
-            most_visible = exp2(ceil(log2(visible)));
-            if is_too_large(code, most_visible) {
-                stretch = vec2<f32>(from_t, to_t);
+            most_visible = exp2(ceil(log2(still_to_come(front))));
+            let span = vec2<f32>(from_t, to_t);
+            if is_too_large(code, most_visible) || !add_cell(layer, row_at + layer.at, pixel.x, ray, span, &front) {
+                stretch = span;
                 continue;
             }
-            let met = meeting(layer, pixel.x);
-            if met.column < 0.0 || met.column + 1.0 >= f32(layer.width) {
-                continue;
-            }
-            let at = row_at + layer.at + u32(met.column);
-            let mean = mix(known_mean(at), known_mean(at + 1u), met.part);
-            // Metres of the ray per metre of depth, as far as it is in the volume.
-            let length = (to_t - from_t) / (layer.z.x - layer.z.y);
-            let depth = mean.w * length;
-            if depth > 0.0 {
-                let lit = mean.xyz + mean.w * highlight_between(at, met.part, ray);
-                let share = attenuation_mean(depth) * length;
-                front = Accumulated(front.rgb + lit * (share * visible), front.alpha + mean.w * share * visible);
-                is_open = still_to_come(front) >= scene.quality.y;
-            }
+            is_open = still_to_come(front) >= scene.quality.y;
         }
         // As far as they go on to tell too little. The next slab begins where one ends, or there is nothing between the two.
         var goes_on = stretch.x < stretch.y;
@@ -131,10 +125,9 @@ fn sweep(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
             is_open = still_to_come(front) >= scene.quality.y;
         }
     }
-    pixels[index] = vec4<f32>(front.rgb, front.alpha);
+    keep_front(index, place_in_bands, front);
     counts[index] = count;
     if is_open {
-        let row = ((number * TILE_EDGE + local.y) * fan.grid.views + tile.view) * fan.grid.blocks;
-        atomicStore(&open_blocks[row + pixel.x / TILE_EDGE], fan.grid.sweeps + 1u);
+        atomicStore(&open_blocks[band_row + pixel.x / TILE_EDGE], fan.grid.sweeps + 1u);
     }
 }

@@ -64,7 +64,8 @@ fn take_pair(walk: ptr<function, Walk>, node: NodeRecord, brick: Brick, longest:
     }
     var front = (*walk).front;
     let next_ray = (*walk).bent.ray;
-    let pair = add_pair(&front, brick, ray, t0, next_brick, next_ray, t1, step, laid.s0, laid.s1, s2, range, spreads);
+    let steps = PairOfSteps(ray, next_ray, vec2<f32>(t0, t1), step, vec3<f32>(laid.s0, laid.s1, s2), range);
+    let pair = add_pair(&front, brick, next_brick, steps, spreads);
     var between = 0u;
     if pair.parts > 1.0 {
         between += add_parts(&front, brick, ray, pair.first, pair.parts);

@@ -50,7 +50,8 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         if is_vacant_around(range, max(spreads.x, spreads.y)) {
             continue;
         }
-        let pair = add_pair(&front, brick, ray, t0, brick, ray, t0 + step, step, s0, s1, s2, range, spreads);
+        let steps = PairOfSteps(ray, ray, vec2<f32>(t0, t0 + step), step, vec3<f32>(s0, s1, s2), range);
+        let pair = add_pair(&front, brick, brick, steps, spreads);
         if pair.parts > 1.0 {
             // One after the other in a loop: a driver in software runs what stands here for rays, too, that cut nothing.
             var half = pair.first;

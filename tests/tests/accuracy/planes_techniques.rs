@@ -1,7 +1,7 @@
 //! Row planes of every technique: what follows a sample is the rays' own code, and shows what the reference has.
 
 use display_config::Display;
-use lightloom_tests::compare::{self, Limits, TruePixel};
+use lightloom_tests::compare::{self, Limits};
 use lightloom_tests::draw::{self, With};
 use lightloom_tests::scenes::{self, TestScene};
 use lightloom_tests::techniques::{self, TECHNIQUES};
@@ -9,15 +9,12 @@ use optics::{Curve, DebugView, Mimda, MimdaForm};
 use protocol::{Caster, CasterChoice, DeviceChoice};
 
 const ALL: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+const ON_GPU: With = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Gpu) };
 /// One projector from the side and one near the middle.
 const COMPARED: [u32; 2] = [1, 5];
 
 fn display() -> Display {
     scenes::small_desk8(160, 120)
-}
-
-fn truth_of(display: &Display, scene: &TestScene) -> Vec<TruePixel> {
-    compare::traced(display, &scene.frame, &scene.source, &COMPARED, 4)
 }
 
 /// A base with importance accumulated in a form.
@@ -27,6 +24,10 @@ fn accumulated(base: &TestScene, name: &'static str, form: MimdaForm) -> TestSce
     scene.frame.optics.mimda = Some(Mimda { importance, gamma: 1.0, form });
     scene
 }
+
+/// Techniques that ask most of planes on a GPU: all enhancers but one with importance, another level at each sample, rises of importance.
+const HARDEST: [&str; 3] =
+    ["picker, probe and clip plane with MImDA", "detail over levels", "MImDA, as published"];
 
 /// What planes keep of a smooth field, about 1.5 times what they err: as without techniques, a scalar half-way between two samples.
 const SMOOTH: Limits = Limits::of_255(0.22, 3.0, 3.6);
@@ -42,39 +43,65 @@ fn limits_of(base: &TestScene, scene: &TestScene) -> Limits {
     }
 }
 
+/// A base with every technique but refraction.
+fn all_of(base: &TestScene) -> Vec<TestScene> {
+    let named = TECHNIQUES.iter().map(|(name, _)| techniques::with(base, name));
+    let mut all: Vec<_> = named.filter(|scene| scene.frame.optics.refraction.is_none()).collect();
+    all.push(accumulated(base, "MImDA, as published", MimdaForm::Paper));
+    all.push(accumulated(base, "MImDA, consistent", MimdaForm::Consistent));
+    all
+}
+
+/// Draws a base with techniques by planes, against the reference on every so many pixels.
+fn check(display: &Display, base: &TestScene, all: &[TestScene], stride: u32, with: With) {
+    let plain = draw::draw(display, &base.frame, &base.source, &ALL, with);
+    let mut failed = Vec::new();
+    for scene in all {
+        let truth = compare::traced(display, &scene.frame, &scene.source, &COMPARED, stride);
+        let drawn = draw::draw(display, &scene.frame, &scene.source, &ALL, with);
+        assert!(drawn.report.complete, "{}", drawn.report.shortfall);
+        assert!(matches!(drawn.report.caster, Caster::Planes { .. }), "{:?}", drawn.report.caster);
+        let found = compare::errors(&drawn.images, &truth);
+        let limits = limits_of(base, scene);
+        println!("{:10} {:40} {found}", base.name, scene.name);
+        if !limits.hold(&found) {
+            failed.push(format!("{}, {}: {found}", base.name, scene.name));
+        }
+        // The canary: without the technique it is another picture.
+        let without = compare::errors(&plain.images, &truth);
+        let name = scene.name;
+        assert!(!limits.hold(&without), "{}, {name}: the plain picture passes: {without}", base.name);
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
 #[test]
 fn planes_cast_every_technique_but_refraction() {
     let _turn = draw::turn();
     let display = display();
-    let mut failed = Vec::new();
     for base in techniques::bases(&display) {
-        let named = TECHNIQUES.iter().map(|(name, _)| techniques::with(&base, name));
-        let mut all: Vec<_> = named.filter(|scene| scene.frame.optics.refraction.is_none()).collect();
-        all.push(accumulated(&base, "MImDA, as published", MimdaForm::Paper));
-        all.push(accumulated(&base, "MImDA, consistent", MimdaForm::Consistent));
-        let plain = draw::draw(&display, &base.frame, &base.source, &ALL, With::PLANES);
-        for scene in all {
-            let truth = truth_of(&display, &scene);
-            let drawn = draw::draw(&display, &scene.frame, &scene.source, &ALL, With::PLANES);
-            assert!(drawn.report.complete, "{}", drawn.report.shortfall);
-            assert!(matches!(drawn.report.caster, Caster::Planes { .. }), "{:?}", drawn.report.caster);
-            let found = compare::errors(&drawn.images, &truth);
-            let limits = limits_of(&base, &scene);
-            println!("{:10} {:40} {found}", base.name, scene.name);
-            if !limits.hold(&found) {
-                failed.push(format!("{}, {}: {found}", base.name, scene.name));
-            }
-            // The canary: without the technique it is another picture.
-            let without = compare::errors(&plain.images, &truth);
-            assert!(
-                !limits.hold(&without),
-                "{}, {}: the plain picture passes: {without}",
-                base.name,
-                scene.name
-            );
-        }
+        check(&display, &base, &all_of(&base), 4, With::PLANES);
     }
-    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+#[test]
+fn planes_on_a_gpu_cast_every_technique_but_refraction() {
+    if !draw::has_gpu() {
+        return;
+    }
+    let _turn = draw::turn();
+    let display = scenes::small_desk8(64, 48);
+    let [smooth, real @ ..] = &techniques::bases(&display)[..] else {
+        panic!("there is always a smooth one")
+    };
+    check(&display, smooth, &all_of(smooth), 2, ON_GPU);
+    // Compiling takes a driver in software ten seconds each: of real data those that ask most.
+    for base in real {
+        let mut all = all_of(base);
+        all.retain(|scene| HARDEST.contains(&scene.name));
+        assert_eq!(all.len(), HARDEST.len());
+        check(&display, base, &all, 2, ON_GPU);
+    }
 }
 
 #[test]

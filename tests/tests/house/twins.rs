@@ -11,7 +11,7 @@ const BY_BLOCKS: &str =
     "the CPU goes through eight columns or pixels at a time, and samples closer where a GPU casts rays";
 
 /// WGSL modules whose twin has another stem, or none, with the reason.
-const ODD_TWINS: [(&str, Option<&str>, &str); 43] = [
+const ODD_TWINS: [(&str, Option<&str>, &str); 53] = [
     ("composite/plain_sample", Some("shaders/twin/src/composite/sample.rs"), "a constant in the twin"),
     ("debug/none", Some("shaders/twin/src/debug/mod.rs"), "a branch in the twin"),
     ("enhance/importance", Some("shaders/twin/src/enhance/band_picker.rs"), "one reads it, one writes it"),
@@ -41,15 +41,25 @@ const ODD_TWINS: [(&str, Option<&str>, &str); 43] = [
         "the twin has one way to sample: there is no choice to name",
     ),
     ("sample/gathered", Some("shaders/twin/src/sample.rs"), "the same numbers from other instructions"),
-    ("planes/errors", Some("shaders/planes/src/classify.rs"), BY_BLOCKS),
+    ("planes/alone/cell", Some("shaders/planes/src/pixels.rs"), BY_BLOCKS),
+    ("planes/alone/errors", Some("shaders/planes/src/need.rs"), BY_BLOCKS),
+    ("planes/errors", Some("shaders/planes/src/need.rs"), BY_BLOCKS),
     ("planes/fill", Some("shaders/planes/src/fill.rs"), BY_BLOCKS),
+    ("planes/front/importance", Some("shaders/planes/src/view_row.rs"), "a list of its own on the CPU"),
+    ("planes/front/over", Some("shaders/planes/src/view_row.rs"), "a view's row is kept on the CPU"),
+    ("planes/gradient/none", Some("shaders/planes/src/slab.rs"), "a number on the CPU"),
+    ("planes/gradient/one", Some("shaders/planes/src/slab.rs"), "a number on the CPU"),
+    ("planes/gradient/three", Some("shaders/planes/src/slab.rs"), "a number on the CPU"),
     ("planes/grid", Some("shaders/planes/src/fan.rs"), BY_BLOCKS),
     ("planes/kept", Some("shaders/planes/src/slab.rs"), BY_BLOCKS),
-    ("planes/lit", Some("shaders/planes/src/means.rs"), BY_BLOCKS),
-    ("planes/means", Some("shaders/planes/src/means.rs"), BY_BLOCKS),
     ("planes/place", Some("shaders/planes/src/blocks.rs"), BY_BLOCKS),
+    ("planes/shared/cell", Some("shaders/planes/src/sweep.rs"), BY_BLOCKS),
+    ("planes/shared/errors", Some("shaders/planes/src/classify.rs"), BY_BLOCKS),
+    ("planes/shared/kept", Some("shaders/planes/src/slab.rs"), BY_BLOCKS),
+    ("planes/shared/lit", Some("shaders/planes/src/means.rs"), BY_BLOCKS),
+    ("planes/shared/means", Some("shaders/planes/src/means.rs"), BY_BLOCKS),
+    ("planes/shared/unlit", Some("shaders/planes/src/means.rs"), "a branch on the CPU"),
     ("planes/sweep", Some("shaders/planes/src/sweep.rs"), BY_BLOCKS),
-    ("planes/unlit", Some("shaders/planes/src/means.rs"), "a branch on the CPU"),
     ("present/block", Some("shaders/layout/src/present.rs"), "the host's struct is used beyond the renderer"),
     ("present/ease", Some("backend/renderer/src/present/ease.rs"), SHOWS),
     ("present/layers", Some("backend/renderer/src/present/layers.rs"), SHOWS),

@@ -74,7 +74,7 @@ impl CpuDevice {
     }
 
     #[expect(clippy::unused_self, reason = "as other devices have it")]
-    pub(super) fn refuses_planes(&self, _needs: &Needs, _are_resampled: bool) -> Option<&'static str> {
+    pub(super) fn refuses_planes(&self, _needs: &Needs) -> Option<&'static str> {
         None
     }
 

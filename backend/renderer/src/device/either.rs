@@ -39,9 +39,9 @@ impl Device {
         on_device!(self, device => device.slots())
     }
 
-    /// Why it cannot cast row planes for a scene with these needs, on rasters of which some are resampled or none.
-    pub fn refuses_planes(&self, needs: &Needs, are_resampled: bool) -> Option<&'static str> {
-        on_device!(self, device => device.refuses_planes(needs, are_resampled))
+    /// Why it cannot cast row planes for a scene with these needs.
+    pub fn refuses_planes(&self, needs: &Needs) -> Option<&'static str> {
+        on_device!(self, device => device.refuses_planes(needs))
     }
 
     /// Whether it is the CPU.

@@ -3,9 +3,9 @@
 use super::job::{Patch, ViewJob};
 use super::{CastJob, CastOutcome};
 use crate::present::Bends;
-use planes::Fans;
+use planes::{Fans, RasterWarp};
 use rayon::prelude::*;
-use twin::{Cast, Casting, cast_pixels};
+use twin::{Cast, Casting, SceneNumbers, cast_pixels};
 
 /// The largest bend of colours from pixel to pixel that is left to resampling, in tolerances: a bend of b errs by about b/8 halfway,
 /// and by more beside an edge. Chosen so that resampling adds little to what planes err.
@@ -21,7 +21,7 @@ pub(super) fn mend(casting: &Casting<f32>, job: &CastJob, fans: &Fans, pictures:
             outcome.left[index] = view.tiles.into_owned();
             continue;
         }
-        let bends = Bends::of(&pictures[index], warp, MOST_BEND * casting.scene.tolerance);
+        let bends = bends_of(&pictures[index], warp, casting.scene);
         let cast = |tile: u32| (!(job.stop)()).then(|| mend_tile(casting, &view, &bends, tile));
         let tiles: Vec<u32> = view.tiles.iter().collect();
         let found: Vec<Option<(Patch, bool)>> = tiles.into_par_iter().map(cast).collect();
@@ -41,9 +41,19 @@ pub(super) fn mend(casting: &Casting<f32>, job: &CastJob, fans: &Fans, pictures:
     outcome
 }
 
+/// Where a picture that planes have cast bends too much to be resampled.
+pub(super) fn bends_of<'a>(picture: &[f32], warp: &'a RasterWarp, scene: &SceneNumbers<f32>) -> Bends<'a> {
+    Bends::of(picture, warp, MOST_BEND * scene.tolerance)
+}
+
+/// The pixels of a tile that take their light from there.
+pub(super) fn pixels_near(view: &ViewJob, bends: &Bends, tile: u32) -> Vec<(u32, u32)> {
+    view.pixels(tile).filter(|&(x, y)| bends.are_near(x, y)).collect()
+}
+
 /// The mended pixels of a tile, and whether one of their rays met a node that is too coarse.
 fn mend_tile(casting: &Casting<f32>, view: &ViewJob, bends: &Bends, tile: u32) -> (Patch, bool) {
-    let pixels: Vec<(u32, u32)> = view.pixels(tile).filter(|&(x, y)| bends.are_near(x, y)).collect();
+    let pixels = pixels_near(view, bends, tile);
     let casts: Vec<Cast<f32>> = cast_pixels(casting, view.rays, &pixels);
     let place = |(x, y): (u32, u32)| y * view.rays.raster[0] + x;
     let patch = pixels.iter().zip(&casts).map(|(&pixel, cast)| (place(pixel), cast.rgba)).collect();

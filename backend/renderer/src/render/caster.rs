@@ -60,7 +60,7 @@ impl CasterOfFrame {
         if spares && frame.quality.tolerance < LEAST_TOLERANCE {
             return Ok(because(TOO_EXACT));
         }
-        if spares && Planes::refusal(needs).is_none() && Planes::is_by_pixel(needs) {
+        if spares && Planes::refusal(needs).is_none() && needs.is_by_pixel() {
             return Ok(because(BY_PIXEL));
         }
         match (fans_of(device, needs, all, frame, dims), asked) {
@@ -103,7 +103,7 @@ fn fans_of(
         return Err(why);
     }
     let fans = Fans::of(all)?;
-    if let Some(why) = device.refuses_planes(needs, fans.resampled() > 0) {
+    if let Some(why) = device.refuses_planes(needs) {
         return Err(why);
     }
     let corner = |i: u32| dims * DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));

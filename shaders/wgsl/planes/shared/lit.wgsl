@@ -1,36 +1,15 @@
-// Gradients are kept with samples, and those of cells with means: the highlight depends on who looks.
+// Gradients of cells are kept with their means: the highlight depends on who looks.
 
-const GRADIENT_WORDS: u32 = 3u;
-
-// The gradient where a ray begins.
-fn keep_gradient(at: u32, brick: Brick, ray: Ray) {
-    let gradient = gradients_at(brick, ray, 0.0).at;
-    let word = SAMPLE_WORDS * at + 1u + SPREAD_WORDS;
-    plane_samples[word] = gradient.x;
-    plane_samples[word + 1u] = gradient.y;
-    plane_samples[word + 2u] = gradient.z;
-}
-
-fn known_gradient(at: u32) -> vec3<f32> {
-    let word = SAMPLE_WORDS * at + 1u + SPREAD_WORDS;
-    return vec3<f32>(plane_samples[word], plane_samples[word + 1u], plane_samples[word + 2u]);
-}
-
-// The gradient of a cell between two samples.
-fn cell_gradient(front: u32, behind: u32) -> vec3<f32> {
-    return 0.5 * (known_gradient(front) + known_gradient(behind));
-}
-
-fn keep_cell_gradient(at: u32, gradient: vec3<f32>) {
+fn keep_cell_gradient(at: u32, gradients: Gradients) {
     let word = MEAN_WORDS * at + 4u;
-    plane_means[word] = gradient.x;
-    plane_means[word + 1u] = gradient.y;
-    plane_means[word + 2u] = gradient.z;
+    plane_means[word] = gradients.at.x;
+    plane_means[word + 1u] = gradients.at.y;
+    plane_means[word + 2u] = gradients.at.z;
 }
 
 // What light makes of colours, but for the highlight: who looks makes no difference.
-fn body_of(gradient: vec3<f32>, ray: Ray) -> f32 {
-    return lighting(Gradients(gradient), ray, scene.material).body;
+fn body_of(gradients: Gradients, ray: Ray) -> f32 {
+    return lighting(gradients, ray, scene.material).body;
 }
 
 // The highlight between a cell's column and the next, as a share of the extinction.

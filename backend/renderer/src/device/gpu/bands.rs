@@ -5,10 +5,18 @@ use layout::{PlaneBand, PlaneLayer, TILE_EDGE};
 /// Slabs that are sampled at a time. A number of its own, whoever looks: where a sweep ends, so do the steps of rays.
 const SLABS: usize = 8;
 
+/// What is sampled alike of a band's planes.
+#[derive(Clone)]
+pub(super) struct BandSlab {
+    pub(super) layers: Vec<PlaneLayer>,
+    /// The most that enhancers multiply an extinction by, block by block of a layer; empty where each pixel is not alone.
+    pub(super) factors: Vec<f32>,
+}
+
 /// A row of tiles, with its slabs from the front to the back.
 pub(super) struct Band {
     pub(super) at: u32,
-    pub(super) slabs: Vec<Vec<PlaneLayer>>,
+    pub(super) slabs: Vec<BandSlab>,
 }
 
 impl Band {
@@ -19,8 +27,8 @@ impl Band {
 
     /// The most columns that are kept of it at a time.
     pub(super) fn most_columns(&self) -> usize {
-        let columns = |slabs: &[Vec<PlaneLayer>]| -> usize {
-            slabs.iter().flatten().map(|layer| layer.width as usize).sum()
+        let columns = |slabs: &[BandSlab]| -> usize {
+            slabs.iter().flat_map(|slab| &slab.layers).map(|layer| layer.width as usize).sum()
         };
         TILE_EDGE as usize * self.slabs.chunks(SLABS).map(columns).max().unwrap_or(0)
     }
@@ -31,6 +39,8 @@ impl Band {
 pub(super) struct Slice {
     pub(super) bands: Vec<PlaneBand>,
     pub(super) layers: Vec<PlaneLayer>,
+    /// Those of all its layers.
+    pub(super) factors: Vec<f32>,
     pub(super) columns: usize,
     pub(super) blocks: usize,
     /// Columns of the widest layer, and layers of the deepest band.
@@ -46,8 +56,11 @@ impl Slice {
             let slabs = band.slabs.chunks(SLABS).nth(number).unwrap_or_default();
             let first_layer = slice.layers.len() as u32;
             let [mut at, mut block_at] = [0; 2];
-            for layer in slabs.iter().flatten() {
+            for (slab, layer) in
+                slabs.iter().flat_map(|slab| slab.layers.iter().map(move |layer| (slab, layer)))
+            {
                 slice.layers.push(PlaneLayer { at, block_at, ..*layer });
+                slice.factors.extend(&slab.factors);
                 at += layer.width;
                 block_at += layer.blocks();
                 slice.widest = slice.widest.max(layer.width);
@@ -75,8 +88,9 @@ impl Slice {
 mod tests {
     use super::*;
 
-    fn slab(width: u32, layers: usize) -> Vec<PlaneLayer> {
-        vec![PlaneLayer { width, phases: 1.0, ..PlaneLayer::default() }; layers]
+    fn slab(width: u32, layers: usize) -> BandSlab {
+        let layer = PlaneLayer { width, phases: 1.0, ..PlaneLayer::default() };
+        BandSlab { layers: vec![layer; layers], factors: vec![1.0; layer.blocks() as usize] }
     }
 
     #[test]
@@ -91,6 +105,7 @@ mod tests {
         assert_eq!(places, [(0, 0), (16, 2), (32, 4), (48, 6), (64, 8), (80, 10), (104, 13)]);
         assert_eq!((slice.bands[1].first_layer, slice.bands[1].first_column), (7, 8 * 128));
         assert_eq!((slice.widest, slice.deepest), (24, 5 * SLABS as u32));
+        assert_eq!(TILE_EDGE as usize * slice.factors.len(), slice.blocks);
         assert_eq!(slice.columns, batch[0].most_columns() + batch[1].most_columns());
         // The first has nothing left.
         let slice = Slice::of(&batch, 1);

@@ -61,6 +61,11 @@ impl GpuDevice {
         self.with_scene(tables)
     }
 
+    /// What kernels read that look up there whether anything shows.
+    pub(super) fn entries_of_cells(&self) -> Vec<wgpu::BindGroupEntry<'_>> {
+        self.with_scene([(binding::TABLE_CELLS, &self.table_cells)])
+    }
+
     /// What kernels read and write that sample the volume.
     pub(super) fn entries_of_volume<'a>(
         &'a self,

@@ -53,7 +53,6 @@ impl GpuDevice {
     pub(in crate::device) fn cast(&mut self, job: &CastJob) -> Result<CastOutcome, DeviceError> {
         let context = Arc::clone(&self.context);
         let _turn = context.turn();
-        self.pictures.make_room(&context, job.first_picture, job.views.iter().map(|view| view.raster));
         self.upload_scene(job.scene, &job.needs);
         let mut encoder = context.new_encoder();
         match job.gather {
@@ -61,6 +60,10 @@ impl GpuDevice {
             Gather::Frame => self.frame_feedback.clear_stale(&mut encoder),
         }
         context.submit(encoder);
+        if let Some(sharing) = job.sharing.filter(|_| job.mends) {
+            return self.mend(job, sharing.fans);
+        }
+        self.pictures.make_room(&context, job.first_picture, job.views.iter().map(|view| view.raster));
         let views: Vec<(usize, ViewJob)> = job.view_jobs().collect();
         let sharing = job.sharing.filter(|_| job.lattice().step[0] == 1);
         // Of each view, the tiles that were cast and those that are left.
@@ -179,7 +182,7 @@ impl GpuDevice {
     }
 
     /// Brings back what a cast found: feedback, and a tally of each tile, view by view.
-    fn bring_back(
+    pub(super) fn bring_back(
         &mut self,
         job: &CastJob,
         cast: &[(usize, ViewJob)],

@@ -16,6 +16,7 @@ mod finish;
 mod kept;
 mod kernels;
 mod layers;
+mod mend;
 mod pass;
 mod pictures;
 mod pipeline_cache;

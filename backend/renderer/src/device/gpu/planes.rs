@@ -1,22 +1,22 @@
 //! Row planes on the GPU: rows of tiles of all views of a fan, slab after slab from the front to the back. What some view still
 //! sees of a slab is sampled once, and all views sweep it; what is too steep for that each ray samples itself.
 
-use super::bands::{Band, Slice};
+use super::bands::{Band, BandSlab, Slice};
 use super::cast::Listing;
 use super::device::GpuDevice;
 use super::kernels::Kernel;
 use super::pass::{in_rows, note_pass};
+use super::plane_buffers::bytes_of_column;
 use crate::device::job::ViewJob;
 use crate::device::{CastJob, CastOutcome, DeviceError, Sharing, TileList};
-use layout::{FanBlock, PLANE_COLUMNS, PlaneFound, TILE_EDGE};
-use needs::Needs;
-use planes::{Fan, Plan, Planes};
+use layout::{FanBlock, PLANE_COLUMNS, PlaneFound, PlaneLayer, TILE_EDGE};
+use needs::{Compositing, Needs};
+use optics::Enhancer;
+use planes::{Fan, Plan};
 use shaders::compose::{KernelRays, PlaneStep};
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
-/// Words that the largest buffer keeps of a column.
-const WORDS_OF_COLUMN: u64 = 7;
 /// Columns that are kept at a time, at most; of these a batch takes as many bands as fit.
 const MOST_COLUMNS: usize = 1 << 22;
 /// The same for a driver in software: a row of tiles of many views takes it seconds, and whoever asks it to leave off waits.
@@ -25,25 +25,16 @@ const MOST_COLUMNS_OF_SOFTWARE: usize = 1 << 19;
 const AT_ONCE: usize = 1;
 
 /// Storage buffers of the kernel that sweeps planes.
-const STORAGE_BUFFERS: u32 = 15;
+fn storage_buffers(needs: &Needs) -> u32 {
+    let tables = 2 * u32::from(needs.reads_importance()) + u32::from(needs.has_materials);
+    15 + tables + u32::from(needs.compositing != Compositing::Over)
+}
 
 impl GpuDevice {
-    /// Why it cannot cast them for a scene with these needs, on rasters of which some are resampled or none.
-    pub(in crate::device) fn refuses_planes(
-        &self,
-        needs: &Needs,
-        are_resampled: bool,
-    ) -> Option<&'static str> {
-        if Planes::is_by_pixel(needs) {
-            return Some(
-                "on a GPU, importance, enhancers, materials, detail and debug views need each ray alone",
-            );
-        }
-        if are_resampled {
-            return Some("the CPU alone resamples planes to calibrated rasters");
-        }
+    /// Why it cannot cast them for a scene with these needs.
+    pub(in crate::device) fn refuses_planes(&self, needs: &Needs) -> Option<&'static str> {
         let most = self.context.device.limits().max_storage_buffers_per_shader_stage;
-        (most < STORAGE_BUFFERS).then_some("the GPU binds too few storage buffers at a time")
+        (most < storage_buffers(needs)).then_some("the GPU binds too few storage buffers at a time")
     }
 
     /// Casts the tiles of some views by planes, fan by fan. Of each view, those that were cast and those that are left.
@@ -65,7 +56,7 @@ impl GpuDevice {
                 (0..views.len()).filter(|&place| fan.views.contains(&views[place].0)).collect();
             let jobs: Vec<(usize, &ViewJob)> =
                 of_fan.iter().map(|&place| (views[place].0, &views[place].1)).collect();
-            let rows = self.cast_fan(job, fan, &jobs)?;
+            let rows = self.cast_fan(job, (fan, sharing.enhancers), &jobs)?;
             for place in of_fan {
                 let view = &views[place].1;
                 for tile in view.tiles.iter() {
@@ -81,7 +72,7 @@ impl GpuDevice {
     fn cast_fan(
         &mut self,
         job: &CastJob,
-        fan: &Fan,
+        (fan, enhancers): (&Fan, &[Enhancer]),
         views: &[(usize, &ViewJob)],
     ) -> Result<BTreeSet<u32>, DeviceError> {
         let context = Arc::clone(&self.context);
@@ -89,13 +80,17 @@ impl GpuDevice {
         let rows_of_band = TILE_EDGE * lattice.step[1];
         let most = if context.is_software { MOST_COLUMNS_OF_SOFTWARE } else { MOST_COLUMNS };
         let nodes = Arc::clone(&self.records);
-        let plan = Plan::new(job.scene, &nodes, fan);
+        let plan = Plan::new(job.scene, &nodes, fan, enhancers);
         let tiles = views.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
         let asked: BTreeSet<u32> = tiles.collect();
         let band = |at: u32| {
             let above = at * rows_of_band;
             let rows = above..(above + rows_of_band).min(fan.raster[1]);
-            Band { at, slabs: plan.layers(&rows) }
+            let slab = |layers: Vec<PlaneLayer>| {
+                let front = layers.first().filter(|_| job.needs.is_by_pixel());
+                BandSlab { factors: front.map_or_else(Vec::new, |front| plan.factors(&rows, front)), layers }
+            };
+            Band { at, slabs: plan.layers(&rows).into_iter().map(slab).collect() }
         };
         let mut bands = asked.iter().map(|&at| band(at)).peekable();
         let mut under_way = VecDeque::new();
@@ -162,7 +157,7 @@ impl GpuDevice {
         slice: &Slice,
     ) -> Result<wgpu::SubmissionIndex, DeviceError> {
         let context = Arc::clone(&self.context);
-        if WORDS_OF_COLUMN * 4 * slice.columns as u64 > context.most_bound_bytes() {
+        if bytes_of_column(&job.needs) * slice.columns as u64 > context.most_bound_bytes() {
             let why =
                 "a slice of the row planes has more columns than the GPU binds at a time; take --caster rays";
             return Err(DeviceError(why.into()));
@@ -175,7 +170,9 @@ impl GpuDevice {
         let groups =
             [slice.widest.div_ceil(PLANE_COLUMNS), slice.deepest, TILE_EDGE * slice.bands.len() as u32];
         if slice.columns > 0 {
-            for step in [PlaneStep::Fill, PlaneStep::Means, PlaneStep::Errors] {
+            let steps = [PlaneStep::Fill, PlaneStep::Means, PlaneStep::Errors];
+            let has_means = !job.needs.is_by_pixel();
+            for step in steps.into_iter().filter(|&step| has_means || step != PlaneStep::Means) {
                 self.note_step(&mut encoder, job, step, groups);
             }
         }
@@ -183,7 +180,7 @@ impl GpuDevice {
         let pipeline = context.kernel(Kernel::Cast(key));
         for &(arena, tiles) in listed {
             let mut entries = self.entries(key, &self.pictures.arenas[arena], self.feedback_of(job.gather));
-            entries.extend(self.planes.entries(PlaneStep::Sweep));
+            entries.extend(self.planes.entries(PlaneStep::Sweep, &job.needs));
             note_pass(&context.device, &mut encoder, &pipeline, &entries, in_rows(tiles));
         }
         Ok(context.submit(encoder))
@@ -200,9 +197,10 @@ impl GpuDevice {
         let pipeline = self.context.kernel(Kernel::Cast(key));
         let mut entries = match step {
             PlaneStep::Fill => self.entries_of_volume(key, self.feedback_of(job.gather)),
+            PlaneStep::Errors if job.needs.is_by_pixel() => self.entries_of_cells(),
             _ => self.entries_of_tables(),
         };
-        entries.extend(self.planes.entries(step));
+        entries.extend(self.planes.entries(step, &job.needs));
         note_pass(&self.context.device, encoder, &pipeline, &entries, groups);
     }
 
