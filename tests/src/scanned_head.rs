@@ -1,11 +1,15 @@
 //! A head as a scanner gives it: 512 × 512 × 133 voxels of 16 bits.
 
 use crate::head::head;
-use crate::scenes::optics;
+use crate::scenes::{frame, optics, placed};
+use bricks::BrickSource;
 use bricks::store::{BuildOptions, CodeBits, Store};
 use bricks::volume::{ByteOrder, Element};
-use glam::{DVec3, UVec3};
-use optics::Optics;
+use display_config::Display;
+use glam::{DQuat, DVec3, UVec3};
+use optics::{Light, Optics};
+use protocol::FrameState;
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 use volumes::{ImportOptions, RawLayout, Selection, import};
 
@@ -34,6 +38,17 @@ pub fn store(folder: &Path) -> Store {
     let selection = Selection { raw: Some(layout), ..Default::default() };
     import(&raw, &selection, &out, &options, &|_, _| {}).expect("a whole file imports");
     Store::open(&out).expect("a store just built opens")
+}
+
+/// It before a display, 0.75 m wide, in the three ways that casters are compared with.
+pub fn frames(display: &Display, head: &dyn BrickSource) -> [(&'static str, FrameState); 3] {
+    let place = placed(head, 0.75, DQuat::from_rotation_x(-FRAC_PI_2));
+    [
+        ("head, semi-transparent", semi_transparent(), None),
+        ("head, opaque", opaque(), None),
+        ("head, opaque, shaded", opaque(), Some(Light::default())),
+    ]
+    .map(|(name, optics, light)| (name, frame(display, place, optics, light)))
 }
 
 /// Skin and bone that light passes through.

@@ -2,10 +2,8 @@
 
 use bricks::BrickSource;
 use display_config::Display;
-use glam::DQuat;
 use lightloom_tests::compare::{self, TruePixel};
 use lightloom_tests::{askew, scanned_head, scenes};
-use optics::Light;
 use protocol::FrameState;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -56,17 +54,8 @@ pub fn wanted(folder: &Path) -> Vec<Scene> {
 fn all(folder: &Path) -> Vec<Scene> {
     let display = display();
     let head: Arc<dyn BrickSource> = Arc::new(scanned_head::store(folder));
-    let place = scenes::placed(&*head, 0.75, DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
-    let mut all = Vec::new();
-    let (semi, opaque) = (scanned_head::semi_transparent(), scanned_head::opaque());
-    for (name, optics, light) in [
-        ("head, semi-transparent", semi, None),
-        ("head, opaque", opaque.clone(), None),
-        ("head, opaque, shaded", opaque, Some(Light::default())),
-    ] {
-        let frame = scenes::frame(&display, place, optics, light);
-        all.push((name, Arc::clone(&head), frame));
-    }
+    let of_head = scanned_head::frames(&display, &*head);
+    let mut all: Vec<_> = of_head.map(|(name, frame)| (name, Arc::clone(&head), frame)).into();
     let shells = scenes::shells(&display);
     all.push(("shells, shaded", shells.source, shells.frame));
     if let Some(cranium) = scenes::cranium(&display) {

@@ -1,6 +1,7 @@
 //! Rows of tiles that are cast together by row planes, and what is sampled of them before views sweep it.
 
 use layout::{PlaneBand, PlaneLayer, TILE_EDGE};
+use std::ops::Range;
 
 /// Slabs that are sampled at a time. A number of its own, whoever looks: where a sweep ends, so do the steps of rays.
 const SLABS: usize = 8;
@@ -13,24 +14,56 @@ pub(super) struct BandSlab {
     pub(super) factors: Vec<f32>,
 }
 
+impl BandSlab {
+    /// Columns that are kept of it.
+    fn columns(&self) -> usize {
+        TILE_EDGE as usize * self.layers.iter().map(|layer| layer.width as usize).sum::<usize>()
+    }
+}
+
 /// A row of tiles, with its slabs from the front to the back.
 pub(super) struct Band {
     pub(super) at: u32,
-    pub(super) slabs: Vec<BandSlab>,
+    slabs: Vec<BandSlab>,
+    /// Which of them each sweep takes.
+    sweeps: Vec<Range<usize>>,
 }
 
 impl Band {
+    /// Sweeps take fewer slabs than they might where more have no room in so many columns.
+    pub(super) fn new(at: u32, slabs: Vec<BandSlab>, room: usize) -> Self {
+        let mut sweeps: Vec<Range<usize>> = Vec::new();
+        let mut columns = 0;
+        for (number, slab) in slabs.iter().enumerate() {
+            let own = slab.columns();
+            match sweeps.last_mut().filter(|sweep| sweep.len() < SLABS && columns + own <= room) {
+                Some(sweep) => {
+                    sweep.end = number + 1;
+                    columns += own;
+                }
+                None => {
+                    sweeps.push(number..number + 1);
+                    columns = own;
+                }
+            }
+        }
+        Self { at, slabs, sweeps }
+    }
+
     /// How often it is swept.
     pub(super) fn sweeps(&self) -> usize {
-        self.slabs.len().div_ceil(SLABS)
+        self.sweeps.len()
+    }
+
+    /// What a sweep takes.
+    fn slabs_of(&self, sweep: usize) -> &[BandSlab] {
+        self.sweeps.get(sweep).map_or(&[], |range| &self.slabs[range.clone()])
     }
 
     /// The most columns that are kept of it at a time.
     pub(super) fn most_columns(&self) -> usize {
-        let columns = |slabs: &[BandSlab]| -> usize {
-            slabs.iter().flat_map(|slab| &slab.layers).map(|layer| layer.width as usize).sum()
-        };
-        TILE_EDGE as usize * self.slabs.chunks(SLABS).map(columns).max().unwrap_or(0)
+        let columns = |sweep| self.slabs_of(sweep).iter().map(BandSlab::columns).sum();
+        (0..self.sweeps()).map(columns).max().unwrap_or(0)
     }
 }
 
@@ -53,7 +86,7 @@ impl Slice {
     pub(super) fn of(batch: &[Band], number: usize) -> Self {
         let mut slice = Self::default();
         for band in batch {
-            let slabs = band.slabs.chunks(SLABS).nth(number).unwrap_or_default();
+            let slabs = band.slabs_of(number);
             let first_layer = slice.layers.len() as u32;
             let [mut at, mut block_at] = [0; 2];
             for (slab, layer) in
@@ -95,8 +128,8 @@ mod tests {
 
     #[test]
     fn a_slice_keeps_all_columns_of_its_bands_side_by_side() {
-        let wide = Band { at: 3, slabs: vec![slab(16, 5), slab(24, 2)] };
-        let deep = Band { at: 7, slabs: (0..SLABS + 1).map(|_| slab(8, 5)).collect() };
+        let wide = Band::new(3, vec![slab(16, 5), slab(24, 2)], usize::MAX);
+        let deep = Band::new(7, (0..SLABS + 1).map(|_| slab(8, 5)).collect(), usize::MAX);
         assert_eq!((wide.sweeps(), deep.sweeps()), (1, 2));
         assert_eq!((wide.most_columns(), deep.most_columns()), (8 * (5 * 16 + 2 * 24), 8 * 5 * 8 * SLABS));
         let batch = [wide, deep];
@@ -110,5 +143,19 @@ mod tests {
         // The first has nothing left.
         let slice = Slice::of(&batch, 1);
         assert_eq!((slice.bands[0].layers, slice.bands[1].layers, slice.columns), (0, 5, 8 * 5 * 8));
+    }
+
+    #[test]
+    fn sweeps_take_as_many_slabs_as_have_room() {
+        let slabs = || (0..20).map(|_| slab(8, 5)).collect::<Vec<_>>();
+        let own = slabs()[0].columns();
+        let tight = Band::new(0, slabs(), 3 * own + own / 2);
+        assert_eq!((tight.sweeps(), tight.most_columns()), (7, 3 * own));
+        assert_eq!(tight.slabs_of(6).len(), 2);
+        let wide = Band::new(0, slabs(), 100 * own);
+        assert_eq!((wide.sweeps(), wide.most_columns()), (3, SLABS * own));
+        // One that has no room by itself is taken alone: whoever makes room for it says so.
+        let single = Band::new(0, slabs(), own / 2);
+        assert_eq!((single.sweeps(), single.most_columns()), (20, own));
     }
 }

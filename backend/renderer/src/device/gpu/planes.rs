@@ -78,7 +78,8 @@ impl GpuDevice {
         let context = Arc::clone(&self.context);
         let lattice = job.lattice();
         let rows_of_band = TILE_EDGE * lattice.step[1];
-        let most = if context.is_software { MOST_COLUMNS_OF_SOFTWARE } else { MOST_COLUMNS };
+        let room = (context.most_bound_bytes() / bytes_of_column(&job.needs)) as usize;
+        let most = if context.is_software { MOST_COLUMNS_OF_SOFTWARE } else { MOST_COLUMNS }.min(room);
         let nodes = Arc::clone(&self.records);
         let plan = Plan::new(job.scene, &nodes, fan, enhancers);
         let tiles = views.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
@@ -90,7 +91,7 @@ impl GpuDevice {
                 let front = layers.first().filter(|_| job.needs.is_by_pixel());
                 BandSlab { factors: front.map_or_else(Vec::new, |front| plan.factors(&rows, front)), layers }
             };
-            Band { at, slabs: plan.layers(&rows).into_iter().map(slab).collect() }
+            Band::new(at, plan.layers(&rows).into_iter().map(slab).collect(), room)
         };
         let mut bands = asked.iter().map(|&at| band(at)).peekable();
         let mut under_way = VecDeque::new();
@@ -159,7 +160,7 @@ impl GpuDevice {
         let context = Arc::clone(&self.context);
         if bytes_of_column(&job.needs) * slice.columns as u64 > context.most_bound_bytes() {
             let why =
-                "a slice of the row planes has more columns than the GPU binds at a time; take --caster rays";
+                "a slab of the row planes has more columns than the GPU binds at a time; take --caster rays";
             return Err(DeviceError(why.into()));
         }
         self.planes.prepare(&context, &job.needs, (fan, block), slice);
