@@ -13,14 +13,11 @@ var<workgroup> missing: array<atomic<u32>, 2>;
 // One tile per invocation: the samples of its rays, and whether any of them met a node that is too coarse.
 fn tally(tile: ListedTile, place: u32) {
     projector = views[tile.view];
-    let across = projector.raster.z;
-    let corner = vec2<u32>(tile.number % across, tile.number / across) * TILE_EDGE;
     var all = 0u;
     for (var i = 0u; i < TILE_EDGE * TILE_EDGE; i++) {
-        let in_tiles = corner + vec2<u32>(i % TILE_EDGE, i / TILE_EDGE);
-        let pixel = in_tiles * projector.lattice.xy + projector.lattice.zw;
-        if pixel.x < projector.raster.x && pixel.y < projector.raster.y {
-            let count = counts[projector.raster.w + pixel.y * projector.raster.x + pixel.x];
+        let pixel = pixel_of(tile, vec2<u32>(i % TILE_EDGE, i / TILE_EDGE));
+        if is_in_raster(pixel) {
+            let count = counts[index_of(pixel)];
             all += count & ~MISSING;
             if (count & MISSING) != 0u {
                 atomicOr(&missing[place / 32u], 1u << (place % 32u));

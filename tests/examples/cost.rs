@@ -5,8 +5,8 @@
 //! cargo run --release -p lightloom-tests --example cost
 //! ```
 //!
-//! The head is drawn on some rows of `holo72` by one thread, once and twice in runs of their own: the difference is what a complete
-//! frame costs whose bricks are all there. Valgrind has to be installed. `--draw STORE SCENE CASTER VIEWS FRAMES` is what it runs.
+//! The head is drawn on some rows of `holo72` by one thread, in two runs of which one draws more frames: the difference is what complete
+//! frames cost whose bricks are all there. Valgrind has to be installed. `--draw STORE SCENE CASTER VIEWS FRAMES` is what it runs.
 
 use bricks::BrickSource;
 use bricks::store::Store;
@@ -27,8 +27,9 @@ const CACHES: [&str; 3] = ["--I1=32768,8,64", "--D1=32768,8,64", "--LL=1048576,1
 const TIMED: usize = 5;
 /// Views whose sharing of planes is told from what each of them adds.
 const VIEWS: [u32; 2] = [72, 24];
-/// Views that are drawn ray by ray.
+/// Views that are drawn ray by ray, and how often, so that as many rays are counted as by planes.
 const RAY_VIEWS: u32 = 3;
+const RAY_FRAMES: usize = 24;
 
 /// What was counted, event by event.
 #[derive(Clone, Copy, Debug)]
@@ -123,7 +124,9 @@ impl Drawing<'_> {
 
     /// What a frame costs whose bricks are all there.
     fn cost(&self) -> Result<Counts, String> {
-        Ok(self.counted(2)?.map_both(self.counted(1)?, |two, one| two - one))
+        let frames = if self.caster == "planes" { 1 } else { RAY_FRAMES };
+        let each = |all: f64, first: f64| (all - first) / frames as f64;
+        Ok(self.counted(1 + frames)?.map_both(self.counted(1)?, each))
     }
 
     /// Seconds of such a frame.

@@ -52,18 +52,17 @@ fn sweep(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
     }
     let tile = tile_at(place);
     projector = views[tile.view];
-    let across = projector.raster.z;
-    let row_of_tiles = tile.number / across;
+    let row_of_tiles = tile.number / projector.raster.z;
     var number = 0u;
     while number + 1u < fan.grid.bands && bands[number].at != row_of_tiles {
         number++;
     }
     let band = bands[number];
-    let pixel = vec2<u32>(tile.number % across * TILE_EDGE + local.x, row_of(band, local.y));
-    if pixel.x >= projector.raster.x || pixel.y >= projector.raster.y {
+    let pixel = pixel_of(tile, local.xy);
+    if !is_in_raster(pixel) {
         return;
     }
-    let index = projector.raster.w + pixel.y * projector.raster.x + pixel.x;
+    let index = index_of(pixel);
     let ray = ray_of_pixel(vec2<f32>(pixel) + 0.5);
     let span = clip_to_volume(ray);
     start_chain(ray);

@@ -193,6 +193,11 @@ impl CastJob<'_> {
 }
 
 impl ViewJob<'_> {
+    /// The row of tiles that each of its tiles is in.
+    pub(super) fn rows_of_tiles(&self) -> impl Iterator<Item = u32> {
+        self.tiles.iter().map(|tile| tile / self.grid.across)
+    }
+
     /// Rays that it casts.
     #[cfg(feature = "gpu")]
     pub(super) fn ray_count(&self) -> u64 {

@@ -36,8 +36,7 @@ fn cast_fan(
 ) {
     let [width, height] = fan.raster;
     let jobs: Vec<_> = job.view_jobs().filter(|(index, _)| fan.views.contains(index)).collect();
-    let tiles = jobs.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
-    let asked: BTreeSet<u32> = tiles.collect();
+    let asked: BTreeSet<u32> = jobs.iter().flat_map(|(_, view)| view.rows_of_tiles()).collect();
     let planes = Planes::new(casting, fan, enhancers);
     let (step, first) = (job.lattice().step[1], job.lattice().first[1]);
     let of_fan = pictures.iter_mut().enumerate().filter(|(index, _)| fan.views.contains(index));

@@ -82,8 +82,7 @@ impl GpuDevice {
         let most = if context.is_software { MOST_COLUMNS_OF_SOFTWARE } else { MOST_COLUMNS }.min(room);
         let nodes = Arc::clone(&self.records);
         let plan = Plan::new(job.scene, &nodes, fan, enhancers);
-        let tiles = views.iter().flat_map(|(_, view)| view.tiles.iter().map(|tile| tile / view.grid.across));
-        let asked: BTreeSet<u32> = tiles.collect();
+        let asked: BTreeSet<u32> = views.iter().flat_map(|(_, view)| view.rows_of_tiles()).collect();
         let band = |at: u32| {
             let above = at * rows_of_band;
             let rows = above..(above + rows_of_band).min(fan.raster[1]);
