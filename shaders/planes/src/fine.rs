@@ -145,14 +145,15 @@ fn straight_between<S: Simd>(simd: S, list: &[[f32; 4]], scalars: f32x8<S>) -> [
 #[inline(always)]
 fn place_of<S: Simd>(simd: S, scalars: f32x8<S>) -> ([usize; LANES], f32x8<S>) {
     let u = scalars * splat(simd, CELLS as f32);
-    let u = u.min(splat(simd, CELLS as f32 - 0.5)).max(splat(simd, 0.0));
-    let whole: i32x8<S> = u.to_int();
+    let u = u.min(splat(simd, CELLS as f32)).max(splat(simd, 0.0));
+    let low = u.floor().min(splat(simd, CELLS as f32 - 1.0));
+    let whole: i32x8<S> = low.to_int();
     let whole = whole.to_array();
     let mut entries = [0; LANES];
     for lane in 0..LANES {
         entries[lane] = (whole[lane] as usize).min(CELLS - 1);
     }
-    (entries, u - u.floor())
+    (entries, u - low)
 }
 
 /// Eight rows of four, as four columns of eight.
@@ -176,4 +177,42 @@ pub(crate) fn mean_between<S: Simd>(simd: S, a: &Looked<S>, b: &Looked<S>, apart
         let quotient = ((b.integral[c] - a.integral[c]) * per).max(splat(simd, 0.0));
         is_close.select(half * (a.value[c] + b.value[c]), quotient)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lanes::{Level, dispatch};
+    use needs::Needs;
+    use optics::{Curve, Optics};
+    use twin::tables::Located;
+
+    /// At both ends of the domain nothing is lost of what the tables have there: short of the last entry, a narrow mean was dark.
+    #[test]
+    fn means_at_both_ends_are_those_of_the_tables() {
+        let extinction = Curve::new(vec![(0.0, 0.4), (0.2, 0.0), (0.8, 0.0), (1.0, 0.3)]).unwrap();
+        let tables = Tables::new(&Optics::grey(extinction), &Needs::PLAIN);
+        let fine = FineTable::of(&tables);
+        let truth = |from: f32, to: f32| -> f32 {
+            let [a, b]: [Located<f32>; 2] = [from, to].map(|s| locate(&tables, s));
+            optics_between(&tables, &a, &b)[3]
+        };
+        for (from, to) in
+            [(1.0, 1.0), (0.999, 1.0), (0.9994, 1.0), (1.0, 0.95), (0.0, 0.0), (0.0006, 0.0), (0.0, 0.1)]
+        {
+            let level = Level::new();
+            let expected = truth(from, to);
+            let found = dispatch!(level, simd => {
+                let ends = [splat(simd, from), splat(simd, to)];
+                let [a, b] = [fine.look_up(simd, ends[0]), fine.look_up(simd, ends[1])];
+                let [a, b] = if from < to { [a, b] } else { [b, a] };
+                let apart = (ends[1] - ends[0]).abs();
+                [mean_between(simd, &a, &b, apart)[3].to_array()[0], fine.mean_around(simd, ends, splat(simd, 0.0))[3].to_array()[0]]
+            });
+            let [between, around] = found.map(|found| (found - expected).abs() / expected);
+            assert!(between < 2e-3, "{from} to {to}: {found:?}, not {expected}");
+            // Over as many scalars at least as two entries have, some of them beyond the end.
+            assert!(around < 6e-3, "{from} to {to}: {found:?}, not {expected}");
+        }
+    }
 }
