@@ -38,8 +38,10 @@ pub struct With {
 }
 
 impl With {
-    /// Row planes, at the defaults of the device that has them.
+    /// Row planes, at the defaults of the device that `auto` takes them on.
     pub const PLANES: Self = Self { caster: CasterChoice::Planes, ..Self::device(DeviceChoice::Cpu) };
+    /// The same on a GPU.
+    pub const PLANES_ON_GPU: Self = Self { caster: CasterChoice::Planes, ..Self::device(DeviceChoice::Gpu) };
 
     /// A device at its defaults.
     pub const fn device(device: DeviceChoice) -> Self {

@@ -5,18 +5,17 @@ use display_config::Display;
 use lightloom_tests::compare::{Errors, errors, truth};
 use lightloom_tests::draw::{self, Drawn, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
-use protocol::{Caster, CasterChoice, DeviceChoice, FrameState};
+use protocol::{Caster, DeviceChoice, FrameState};
 
 const PROJECTORS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 const COMPARED: [u32; 2] = [0, 5];
-const ON_GPU: With = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Gpu) };
 
 fn display() -> Display {
     scenes::small_desk8(64, 48)
 }
 
 fn drawn(display: &Display, scene: &TestScene, frame: &FrameState, projectors: &[u32]) -> Drawn {
-    let drawn = draw(display, frame, &scene.source, projectors, ON_GPU);
+    let drawn = draw(display, frame, &scene.source, projectors, With::PLANES_ON_GPU);
     let views = projectors.len() as u32;
     assert_eq!(drawn.report.caster, Caster::Planes { views, fans: 1, resampled: 0 });
     assert!(drawn.report.complete, "{}", drawn.report.shortfall);

@@ -6,12 +6,11 @@ use lightloom_tests::askew;
 use lightloom_tests::compare::{Errors, errors, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
-use protocol::{Caster, CasterChoice, DeviceChoice};
+use protocol::{Caster, CasterChoice};
 
 const ALL: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 const COMPARED: [u32; 2] = [4, 5];
 const SEED: u64 = 7;
-const ON_GPU: With = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Gpu) };
 
 fn calibrated() -> Display {
     askew::calibrated(scenes::small_desk8(160, 120), SEED)
@@ -97,19 +96,20 @@ fn calibrated_projectors_keep_it_on_a_gpu_too() {
     let display = askew::calibrated(even.clone(), SEED);
     let rows = askew::in_rows(even, &[0.0, 10.0, 0.0]);
     for (scene, limits) in promised(&display) {
-        let (found, caster) = drawn(&display, &scene, ON_GPU);
+        let (found, caster) = drawn(&display, &scene, With::PLANES_ON_GPU);
         println!("{:20} {found}", scene.name);
         assert_eq!(caster, Caster::Planes { views: 8, fans: 1, resampled: 8 });
         assert!(limits.hold(&found), "{}: {found}", scene.name);
         // The canary: pictures for projectors that are not calibrated.
-        let (level, caster) = drawn(&rows, &scene, ON_GPU);
+        let (level, caster) = drawn(&rows, &scene, With::PLANES_ON_GPU);
         assert_eq!(caster, Caster::Planes { views: 8, fans: 2, resampled: 0 });
         assert!(limits.hold(&level), "{}: {level}", scene.name);
         let truth = truth(&display, &scene.frame, &scene.source, &COMPARED, 3);
-        let spoiled = errors(&draw(&rows, &scene.frame, &scene.source, &ALL, ON_GPU).images, &truth);
+        let spoiled =
+            errors(&draw(&rows, &scene.frame, &scene.source, &ALL, With::PLANES_ON_GPU).images, &truth);
         assert!(!limits.hold(&spoiled), "{}: {spoiled}", scene.name);
     }
-    a_view_is_the_same_whoever_draws_the_others(&display, ON_GPU);
+    a_view_is_the_same_whoever_draws_the_others(&display, With::PLANES_ON_GPU);
 }
 
 #[test]

@@ -9,7 +9,6 @@ use optics::{Curve, DebugView, Mimda, MimdaForm};
 use protocol::{Caster, CasterChoice, DeviceChoice};
 
 const ALL: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
-const ON_GPU: With = With { caster: CasterChoice::Planes, ..With::device(DeviceChoice::Gpu) };
 /// One projector from the side and one near the middle.
 const COMPARED: [u32; 2] = [1, 5];
 
@@ -94,13 +93,13 @@ fn planes_on_a_gpu_cast_every_technique_but_refraction() {
     let [smooth, real @ ..] = &techniques::bases(&display)[..] else {
         panic!("there is always a smooth one")
     };
-    check(&display, smooth, &all_of(smooth), 2, ON_GPU);
+    check(&display, smooth, &all_of(smooth), 2, With::PLANES_ON_GPU);
     // Compiling takes a driver in software ten seconds each: of real data those that ask most.
     for base in real {
         let mut all = all_of(base);
         all.retain(|scene| HARDEST.contains(&scene.name));
         assert_eq!(all.len(), HARDEST.len());
-        check(&display, base, &all, 2, ON_GPU);
+        check(&display, base, &all, 2, With::PLANES_ON_GPU);
     }
 }
 

@@ -7,7 +7,6 @@ use std::ops::Range;
 const SLABS: usize = 8;
 
 /// What is sampled alike of a band's planes.
-#[derive(Clone)]
 pub(super) struct BandSlab {
     pub(super) layers: Vec<PlaneLayer>,
     /// The most that enhancers multiply an extinction by, block by block of a layer; empty where each pixel is not alone.
@@ -86,17 +85,16 @@ impl Slice {
     pub(super) fn of(batch: &[Band], number: usize) -> Self {
         let mut slice = Self::default();
         for band in batch {
-            let slabs = band.slabs_of(number);
             let first_layer = slice.layers.len() as u32;
             let [mut at, mut block_at] = [0; 2];
-            for (slab, layer) in
-                slabs.iter().flat_map(|slab| slab.layers.iter().map(move |layer| (slab, layer)))
-            {
-                slice.layers.push(PlaneLayer { at, block_at, ..*layer });
-                slice.factors.extend(&slab.factors);
-                at += layer.width;
-                block_at += layer.blocks();
-                slice.widest = slice.widest.max(layer.width);
+            for slab in band.slabs_of(number) {
+                for layer in &slab.layers {
+                    slice.layers.push(PlaneLayer { at, block_at, ..*layer });
+                    slice.factors.extend(&slab.factors);
+                    at += layer.width;
+                    block_at += layer.blocks();
+                    slice.widest = slice.widest.max(layer.width);
+                }
             }
             let layers = slice.layers.len() as u32 - first_layer;
             slice.bands.push(PlaneBand {

@@ -2,7 +2,7 @@
 
 use super::cast_short::AT_A_TIME;
 use super::device::GpuDevice;
-use crate::device::job::{Patch, ViewJob};
+use crate::device::job::ViewJob;
 use crate::device::mend::{bends_of, pixels_near};
 use crate::device::{CastJob, CastOutcome, DeviceError, DevicePicture, ShortView};
 use crate::present::Bends;
@@ -54,8 +54,7 @@ impl GpuDevice {
             let list = ShortView { rays: view.rays, short };
             let (colours, counts) =
                 self.cast_listed(job.needs, &[(&list, 0..list.short.len())], job.gather)?;
-            let patch: Patch = list.short.iter().map(|ray| ray.pixel).zip(colours).collect();
-            outcome.mended[index].extend(patch);
+            outcome.mended[index].extend(list.short.iter().map(|ray| ray.pixel).zip(colours));
             let mut counts = counts.as_slice();
             for (tile, rays) in of_tiles {
                 let own = counts.split_off(..rays).expect("each ray has one");
