@@ -42,6 +42,12 @@ impl Classing<'_> {
         let across = slab.blocks_across();
         for block in wanted.iter() {
             for cell in 0..slab.cells() {
+                let at = cell * across + block;
+                // Something may show between samples that show nothing.
+                if slab.apart[at] > 1.0 {
+                    slab.errors[at] = 0.0;
+                    slab.shown.insert(block);
+                }
                 let Some(range) = range_of(simd, slab, cell, block) else { continue };
                 if is_vacant_around(&self.steep.casting.tables.cells, (range.low, range.high), range.spread) {
                     continue;
@@ -55,8 +61,8 @@ impl Classing<'_> {
                 };
                 let bend = share * self.steep.roughness.bend(reach.0, reach.1, range.apart);
                 let is_sure = bend * self.thickness <= SURE * self.tolerance;
-                slab.errors[cell * across + block] = 0.0;
-                slab.is_sure[cell * across + block] = is_sure;
+                slab.errors[at] = 0.0;
+                slab.is_sure[at] = is_sure;
                 slab.shown.insert(block);
             }
         }
@@ -79,7 +85,7 @@ impl Classing<'_> {
             }
             for cell in 0..slab.cells().saturating_sub(1) {
                 let both = [cell * across + block, (cell + 1) * across + block];
-                if slab.errors[both[0]] != EMPTY && slab.errors[both[1]] != EMPTY {
+                if both.into_iter().all(|at| slab.errors[at] != EMPTY) {
                     let disorder = disorder_of_both(simd, slab, cell, block);
                     for at in both {
                         slab.errors[at] = slab.errors[at].max(disorder);

@@ -6,6 +6,18 @@
 //! shifted by a constant ([`Fan`]). So the volume is sampled once for all views ([`Slab`]), and each view only shifts
 //! and composites, eight pixels at a time.
 
+/// An expression as a function of its own, with the instructions of these lanes: what would otherwise be compiled anew wherever
+/// it is called from. It stands in a function that is never inlined.
+macro_rules! outlined {
+    ($simd:ident => $value:expr) => {
+        $simd.vectorize(
+            #[inline(always)]
+            || $value,
+        )
+    };
+}
+
+mod alone;
 mod blocks;
 mod classify;
 mod fan;
@@ -16,9 +28,11 @@ mod gradients;
 mod leaves;
 mod march;
 mod means;
+mod near;
 mod need;
 mod parts;
 mod pixels;
+mod places;
 mod plan;
 mod raster;
 mod rough;

@@ -1,16 +1,19 @@
 //! A row's plane, from the front to the back: how far apart samples lie in each part of it, and what every view adds of them.
 
+use crate::alone::HALFWAY_ERROR;
 use crate::blocks::Blocks;
 use crate::classify::Classing;
 use crate::fill::{Grid, Span};
 use crate::gradients::gradients_every;
 use crate::leaves::{Leaf, extent};
-use crate::need::{Judge, SPACINGS};
+use crate::near::Near;
+use crate::need::{Judge, SPACINGS, spacing_for};
 use crate::parts::{Part, parts, phases_of};
+use crate::places::Places;
 use crate::rough::Variation;
 use crate::slab::{Keeps, Slab};
 use crate::steep::Steep;
-use crate::sweep::{Places, Sweep};
+use crate::sweep::Sweep;
 use crate::view_row::ViewRow;
 use lanes::Simd;
 use twin::kernel::Kernel;
@@ -57,6 +60,8 @@ pub(crate) struct March<'a> {
     pub(crate) gamma: f32,
     /// Whether each pixel goes through the rays' own code.
     pub(crate) is_by_pixel: bool,
+    /// Whether rays sample for themselves what is too steep; otherwise, and for smaller tolerances, the plane is sampled closer there.
+    pub(crate) is_alone: bool,
     /// The largest error of a cell's light that distances between samples may make, and that means may.
     pub(crate) tolerances: [f32; 2],
 }
@@ -133,9 +138,8 @@ impl March<'_> {
             thickness: extinction * step as f32,
             gamma: self.gamma,
             tolerance: self.tolerances[0],
-            least: self.keeps.halvings,
         };
-        judge.find(simd, slab, &room.wanted, &mut room.bends, &mut room.need);
+        judge.find(simd, slab, &room.wanted, &mut room.bends, &mut room.need[0]);
         if room.need[0].is_empty() {
             return;
         }
@@ -145,11 +149,17 @@ impl March<'_> {
                 self.grid.find_ends(view, state);
             }
         }
+        let near = self.is_alone.then(|| Near::of(&self.grid, &room.near, slab));
+        if near.is_some() {
+            room.need[1..].iter_mut().for_each(|blocks| blocks.clear(0));
+        } else {
+            spread_need(slab, self.keeps.halvings, &mut room.need);
+        }
         for spacing in 0..SPACINGS {
             if room.need[spacing].is_empty() {
                 break;
             }
-            self.add_spacing::<S, K>(simd, (part, spacing), views, room, cast);
+            self.add_spacing::<S, K>(simd, (part, spacing), near.as_ref(), views, room, cast);
         }
     }
 
@@ -159,6 +169,7 @@ impl March<'_> {
         &self,
         simd: S,
         (part, spacing): (Part, usize),
+        off_grid: Option<&Near>,
         views: &mut [ViewRow],
         room: &mut Room,
         cast: &mut RowCast,
@@ -221,8 +232,13 @@ impl March<'_> {
                         steep: self.steep,
                         tolerance,
                         is_by_pixel: self.is_by_pixel,
+                        near: off_grid,
+                        lines: fan.lines(view),
+                        is_fine: self.steep.is_fine(0.0, 1.0, thickness),
+                        halfway_tolerance: self.grid.casting.scene.tolerance * HALFWAY_ERROR,
                     };
                     sweep.add(simd, state, pixels, places);
+                    cast.samples += std::mem::take(&mut places.samples);
                 }
             }
         }
@@ -259,6 +275,17 @@ impl March<'_> {
                 cast.is_missing |= node.deficit > 0.0;
             }
         }
+    }
+}
+
+/// Which blocks need at least each spacing but the first, of which all need the `least`, where views share all samples.
+fn spread_need(slab: &Slab, least: usize, need: &mut [Blocks; SPACINGS]) {
+    let across = slab.blocks_across();
+    let [showing, closer @ ..] = need;
+    closer.iter_mut().for_each(|blocks| blocks.clear(across));
+    for block in showing.iter() {
+        let apart = (0..slab.cells()).map(|cell| slab.apart[cell * across + block]).fold(0.0, f32::max);
+        closer.iter_mut().take(spacing_for(apart, 1.0).max(least)).for_each(|blocks| blocks.insert(block));
     }
 }
 

@@ -28,8 +28,8 @@ pub(crate) fn halvings(tolerance: f32) -> usize {
 }
 
 /// The spacing at which so large an error of light at the widest one is within a tolerance of it.
-fn spacing_for(error: f32, tolerance: f32) -> usize {
-    let mut left = error.min(1.0);
+pub(crate) fn spacing_for(error: f32, tolerance: f32) -> usize {
+    let mut left = error;
     let mut spacing = 0;
     while left > tolerance && spacing + 1 < SPACINGS {
         left *= LEFT_AT_HALF;
@@ -40,7 +40,7 @@ fn spacing_for(error: f32, tolerance: f32) -> usize {
 
 /// Samples that a row's plane has of a voxel, where those a voxel apart err by so much light, and at a scene's step tolerance.
 pub fn samples_per_voxel(error: f32, tolerance: f32) -> u64 {
-    let spacing = spacing_for(error, tolerance * SPACING_ERROR).max(halvings(tolerance));
+    let spacing = spacing_for(error.min(1.0), tolerance * SPACING_ERROR).max(halvings(tolerance));
     1 << (2 * spacing)
 }
 
@@ -54,28 +54,30 @@ pub(crate) struct Judge<'a> {
     pub(crate) gamma: f32,
     /// The largest error of a cell's light.
     pub(crate) tolerance: f32,
-    /// The widest spacing that the tolerance allows.
-    pub(crate) least: usize,
 }
 
 impl Judge<'_> {
-    /// Which of the `wanted` blocks show anything, and which need at least each spacing but the first.
+    /// The errors that distances between samples make in each cell of the `wanted` blocks, and which blocks show anything.
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         &self,
         simd: S,
-        slab: &Slab,
+        slab: &mut Slab,
         wanted: &Blocks,
         bends: &mut Vec<f32>,
-        need: &mut [Blocks; SPACINGS],
+        showing: &mut Blocks,
     ) {
-        for blocks in need.iter_mut() {
-            blocks.clear(slab.blocks_across());
-        }
+        let across = slab.blocks_across();
+        showing.clear(across);
         for block in wanted.iter() {
-            if let Some(error) = self.error_of(simd, slab, block, bends) {
-                for blocks in &mut need[..=self.spacing(error)] {
-                    blocks.insert(block);
+            let most_bend = find_bends(simd, slab, block, bends);
+            let reach = [most_bend, most_spread(slab, block)];
+            slab.reaches[block] = most_bend;
+            let thickness = self.thickness * self.most_factor(slab, block);
+            for cell in 0..slab.cells() {
+                if let Some(error) = self.error_of(simd, slab, (cell, block), bends, reach, thickness) {
+                    showing.insert(block);
+                    slab.apart[cell * across + block] = error.min(1.0) / self.tolerance;
                 }
             }
         }
@@ -97,67 +99,65 @@ impl Judge<'_> {
         enhancers.iter().map(|enhancer| enhancer.most_factor(&corners)).product::<f64>() as f32
     }
 
-    /// The spacing that keeps an error at the widest one small enough.
-    fn spacing(&self, error: f32) -> usize {
-        spacing_for(error, self.tolerance).max(self.least)
-    }
-
-    /// The largest error of light that scalars half-way between a block's samples make. None if nothing shows.
+    /// The largest error of light that scalars half-way between a cell's samples make. None if nothing shows.
     #[inline(always)]
-    fn error_of<S: Simd>(&self, simd: S, slab: &Slab, block: usize, bends: &mut Vec<f32>) -> Option<f32> {
-        let most_bend = find_bends(simd, slab, block, bends);
-        let most_spread = most_spread(slab, block);
+    fn error_of<S: Simd>(
+        &self,
+        simd: S,
+        slab: &Slab,
+        (cell, block): (usize, usize),
+        bends: &[f32],
+        [most_bend, most_spread]: [f32; 2],
+        thickness: f32,
+    ) -> Option<f32> {
         let mut worst: Option<f32> = None;
         let tables = self.grid.casting.tables;
-        let thickness = self.thickness * self.most_factor(slab, block);
         let per = thickness / self.tolerance;
-        for cell in 0..slab.cells() {
-            for phase in 0..slab.phases {
-                let [front, back] = [cell, cell + 1].map(|depth| (depth * slab.phases + phase) * LANES);
-                let corners = [
-                    column(simd, slab, (cell, phase, block), 0),
-                    column(simd, slab, (cell, phase, block), 1),
-                    column(simd, slab, (cell + 1, phase, block), 0),
-                    column(simd, slab, (cell + 1, phase, block), 1),
-                ];
-                let mut low = splat(simd, f32::MAX);
-                let mut high = splat(simd, f32::MIN);
-                for corner in corners {
-                    low = corner.simd_lt(low).select(corner, low);
-                    high = corner.simd_gt(high).select(corner, high);
-                }
-                let (lowest, highest) = (least(low), greatest(simd, high));
-                let (low, high) = (low.to_array(), high.to_array());
-                let reach = most_bend + most_spread;
-                if lowest > highest || is_vacant_around(&tables.cells, (lowest, highest), reach) {
+        for phase in 0..slab.phases {
+            let [front, back] = [cell, cell + 1].map(|depth| (depth * slab.phases + phase) * LANES);
+            let corners = [
+                column(simd, slab, (cell, phase, block), 0),
+                column(simd, slab, (cell, phase, block), 1),
+                column(simd, slab, (cell + 1, phase, block), 0),
+                column(simd, slab, (cell + 1, phase, block), 1),
+            ];
+            let mut low = splat(simd, f32::MAX);
+            let mut high = splat(simd, f32::MIN);
+            for corner in corners {
+                low = corner.simd_lt(low).select(corner, low);
+                high = corner.simd_gt(high).select(corner, high);
+            }
+            let (lowest, highest) = (least(low), greatest(simd, high));
+            let (low, high) = (low.to_array(), high.to_array());
+            let reach = most_bend + most_spread;
+            if lowest > highest || is_vacant_around(&tables.cells, (lowest, highest), reach) {
+                continue;
+            }
+            let mut found = worst.unwrap_or(0.0);
+            let rise = self.gamma * self.variation.total_importance(lowest, highest, reach);
+            if self.variation.total(lowest, highest, reach) * per <= 0.5 && rise <= 0.5 * self.tolerance {
+                worst = Some(found);
+                continue;
+            }
+            let twist = ((corners[3] - corners[2]) - (corners[1] - corners[0])).abs();
+            let bent = load(simd, bends, front).max(load(simd, bends, back));
+            let twist = twist.simd_eq(twist).select(twist, splat(simd, 0.0));
+            let error = (splat(simd, 0.125) * (bent + twist)).to_array();
+            for lane in 0..LANES {
+                if low[lane] > high[lane] {
                     continue;
                 }
-                let mut found = worst.unwrap_or(0.0);
-                let rise = self.gamma * self.variation.total_importance(lowest, highest, reach);
-                if self.variation.total(lowest, highest, reach) * per <= 0.5 && rise <= 0.5 * self.tolerance {
-                    worst = Some(found);
+                let spread = error[lane] + most_spread;
+                if is_vacant_around(&tables.cells, (low[lane], high[lane]), spread) {
                     continue;
                 }
-                let twist = ((corners[3] - corners[2]) - (corners[1] - corners[0])).abs();
-                let bent = load(simd, bends, front).max(load(simd, bends, back));
-                let twist = twist.simd_eq(twist).select(twist, splat(simd, 0.0));
-                let error = (splat(simd, 0.125) * (bent + twist)).to_array();
-                for lane in 0..LANES {
-                    if low[lane] > high[lane] {
-                        continue;
-                    }
-                    let spread = error[lane] + most_spread;
-                    if is_vacant_around(&tables.cells, (low[lane], high[lane]), spread) {
-                        continue;
-                    }
-                    let change = self.variation.change(low[lane], high[lane], error[lane]);
-                    found = found.max(thickness * change);
-                    if self.gamma > 0.0 {
-                        let rise = self.variation.change_of_importance(low[lane], high[lane], error[lane]);
-                        found = found.max(self.gamma * rise);
-                    }
-                    worst = Some(found);
+                let change = self.variation.change(low[lane], high[lane], error[lane]);
+                found = found.max(thickness * change);
+                if self.gamma > 0.0 {
+                    let rise = self.variation.change_of_importance(low[lane], high[lane], error[lane]);
+                    found = found.max(self.gamma * rise);
                 }
+                worst = Some(found);
             }
         }
         worst

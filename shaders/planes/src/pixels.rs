@@ -1,7 +1,8 @@
 //! Pixels whose scalars go through the rays' own code: importance, enhancers, materials, detail and debug views.
 
+use crate::places::{Place, Places};
 use crate::slab::{EMPTY, LANES};
-use crate::sweep::{Place, Places, Sweep};
+use crate::sweep::Sweep;
 use crate::view_row::ViewRow;
 use lanes::*;
 use twin::composite::Accumulated;

@@ -157,6 +157,8 @@ impl<'a> Planes<'a> {
             },
             gamma: if needs.compositing == Compositing::Over { 0.0 } else { scene.gamma },
             is_by_pixel,
+            is_alone: !(is_by_pixel || needs.blends || needs.reads_grandparents())
+                && halvings(scene.tolerance) == 0,
             tolerances: [SPACING_ERROR, MEAN_ERROR].map(|error| scene.tolerance * error),
         };
         march.run::<S, K>(simd, leaves, views, room)

@@ -51,6 +51,10 @@ pub struct Slab {
     pub(crate) errors: Vec<f32>,
     /// Likewise, whether those between columns are known to be small.
     pub(crate) is_sure: Vec<bool>,
+    /// Likewise, the error of light that distances between samples make, as a share of what it may be.
+    pub(crate) apart: Vec<f32>,
+    /// Block by block, more than what scalars between samples are off by.
+    pub(crate) reaches: Vec<f32>,
     /// Blocks that show anything.
     pub(crate) shown: Blocks,
     /// Whether part of it lies outside the volume.
@@ -137,6 +141,10 @@ impl Slab {
         self.errors.resize(cells * across, EMPTY);
         self.is_sure.clear();
         self.is_sure.resize(cells * across, false);
+        self.apart.clear();
+        self.apart.resize(cells * across, 0.0);
+        self.reaches.clear();
+        self.reaches.resize(across, 0.0);
         self.shown.clear(across);
     }
 

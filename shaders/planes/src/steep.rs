@@ -18,8 +18,6 @@ const FINE_ENOUGH: f32 = 10.0;
 #[derive(Clone, Copy)]
 pub(crate) struct Cell<S: Simd> {
     pub(crate) scalars: [f32x8<S>; 2],
-    /// Half-width of the scalars that each stands for; None where all stand for themselves.
-    pub(crate) spread: Option<f32x8<S>>,
     /// Optical depth where the table says 1; 0 for rays that meet nothing.
     pub(crate) thickness: f32x8<S>,
     /// Along each axis at both ends, where light falls.
@@ -28,7 +26,7 @@ pub(crate) struct Cell<S: Simd> {
 
 /// What light makes of colours: τ c · body + τ · highlight.
 #[derive(Clone, Copy)]
-struct Light<S: Simd> {
+pub(crate) struct Light<S: Simd> {
     body: f32x8<S>,
     highlight: f32x8<S>,
 }
@@ -60,58 +58,61 @@ impl Steep<'_> {
         error * thickness <= FINE_ENOUGH * self.tolerance
     }
 
-    /// Adds a cell, the light on which falls along `halfway` (toward the light, less the ray's direction; a unit vector).
-    /// The scalars' looks are those of its front; returned are those of its back.
-    #[inline(always)]
+    /// Adds a cell whose scalars look up `front` and `back`; the light on it falls along `halfway` (toward the light, less the
+    /// ray's direction; a unit vector).
+    #[inline(never)]
     pub(crate) fn add<S: Simd>(
         &self,
         simd: S,
         pixels: &mut Pixels<S>,
         cell: &Cell<S>,
-        front: Option<Looked<S>>,
+        ends: [&Looked<S>; 2],
         halfway: [f32x8<S>; 3],
-    ) -> Option<Looked<S>> {
-        if let Some(spread) = cell.spread {
-            self.add_spread(simd, pixels, cell, spread, halfway);
-            return None;
-        }
+    ) {
+        outlined!(simd => self.add_here(simd, pixels, cell, ends, halfway))
+    }
+
+    #[inline(always)]
+    fn add_here<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        cell: &Cell<S>,
+        [front, back]: [&Looked<S>; 2],
+        halfway: [f32x8<S>; 3],
+    ) {
         let [s0, s1] = cell.scalars;
         let half = splat(simd, 0.5);
-        let front = match front {
-            Some(front) => front,
-            None => self.fine.look_up(simd, s0),
-        };
-        let back = self.fine.look_up(simd, s1);
-        let whole = mean_between(simd, &front, &back, s1 - s0);
+        let whole = mean_between(simd, front, back, s1 - s0);
         if !whole[3].simd_gt(splat(simd, 0.0)).any_true() {
-            return Some(back);
+            return;
         }
         let ends = [front.value, whole, back.value];
         if self.is_one(simd, ends, cell.thickness, pixels[3]) {
             composite(simd, pixels, whole, cell.thickness, self.light_halfway(simd, cell.gradient, halfway));
-            return Some(back);
+            return;
         }
         let apart = half * (s1 - s0);
         let middle = self.fine.look_up(simd, s0 + apart);
-        let a = mean_between(simd, &front, &middle, apart);
-        let b = mean_between(simd, &middle, &back, apart);
+        let a = mean_between(simd, front, &middle, apart);
+        let b = mean_between(simd, &middle, back, apart);
         let lights = self.lights(simd, cell.gradient, halfway);
         let thickness = half * cell.thickness;
         let parts = self.parts(simd, (a, b), thickness, pixels[3]);
         if parts <= 1.0 {
             composite(simd, pixels, a, thickness, lights[0]);
             composite(simd, pixels, b, thickness, lights[1]);
-            return Some(back);
+            return;
         }
         let count = 2 * parts as u32;
         let share = 1.0 / count as f32;
         let part = (s1 - s0) * splat(simd, share);
         let thickness = cell.thickness * splat(simd, share);
-        let mut from = front;
+        let mut from = *front;
         for j in 1..=count {
             let to = match j {
                 _ if 2 * j == count => middle,
-                _ if j == count => back,
+                _ if j == count => *back,
                 _ => self.fine.look_up(simd, s0 + part * splat(simd, j as f32)),
             };
             let light = lights[usize::from(2 * j > count)];
@@ -121,12 +122,23 @@ impl Steep<'_> {
             }
             from = to;
         }
-        Some(back)
     }
 
-    /// The same where scalars stand for others around them.
+    /// The same where scalars stand for others within a `spread` of them.
+    #[inline(never)]
+    pub(crate) fn add_spread<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        cell: &Cell<S>,
+        spread: f32x8<S>,
+        halfway: [f32x8<S>; 3],
+    ) {
+        outlined!(simd => self.add_spread_here(simd, pixels, cell, spread, halfway));
+    }
+
     #[inline(always)]
-    fn add_spread<S: Simd>(
+    fn add_spread_here<S: Simd>(
         &self,
         simd: S,
         pixels: &mut Pixels<S>,
@@ -172,7 +184,7 @@ impl Steep<'_> {
     /// Whether a cell may be composited at once: whether the order of what it shows in front, in the mean and behind matters to
     /// none of its rays.
     #[inline(always)]
-    fn is_one<S: Simd>(
+    pub(crate) fn is_one<S: Simd>(
         &self,
         simd: S,
         ends: [[f32x8<S>; 4]; 3],
@@ -197,7 +209,7 @@ impl Steep<'_> {
 
     /// Parts of half a cell that the order of what it shows asks for, the most of all eight.
     #[inline(always)]
-    fn parts<S: Simd>(
+    pub(crate) fn parts<S: Simd>(
         &self,
         simd: S,
         (a, b): ([f32x8<S>; 4], [f32x8<S>; 4]),
@@ -239,7 +251,12 @@ impl Steep<'_> {
 
     /// See `twin::shade::Phong`.
     #[inline(always)]
-    fn light<S: Simd>(&self, simd: S, gradient: [f32x8<S>; 3], halfway: [f32x8<S>; 3]) -> Light<S> {
+    pub(crate) fn light<S: Simd>(
+        &self,
+        simd: S,
+        gradient: [f32x8<S>; 3],
+        halfway: [f32x8<S>; 3],
+    ) -> Light<S> {
         let direction = self.direction(simd, gradient);
         Light {
             body: self.body_of(simd, gradient, direction),
@@ -327,7 +344,7 @@ fn dot<S: Simd>(a: [f32x8<S>; 3], b: [f32x8<S>; 3]) -> f32x8<S> {
 }
 
 #[inline(always)]
-fn composite<S: Simd>(
+pub(crate) fn composite<S: Simd>(
     simd: S,
     pixels: &mut Pixels<S>,
     k: [f32x8<S>; 4],

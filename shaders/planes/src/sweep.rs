@@ -3,44 +3,15 @@
 use crate::Fan;
 use crate::blocks::Blocks;
 use crate::fine::Looked;
+use crate::near::Near;
+use crate::need::spacing_for;
+use crate::places::{Place, Places};
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
 use crate::steep::{Cell, Pixels, Steep, middle_of, range};
 use crate::thick;
 use crate::view_row::ViewRow;
 use lanes::*;
 use twin::tables::is_vacant_around;
-
-/// Where a view's pixels meet the columns at one depth: between two columns, the same share of each for all of them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    /// The phases of both.
-    phases: [usize; 2],
-    /// Entry of pixel 0, and by how much the second column's is further.
-    pub(crate) entry: i64,
-    further: usize,
-    /// The second column's share.
-    part: f32,
-}
-
-impl Place {
-    #[inline(always)]
-    fn new(slab: &Slab, shift: f64) -> Self {
-        let phases = slab.phases as f64;
-        let place = phases * (0.5 + shift) - 0.5;
-        let column = place.floor();
-        // A whole number of columns, and so never on the edge between two.
-        let entry = ((column + 0.5) / phases).floor();
-        let phase = (column - entry * phases) as usize;
-        let further = usize::from(phase + 1 == slab.phases);
-        let next = if further == 1 { 0 } else { phase + 1 };
-        Self {
-            phases: [phase, next],
-            entry: entry as i64 - slab.base,
-            further,
-            part: (place - column) as f32,
-        }
-    }
-}
 
 /// One row of one view.
 pub(crate) struct Sweep<'a> {
@@ -55,13 +26,14 @@ pub(crate) struct Sweep<'a> {
     pub(crate) tolerance: f32,
     /// Whether each pixel goes through the rays' own code.
     pub(crate) is_by_pixel: bool,
-}
-
-/// Places of all cells' middles, and of all depths.
-#[derive(Debug, Default)]
-pub(crate) struct Places {
-    pub(crate) middles: Vec<Place>,
-    pub(crate) depths: Vec<Place>,
+    /// What the volume holds off the grid; None where nothing may be asked for there.
+    pub(crate) near: Option<&'a Near<'a>>,
+    /// See [`Fan::lines`].
+    pub(crate) lines: [[f64; 2]; 2],
+    /// Whether the fine table tells all that lies between any scalars.
+    pub(crate) is_fine: bool,
+    /// The largest error that scalars half-way through a segment may make.
+    pub(crate) halfway_tolerance: f32,
 }
 
 /// What lies between two columns, for eight pixels.
@@ -69,18 +41,6 @@ pub(crate) struct Places {
 fn between<S: Simd>(simd: S, list: &[f32], starts: [usize; 2], part: f32x8<S>) -> f32x8<S> {
     let (a, b) = (load(simd, list, starts[0]), load(simd, list, starts[1]));
     a + (b - a) * part
-}
-
-impl Places {
-    #[inline(always)]
-    fn find(&mut self, slab: &Slab, fan: &Fan, view: usize) {
-        for (list, depths) in [(&mut self.middles, &slab.middles), (&mut self.depths, &slab.depths)] {
-            list.clear();
-            for depth in depths {
-                list.push(Place::new(slab, fan.shift(view, depth)));
-            }
-        }
-    }
 }
 
 /// What eight pixels meet of a cell's means.
@@ -101,8 +61,13 @@ impl<S: Simd> Met<'_, S> {
 
 impl Sweep<'_> {
     /// Adds what the slab shows to some blocks of a view's row, which all meet something.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn add<S: Simd>(&self, simd: S, view: &mut ViewRow, pixels: &Blocks, places: &mut Places) {
+        outlined!(simd => self.add_here(simd, view, pixels, places))
+    }
+
+    #[inline(always)]
+    fn add_here<S: Simd>(&self, simd: S, view: &mut ViewRow, pixels: &Blocks, places: &mut Places) {
         if pixels.is_empty() {
             return;
         }
@@ -121,7 +86,7 @@ impl Sweep<'_> {
 
     /// Whether none of its pixels sees any farther.
     #[inline(always)]
-    fn add_block<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &Places, block: usize) -> bool {
+    fn add_block<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &mut Places, block: usize) -> bool {
         let slab = self.slab;
         let at = block * LANES;
         let mut rgb = each!(c of 3 => load(simd, &view.rgba[c], at));
@@ -132,6 +97,7 @@ impl Sweep<'_> {
         let across = slab.blocks_across();
         // What the scalars at a depth look up, from the cell in front of it.
         let mut known = None;
+        let mut known_alone = None;
         for cell in 0..slab.cells() {
             let place = &places.middles[cell];
             let entry = place.entry + at as i64;
@@ -140,11 +106,28 @@ impl Sweep<'_> {
             }
             let entry = entry as usize;
             let first = cell * across + entry / LANES;
-            let error = slab.errors[first].max(slab.errors[(first + 1).min(slab.errors.len() - 1)]);
+            let next = (first + 1).min(slab.errors.len() - 1);
+            let error = slab.errors[first].max(slab.errors[next]);
             if error == EMPTY {
                 continue;
             }
             // What lies behind something shows less of it.
+            let apart = slab.apart[first].max(slab.apart[next]);
+            if apart > 1.0 && self.near.is_some() && apart * largest(one - alpha) > 1.0 {
+                let spacing = spacing_for(apart * largest(one - alpha), 1.0);
+                let front = match known_alone {
+                    Some((behind, front)) if behind == cell => Some(front),
+                    Some(_) | None => None,
+                };
+                let mut pixels = [rgb[0], rgb[1], rgb[2], alpha];
+                let met = (cell, at, spacing, slab.reaches[first % across].max(slab.reaches[next % across]));
+                known_alone = self.add_alone(simd, &mut pixels, view, places, met, front);
+                [rgb[0], rgb[1], rgb[2], alpha] = pixels;
+                if self.steep.are_closed(simd, alpha) {
+                    break;
+                }
+                continue;
+            }
             if error > self.tolerance && error * largest(one - alpha) > self.tolerance {
                 let looks = match known {
                     Some((behind, looks)) if behind == cell => Some(looks),
@@ -262,7 +245,6 @@ impl Sweep<'_> {
         let lowest = f32x8::splat(simd, low);
         let cell_met = Cell {
             scalars: [is_met.select(scalars[0], lowest), is_met.select(scalars[1], lowest)],
-            spread: if widest > 0.0 { spread } else { None },
             thickness: is_met.select(thickness, zero),
             gradient,
         };
@@ -271,20 +253,40 @@ impl Sweep<'_> {
         } else {
             each!(axis of 3 => load(simd, &view.halfway[axis], at))
         };
+        if widest > 0.0
+            && let Some(spread) = spread
+        {
+            self.steep.add_spread(simd, pixels, &cell_met, spread, halfway);
+            return None;
+        }
         // What is looked up for rays that meet nothing is not theirs.
         let is_whole = is_met.all_true();
         let looks = if is_whole { looks } else { None };
-        let back = self.steep.add(simd, pixels, &cell_met, looks, halfway);
-        match back {
-            Some(back) if is_whole => Some((cell + 1, back)),
-            Some(_) | None => None,
-        }
+        let front = match looks {
+            Some(looks) => looks,
+            None => self.steep.fine.look_up(simd, cell_met.scalars[0]),
+        };
+        let back = self.steep.fine.look_up(simd, cell_met.scalars[1]);
+        self.steep.add(simd, pixels, &cell_met, [&front, &back], halfway);
+        is_whole.then_some((cell + 1, back))
     }
 
     /// The share of a cell within which rays are in the volume.
     #[inline(always)]
     fn share_inside<S: Simd>(&self, simd: S, view: &ViewRow, cell: usize, at: usize) -> f32x8<S> {
-        let [front, back] = [self.slab.depths[cell].z as f32, self.slab.depths[cell + 1].z as f32];
+        self.share_between(simd, view, [self.slab.depths[cell].z, self.slab.depths[cell + 1].z], at)
+    }
+
+    /// The same between two depths.
+    #[inline(always)]
+    pub(crate) fn share_between<S: Simd>(
+        &self,
+        simd: S,
+        view: &ViewRow,
+        ends: [f64; 2],
+        at: usize,
+    ) -> f32x8<S> {
+        let [front, back] = ends.map(|z| z as f32);
         let enter = load(simd, &view.ends[0], at).min(splat(simd, front));
         let leave = load(simd, &view.ends[1], at).max(splat(simd, back));
         ((enter - leave) * splat(simd, 1.0 / (front - back))).max(splat(simd, 0.0))
@@ -310,7 +312,7 @@ impl Sweep<'_> {
 
     /// Adds a cell pixel by pixel, by the whole table.
     #[inline(always)]
-    fn add_each<S: Simd>(
+    pub(crate) fn add_each<S: Simd>(
         &self,
         simd: S,
         pixels: &mut Pixels<S>,

@@ -12,14 +12,14 @@ const PROMISE: Limits = Limits::of_255(0.52, 9.3, 15.0);
 
 fn limits_of(name: &str) -> Limits {
     match name {
-        // Opaque skins a hundredth of a voxel thick and thinner, of which eight samples a voxel are the most there are: where the
-        // scalar turns between two of them a pixel shows the skin or what lies behind. So up to 14 pixels may be wholly wrong.
-        "a spike of 1 per voxel" => Limits::of_255(0.27, 5.1, 39.0),
+        // Opaque skins a hundredth of a voxel thick and thinner, of which few samples a voxel are taken: where the scalar turns
+        // between two of them a pixel shows the skin or what lies behind. So up to 14 pixels may be wholly wrong.
+        "a spike of 1 per voxel" => Limits::of_255(0.11, 3.0, 5.2),
         "a spike of 1e3 per voxel" => Limits::of_255(2.2, 1.4, f64::INFINITY),
         "a spike of 1e6 per voxel" => Limits::of_255(2.4, 1.5, f64::INFINITY),
-        "a narrow spike of 1e2 per voxel" => Limits::of_255(0.76, 6.4, 124.0),
-        "a narrow spike of 1e4 per voxel" => Limits::of_255(1.1, 4.4, 203.0),
-        "up to 1e4 per voxel" => Limits::of_255(0.19, 2.9, 19.1),
+        "a narrow spike of 1e2 per voxel" => Limits::of_255(0.36, 2.6, 58.0),
+        "a narrow spike of 1e4 per voxel" => Limits::of_255(1.1, 2.8, 203.0),
+        "up to 1e4 per voxel" => Limits::of_255(0.28, 4.8, 19.1),
         // On the outline of the jump, and where the scalar turns just below the peak, a pixel loses what lies before it or nothing.
         "importance that jumps" => Limits::of_255(0.8, 0.7, 149.0),
         "importance that jumps, gamma 1" => Limits::of_255(1.0, 0.7, 187.0),
