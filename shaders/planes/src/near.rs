@@ -115,7 +115,7 @@ impl<'a> Near<'a> {
                 if near.level.has_deviations() {
                     samples.spreads = is_new.select(self.spreads(simd, near, points), samples.spreads);
                 }
-                samples.known = samples.known | is_new;
+                samples.known |= is_new;
                 if samples.known.all_true() {
                     break;
                 }
@@ -149,7 +149,7 @@ impl<'a> Near<'a> {
             if is_new.any_true() {
                 let found = gradients_in(simd, &near.level, texels);
                 gradients = each!(axis of 3 => is_new.select(found[axis], gradients[axis]));
-                known = known | is_new;
+                known |= is_new;
                 if known.all_true() {
                     break;
                 }
