@@ -12,7 +12,7 @@ use std::cell::Cell as Count;
 use twin::tables::is_vacant_around;
 
 /// The largest error of a segment's light that scalars half-way make, in tolerances; half a segment errs a quarter of it.
-pub(crate) const HALFWAY_ERROR: f32 = 30.0;
+const HALFWAY_ERROR: f32 = 30.0;
 
 /// Halvings of a cell that nothing less is asked of than the most that its samples are known to need.
 const UNASKED: usize = 2;
@@ -77,31 +77,14 @@ impl Sweep<'_> {
         pixels: &mut Pixels<S>,
         view: &ViewRow,
         places: &mut Places,
-        met: (usize, usize, usize, f32),
-        front: Option<End<S>>,
-    ) -> Option<(usize, End<S>)> {
-        outlined!(simd => self.add_alone_here(simd, pixels, view, places, met, front))
-    }
-
-    #[inline(always)]
-    fn add_alone_here<S: Simd>(
-        &self,
-        simd: S,
-        pixels: &mut Pixels<S>,
-        view: &ViewRow,
-        places: &mut Places,
         (cell, at, spacing, reach): (usize, usize, usize, f32),
         front: Option<End<S>>,
     ) -> Option<(usize, End<S>)> {
+        outlined!(simd => {
         let near = self.near?;
         if places.leaves_of != Some(at) {
             places.find_leaves(near, at);
         }
-        let halfway = if self.slab.gradient_rows > 0 {
-            each!(axis of 3 => load(simd, &view.halfway[axis], at))
-        } else {
-            [splat(simd, 0.0); 3]
-        };
         let crossing = Crossing {
             sweep: self,
             near,
@@ -110,21 +93,21 @@ impl Sweep<'_> {
             at,
             z: [self.slab.depths[cell].z, self.slab.depths[cell + 1].z],
             thickness: splat(simd, self.thickness) * load(simd, &view.lengths, at),
-            halfway,
+            halfway: self.halfway(simd, view, at),
             most: spacing,
             samples: Count::new(0),
         };
-        let least = spacing.saturating_sub(UNASKED);
+        let halvings = spacing.saturating_sub(UNASKED);
         let mut front = match front {
             Some(front) => front,
-            None => crossing.end_here(simd, 0.0),
+            None => crossing.end(simd, 0.0),
         };
-        let parts = 1usize << least;
+        let parts = 1usize << halvings;
         for part in 0..parts {
             let share = [part, part + 1].map(|part| part as f64 / parts as f64);
-            let mut back = crossing.end_here(simd, share[1]);
+            let mut back = crossing.end(simd, share[1]);
             if !crossing.is_vacant(simd, [&front, &back], reach) {
-                crossing.add(simd, pixels, [&mut front, &mut back], share, least);
+                crossing.add(simd, pixels, [&mut front, &mut back], share, halvings);
             }
             front = back;
             if self.steep.are_closed(simd, pixels[3]) {
@@ -134,6 +117,7 @@ impl Sweep<'_> {
         let samples = crossing.samples.get();
         places.samples += u64::from(samples) * LANES as u64;
         Some((cell + 1, front))
+        })
     }
 }
 
@@ -145,21 +129,26 @@ impl<S: Simd> Crossing<'_, '_, S> {
         let (most, zero) = (splat(simd, f32::MAX), splat(simd, 0.0));
         let low = front.known.select(front.scalars, most).min(back.known.select(back.scalars, most));
         let high = front.known.select(front.scalars, zero).max(back.known.select(back.scalars, zero));
-        let ends = (lowest(low), highest(high));
-        let reach = reach + highest(front.spreads.max(back.spreads));
+        let ends = (least(low), largest(high));
+        let reach = reach + largest(front.spreads.max(back.spreads));
         ends.0 > ends.1 || is_vacant_around(&self.sweep.steep.casting.tables.cells, ends, reach)
     }
 
     /// What lies a share of the way through the cell.
     #[inline(always)]
-    fn end_here(&self, simd: S, share: f64) -> End<S> {
+    fn end(&self, simd: S, share: f64) -> End<S> {
         self.samples.set(self.samples.get() + 1);
         End { samples: self.near.samples(simd, self.points(simd, share), self.leaves), looked: None }
     }
 
     #[inline(always)]
+    fn z_at(&self, share: f64) -> f64 {
+        self.z[0] + (self.z[1] - self.z[0]) * share
+    }
+
+    #[inline(always)]
     fn points(&self, simd: S, share: f64) -> Points<S> {
-        let z = self.z[0] + (self.z[1] - self.z[0]) * share;
+        let z = self.z_at(share);
         let [first, each] = self.sweep.lines;
         let each = each[0] + each[1] * z;
         let x = first[0] + first[1] * z + each * self.at as f64;
@@ -168,12 +157,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
 
     /// Adds a segment, after so many halvings of the cell; by halves where what lies half-way makes too much of a difference.
     #[inline(never)]
-    fn add(&self, simd: S, pixels: &mut Pixels<S>, ends: [&mut End<S>; 2], share: [f64; 2], halvings: usize) {
-        outlined!(simd => self.add_here(simd, pixels, ends, share, halvings))
-    }
-
-    #[inline(always)]
-    fn add_here(
+    fn add(
         &self,
         simd: S,
         pixels: &mut Pixels<S>,
@@ -181,10 +165,11 @@ impl<S: Simd> Crossing<'_, '_, S> {
         [from, to]: [f64; 2],
         halvings: usize,
     ) {
+        outlined!(simd => {
         let (sweep, steep) = (self.sweep, &self.sweep.steep);
         let (zero, half, one) = (splat(simd, 0.0), splat(simd, 0.5), splat(simd, 1.0));
         let half_way = 0.5 * (from + to);
-        let mut middle = self.end_here(simd, half_way);
+        let mut middle = self.end(simd, half_way);
         let fine = steep.fine;
         let [s0, s1, s2] = [front.samples, middle.samples, back.samples];
         let is_spread = s0.spreads.max(s1.spreads).max(s2.spreads).simd_gt(zero).any_true();
@@ -209,17 +194,16 @@ impl<S: Simd> Crossing<'_, '_, S> {
         let is_met = s0.known & s1.known & s2.known & is_open;
         let mut thickness = self.thickness * splat(simd, (to - from) as f32);
         if sweep.slab.is_outer {
-            let z = [from, to].map(|share| self.z[0] + (self.z[1] - self.z[0]) * share);
-            thickness *= sweep.share_between(simd, self.view, z, self.at);
+            thickness *= sweep.share_between(simd, self.view, [self.z_at(from), self.z_at(to)], self.at);
         }
         let thickness = is_met.select(thickness, zero);
         let off = each!(c of 4 => (whole[c] - mean[c]).abs());
         let off = off[0].max(off[1]).max(off[2]).max(off[3]);
         let error = off * thickness * visible / (one + mean[3] * thickness);
-        let is_off = error.simd_gt(splat(simd, sweep.halfway_tolerance)).any_true();
+        let tolerance = steep.casting.scene.tolerance;
+        let is_off = error.simd_gt(splat(simd, tolerance * HALFWAY_ERROR)).any_true();
         let is_lit = sweep.slab.gradient_rows > 0 && halvings < LIGHT_HALVINGS;
         let contribution = if is_lit { largest(mean[3] * thickness * visible) } else { 0.0 };
-        let tolerance = steep.casting.scene.tolerance;
         // Of what the fine table leaves out nobody knows how much it errs.
         let is_coarse = halvings < self.most && (is_off || !sweep.is_fine);
         let is_torn =
@@ -252,6 +236,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
         };
         composite(simd, pixels, a, thickness, lights[0]);
         composite(simd, pixels, b, thickness, lights[1]);
+        })
     }
 
     /// The gradient at a share of the way, where light falls.
@@ -276,22 +261,11 @@ impl<S: Simd> Crossing<'_, '_, S> {
         &self,
         simd: S,
         pixels: &mut Pixels<S>,
-        ends: [End<S>; 3],
-        thickness: f32x8<S>,
-        share: [f64; 2],
-    ) {
-        outlined!(simd => self.add_halves_here(simd, pixels, ends, thickness, share));
-    }
-
-    #[inline(always)]
-    fn add_halves_here(
-        &self,
-        simd: S,
-        pixels: &mut Pixels<S>,
         mut ends: [End<S>; 3],
         thickness: f32x8<S>,
         [from, to]: [f64; 2],
     ) {
+        outlined!(simd => {
         let sweep = self.sweep;
         for half in 0..2 {
             let mut gradient = None;
@@ -306,7 +280,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
                 let unknown = splat(simd, f32::NAN);
                 let scalars = [known.select(scalars[0], unknown), known.select(scalars[1], unknown)];
                 let Some((low, high)) = range(scalars) else { continue };
-                let widest = highest(spread);
+                let widest = largest(spread);
                 let reach = ((low - widest).max(0.0), (high + widest).min(1.0));
                 if !sweep.steep.is_fine(reach.0, reach.1, largest(thickness)) {
                     sweep.add_each(simd, pixels, (scalars, spread, thickness), gradient, self.at);
@@ -322,6 +296,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
             let looked = [ends[half].looked(simd, fine), ends[half + 1].looked(simd, fine)];
             sweep.steep.add(simd, pixels, &cell, [&looked[0], &looked[1]], self.halfway);
         }
+        })
     }
 
     /// The mean between two depths where samples stand for others.
@@ -330,20 +305,4 @@ impl<S: Simd> Crossing<'_, '_, S> {
         let spread = splat(simd, 0.5) * (a.spreads + b.spreads);
         self.sweep.steep.fine.mean_around(simd, [a.scalars, b.scalars], spread)
     }
-}
-
-/// The lowest of eight numbers.
-#[inline(always)]
-fn lowest<S: Simd>(numbers: f32x8<S>) -> f32 {
-    let (a, b) = numbers.split();
-    let [a, b, c, d] = a.min(b).to_array();
-    a.min(b).min(c.min(d))
-}
-
-/// The highest of eight numbers.
-#[inline(always)]
-fn highest<S: Simd>(numbers: f32x8<S>) -> f32 {
-    let (a, b) = numbers.split();
-    let [a, b, c, d] = a.max(b).to_array();
-    a.max(b).max(c.max(d))
 }

@@ -85,7 +85,7 @@ impl Classing<'_> {
             }
             for cell in 0..slab.cells().saturating_sub(1) {
                 let both = [cell * across + block, (cell + 1) * across + block];
-                if both.into_iter().all(|at| slab.errors[at] != EMPTY) {
+                if slab.errors[both[0]] != EMPTY && slab.errors[both[1]] != EMPTY {
                     let disorder = disorder_of_both(simd, slab, cell, block);
                     for at in both {
                         slab.errors[at] = slab.errors[at].max(disorder);

@@ -1,6 +1,5 @@
 //! A row's plane, from the front to the back: how far apart samples lie in each part of it, and what every view adds of them.
 
-use crate::alone::HALFWAY_ERROR;
 use crate::blocks::Blocks;
 use crate::classify::Classing;
 use crate::fill::{Grid, Span};
@@ -149,7 +148,8 @@ impl March<'_> {
                 self.grid.find_ends(view, state);
             }
         }
-        let near = self.is_alone.then(|| Near::of(&self.grid, &room.near, slab));
+        let is_steep = self.is_alone && slab.apart.iter().any(|&apart| apart > 1.0);
+        let near = is_steep.then(|| Near::of(&self.grid, &room.near, slab));
         if near.is_some() {
             room.need[1..].iter_mut().for_each(|blocks| blocks.clear(0));
         } else {
@@ -219,6 +219,7 @@ impl March<'_> {
             if !self.is_by_pixel {
                 classing.settle(simd, slab, wanted);
             }
+            let is_fine = self.steep.is_fine(0.0, 1.0, thickness);
             for (view, state) in views.iter_mut().enumerate() {
                 if pixels_of(state, reaches[view], &need[spacing], closer, pixels) {
                     let [least, most] = slab.reach(fan, view);
@@ -234,8 +235,7 @@ impl March<'_> {
                         is_by_pixel: self.is_by_pixel,
                         near: off_grid,
                         lines: fan.lines(view),
-                        is_fine: self.steep.is_fine(0.0, 1.0, thickness),
-                        halfway_tolerance: self.grid.casting.scene.tolerance * HALFWAY_ERROR,
+                        is_fine,
                     };
                     sweep.add(simd, state, pixels, places);
                     cast.samples += std::mem::take(&mut places.samples);

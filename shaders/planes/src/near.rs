@@ -135,11 +135,7 @@ impl<'a> Near<'a> {
     /// Their gradients, display frame; 0 where none is known.
     #[inline(never)]
     pub(crate) fn gradients<S: Simd>(&self, simd: S, points: Points<S>, leaves: &[usize]) -> [f32x8<S>; 3] {
-        outlined!(simd => self.gradients_here(simd, points, leaves))
-    }
-
-    #[inline(always)]
-    fn gradients_here<S: Simd>(&self, simd: S, points: Points<S>, leaves: &[usize]) -> [f32x8<S>; 3] {
+        outlined!(simd => {
         let zero = splat(simd, 0.0);
         let (mut gradients, mut known) = ([zero; 3], zero.simd_gt(zero));
         for &leaf in leaves {
@@ -159,6 +155,7 @@ impl<'a> Near<'a> {
         each!(axis of 3 => {
             let Vec3([x, y, z]) = self.turn[axis];
             a * splat(simd, x) + b * splat(simd, y) + c * splat(simd, z)
+        })
         })
     }
 

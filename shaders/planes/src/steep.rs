@@ -66,21 +66,10 @@ impl Steep<'_> {
         simd: S,
         pixels: &mut Pixels<S>,
         cell: &Cell<S>,
-        ends: [&Looked<S>; 2],
-        halfway: [f32x8<S>; 3],
-    ) {
-        outlined!(simd => self.add_here(simd, pixels, cell, ends, halfway))
-    }
-
-    #[inline(always)]
-    fn add_here<S: Simd>(
-        &self,
-        simd: S,
-        pixels: &mut Pixels<S>,
-        cell: &Cell<S>,
         [front, back]: [&Looked<S>; 2],
         halfway: [f32x8<S>; 3],
     ) {
+        outlined!(simd => {
         let [s0, s1] = cell.scalars;
         let half = splat(simd, 0.5);
         let whole = mean_between(simd, front, back, s1 - s0);
@@ -122,6 +111,7 @@ impl Steep<'_> {
             }
             from = to;
         }
+        })
     }
 
     /// The same where scalars stand for others within a `spread` of them.
@@ -134,18 +124,7 @@ impl Steep<'_> {
         spread: f32x8<S>,
         halfway: [f32x8<S>; 3],
     ) {
-        outlined!(simd => self.add_spread_here(simd, pixels, cell, spread, halfway));
-    }
-
-    #[inline(always)]
-    fn add_spread_here<S: Simd>(
-        &self,
-        simd: S,
-        pixels: &mut Pixels<S>,
-        cell: &Cell<S>,
-        spread: f32x8<S>,
-        halfway: [f32x8<S>; 3],
-    ) {
+        outlined!(simd => {
         let [s0, s1] = cell.scalars;
         let whole = self.fine.mean_around(simd, cell.scalars, spread);
         if !whole[3].simd_gt(splat(simd, 0.0)).any_true() {
@@ -179,6 +158,7 @@ impl Steep<'_> {
                 break;
             }
         }
+        })
     }
 
     /// Whether a cell may be composited at once: whether the order of what it shows in front, in the mean and behind matters to

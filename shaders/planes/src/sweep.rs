@@ -32,8 +32,6 @@ pub(crate) struct Sweep<'a> {
     pub(crate) lines: [[f64; 2]; 2],
     /// Whether the fine table tells all that lies between any scalars.
     pub(crate) is_fine: bool,
-    /// The largest error that scalars half-way through a segment may make.
-    pub(crate) halfway_tolerance: f32,
 }
 
 /// What lies between two columns, for eight pixels.
@@ -63,11 +61,7 @@ impl Sweep<'_> {
     /// Adds what the slab shows to some blocks of a view's row, which all meet something.
     #[inline(never)]
     pub(crate) fn add<S: Simd>(&self, simd: S, view: &mut ViewRow, pixels: &Blocks, places: &mut Places) {
-        outlined!(simd => self.add_here(simd, view, pixels, places))
-    }
-
-    #[inline(always)]
-    fn add_here<S: Simd>(&self, simd: S, view: &mut ViewRow, pixels: &Blocks, places: &mut Places) {
+        outlined!(simd => {
         if pixels.is_empty() {
             return;
         }
@@ -82,6 +76,7 @@ impl Sweep<'_> {
                 view.open.remove(block);
             }
         }
+        })
     }
 
     /// Whether none of its pixels sees any farther.
@@ -161,8 +156,7 @@ impl Sweep<'_> {
                 zero
             } else {
                 let gradient = each!(axis of 3 => met.row(simd, PLAIN_ROWS + axis));
-                let halfway = each!(axis of 3 => load(simd, &view.halfway[axis], at));
-                opacity * self.steep.highlight(simd, gradient, halfway)
+                opacity * self.steep.highlight(simd, gradient, self.halfway(simd, view, at))
             };
             rgb = each!(c of 3 => rgb[c] + (met.row(simd, c) + white) * lit);
             alpha += depth * share;
@@ -248,11 +242,7 @@ impl Sweep<'_> {
             thickness: is_met.select(thickness, zero),
             gradient,
         };
-        let halfway = if slab.gradients.is_empty() {
-            [zero; 3]
-        } else {
-            each!(axis of 3 => load(simd, &view.halfway[axis], at))
-        };
+        let halfway = self.halfway(simd, view, at);
         if widest > 0.0
             && let Some(spread) = spread
         {
@@ -269,6 +259,15 @@ impl Sweep<'_> {
         let back = self.steep.fine.look_up(simd, cell_met.scalars[1]);
         self.steep.add(simd, pixels, &cell_met, [&front, &back], halfway);
         is_whole.then_some((cell + 1, back))
+    }
+
+    /// Half-way between the light and eight rays, where light falls.
+    #[inline(always)]
+    pub(crate) fn halfway<S: Simd>(&self, simd: S, view: &ViewRow, at: usize) -> [f32x8<S>; 3] {
+        if self.slab.gradients.is_empty() {
+            return [splat(simd, 0.0); 3];
+        }
+        each!(axis of 3 => load(simd, &view.halfway[axis], at))
     }
 
     /// The share of a cell within which rays are in the volume.
