@@ -61,6 +61,8 @@ struct Crossing<'a, 'b, S: Simd> {
     z: [f64; 2],
     /// Optical depth of all of it where the table says 1.
     thickness: f32x8<S>,
+    /// The most of it.
+    thickest: f32,
     halfway: [f32x8<S>; 3],
     /// It is halved at most so many times.
     most: usize,
@@ -85,6 +87,7 @@ impl Sweep<'_> {
         if places.leaves_of != Some(at) {
             places.find_leaves(near, at);
         }
+        let thickness = splat(simd, self.thickness) * load(simd, &view.lengths, at);
         let crossing = Crossing {
             sweep: self,
             near,
@@ -92,7 +95,8 @@ impl Sweep<'_> {
             leaves: &places.leaves,
             at,
             z: [self.slab.depths[cell].z, self.slab.depths[cell + 1].z],
-            thickness: splat(simd, self.thickness) * load(simd, &view.lengths, at),
+            thickness,
+            thickest: largest(thickness),
             halfway: self.halfway(simd, view, at),
             most: spacing,
             samples: Count::new(0),
@@ -132,6 +136,28 @@ impl<S: Simd> Crossing<'_, '_, S> {
         let ends = (least(low), largest(high));
         let reach = reach + largest(front.spreads.max(back.spreads));
         ends.0 > ends.1 || is_vacant_around(&self.sweep.steep.casting.tables.cells, ends, reach)
+    }
+
+    /// Whether the fine table tells all that a share of the cell shows.
+    #[inline(always)]
+    fn is_fine(&self, simd: S, samples: [&Samples<S>; 3], share: f32) -> bool {
+        if self.sweep.is_fine {
+            return true;
+        }
+        let (mut low, mut high) = (splat(simd, f32::MAX), splat(simd, 0.0));
+        let mut widest = high;
+        for Samples { scalars, spreads, known } in samples {
+            low = known.select(low.min(*scalars), low);
+            high = known.select(high.max(*scalars), high);
+            widest = widest.max(*spreads);
+        }
+        let (low, high, widest) = (least(low), largest(high), largest(widest));
+        low > high
+            || self.sweep.steep.is_fine(
+                (low - widest).max(0.0),
+                (high + widest).min(1.0),
+                self.thickest * share,
+            )
     }
 
     /// What lies a share of the way through the cell.
@@ -186,7 +212,8 @@ impl<S: Simd> Crossing<'_, '_, S> {
             (near, far) = (looked[0].value, looked[2].value);
         }
         let mean = each!(c of 4 => half * (a[c] + b[c]));
-        if sweep.is_fine && !mean[3].max(whole[3]).simd_gt(zero).any_true() {
+        let is_fine = self.is_fine(simd, [&s0, &s1, &s2], (to - from) as f32);
+        if is_fine && !mean[3].max(whole[3]).simd_gt(zero).any_true() {
             return;
         }
         let visible = one - pixels[3];
@@ -205,7 +232,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
         let is_lit = sweep.slab.gradient_rows > 0 && halvings < LIGHT_HALVINGS;
         let contribution = if is_lit { largest(mean[3] * thickness * visible) } else { 0.0 };
         // Of what the fine table leaves out nobody knows how much it errs.
-        let is_coarse = halvings < self.most && (is_off || !sweep.is_fine);
+        let is_coarse = halvings < self.most && (is_off || !is_fine);
         let is_torn =
             ((s0.known & !s2.known) | (s2.known & !s0.known)).any_true() && halvings < TORN_HALVINGS;
         if is_coarse || is_torn || contribution > MOST_LIT * tolerance {
@@ -213,7 +240,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
             self.add(simd, pixels, [&mut middle, back], [half_way, to], halvings + 1);
             return;
         }
-        if is_spread || !sweep.is_fine {
+        if is_spread || !is_fine {
             self.add_halves(simd, pixels, [*front, middle, *back], half * thickness, [from, to]);
             return;
         }
