@@ -72,6 +72,29 @@ fn a_medium_that_is_too_thick_by_a_twentieth_is_found() {
     assert!(!limits.hold(&spoiled), "{spoiled}");
 }
 
+/// Where samples are too far apart, rays sample for themselves, and halve a cell as long as what they meet asks for it. Once, each
+/// cell was halved to the end if the transfer function was not smooth anywhere, even at scalars that no voxel has.
+#[test]
+fn a_spike_that_no_scalar_meets_asks_for_no_samples() {
+    let _turn = draw::turn();
+    let display = display();
+    let scene = scenes::marschner_lobb(&display);
+    let samples = |beyond: &[(f64, f64)]| {
+        let surface = [(0.45, 0.0), (0.6, 1.5)];
+        let mut frame = scene.frame.clone();
+        frame.optics = scenes::optics(
+            (0.0, 2.0),
+            &surface.iter().chain(beyond).copied().collect(),
+            &vec![(0.0, [0.2, 0.5, 0.9]), (0.9, [0.9, 0.8, 0.3])],
+        );
+        draw(&display, &frame, &scene.source, &PROJECTORS, With::PLANES).report.samples
+    };
+    let (smooth, spiked) = (samples(&[]), samples(&[(1.5, 1.5), (1.51, 300.0), (1.52, 1.5)]));
+    println!("{smooth} samples, {spiked} with the spike");
+    // Some cells lie on a border of the table's.
+    assert!(spiked <= smooth + smooth / 20, "{spiked} samples instead of {smooth}");
+}
+
 /// A scene's numbers, and the rays of all views.
 fn views_of(display: &Display, scene: &TestScene) -> (SceneNumbers<f32>, Vec<ProjectorRays<f32>>) {
     let view = |&projector: &u32| view(display, projector, &scene.frame, &*scene.source).rounded();
