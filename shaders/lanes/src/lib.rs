@@ -72,21 +72,22 @@ pub fn halves<S: Simd>(simd: S, words: [i32; 8]) -> [f32x8<S>; 2] {
 /// The largest of eight numbers that are not negative.
 #[inline(always)]
 pub fn largest<S: Simd>(numbers: f32x8<S>) -> f32 {
-    let mut most = 0.0;
-    for number in numbers.to_array() {
-        most = if number > most { number } else { most };
-    }
-    most
+    let zero = splat(numbers.simd, 0.0);
+    // A comparison with NaN is false.
+    let (low, high) = numbers.simd_gt(zero).select(numbers, zero).split();
+    let [a, b, c, d] = low.max(high).to_array();
+    let (a, b) = (if a > b { a } else { b }, if c > d { c } else { d });
+    if a > b { a } else { b }
 }
 
 /// The least of eight numbers.
 #[inline(always)]
 pub fn least<S: Simd>(numbers: f32x8<S>) -> f32 {
-    let mut least = f32::INFINITY;
-    for number in numbers.to_array() {
-        least = if number < least { number } else { least };
-    }
-    least
+    let infinite = splat(numbers.simd, f32::INFINITY);
+    let (low, high) = numbers.simd_lt(infinite).select(numbers, infinite).split();
+    let [a, b, c, d] = low.min(high).to_array();
+    let (a, b) = (if a < b { a } else { b }, if c < d { c } else { d });
+    if a < b { a } else { b }
 }
 
 /// The greatest of eight numbers.

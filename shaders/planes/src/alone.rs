@@ -1,15 +1,15 @@
 //! Cells whose samples lie too far apart for what they show: rays of a view sample the volume for themselves, eight side by side.
 
+use crate::around::Around;
 use crate::fine::{FineTable, Looked, mean_between};
 use crate::near::{Near, Points, Samples};
 use crate::places::Places;
 use crate::slab::LANES;
-use crate::steep::{Cell, Light, Pixels, composite, range};
+use crate::steep::{Cell, Light, Pixels, composite};
 use crate::sweep::Sweep;
 use crate::view_row::ViewRow;
 use lanes::*;
 use std::cell::Cell as Count;
-use twin::tables::is_vacant_around;
 
 /// The largest error of a segment's light that scalars half-way make, in tolerances; half a segment errs a quarter of it.
 const HALFWAY_ERROR: f32 = 30.0;
@@ -129,35 +129,18 @@ impl<S: Simd> Crossing<'_, '_, S> {
     /// Whether nothing shows of scalars between those of two ends, or so far around them.
     #[inline(always)]
     fn is_vacant(&self, simd: S, [front, back]: [&End<S>; 2], reach: f32) -> bool {
-        let (front, back) = (&front.samples, &back.samples);
-        let (most, zero) = (splat(simd, f32::MAX), splat(simd, 0.0));
-        let low = front.known.select(front.scalars, most).min(back.known.select(back.scalars, most));
-        let high = front.known.select(front.scalars, zero).max(back.known.select(back.scalars, zero));
-        let ends = (least(low), largest(high));
-        let reach = reach + largest(front.spreads.max(back.spreads));
-        ends.0 > ends.1 || is_vacant_around(&self.sweep.steep.casting.tables.cells, ends, reach)
+        let Some(around) = Around::all(simd, [&front.samples, &back.samples]) else { return true };
+        self.sweep.steep.is_vacant(&Around { spread: around.spread + reach, ..around })
     }
 
     /// Whether the fine table tells all that a share of the cell shows.
     #[inline(always)]
-    fn is_fine(&self, simd: S, samples: [&Samples<S>; 3], share: f32) -> bool {
+    fn is_fine<const COUNT: usize>(&self, simd: S, samples: [&Samples<S>; COUNT], share: f32) -> bool {
         if self.sweep.is_fine {
             return true;
         }
-        let (mut low, mut high) = (splat(simd, f32::MAX), splat(simd, 0.0));
-        let mut widest = high;
-        for Samples { scalars, spreads, known } in samples {
-            low = known.select(low.min(*scalars), low);
-            high = known.select(high.max(*scalars), high);
-            widest = widest.max(*spreads);
-        }
-        let (low, high, widest) = (least(low), largest(high), largest(widest));
-        low > high
-            || self.sweep.steep.is_fine(
-                (low - widest).max(0.0),
-                (high + widest).min(1.0),
-                self.thickest * share,
-            )
+        let Some(around) = Around::all(simd, samples) else { return true };
+        self.sweep.steep.is_fine(&around, self.thickest * share)
     }
 
     /// What lies a share of the way through the cell.
@@ -302,17 +285,9 @@ impl<S: Simd> Crossing<'_, '_, S> {
             let met = [ends[half].samples, ends[half + 1].samples];
             let scalars = [met[0].scalars, met[1].scalars];
             let spread = splat(simd, 0.5) * (met[0].spreads + met[1].spreads);
-            if !sweep.is_fine {
-                let known = met[0].known & met[1].known;
-                let unknown = splat(simd, f32::NAN);
-                let scalars = [known.select(scalars[0], unknown), known.select(scalars[1], unknown)];
-                let Some((low, high)) = range(scalars) else { continue };
-                let widest = largest(spread);
-                let reach = ((low - widest).max(0.0), (high + widest).min(1.0));
-                if !sweep.steep.is_fine(reach.0, reach.1, largest(thickness)) {
-                    sweep.add_each(simd, pixels, (scalars, spread, thickness), gradient, self.at);
-                    continue;
-                }
+            if !self.is_fine(simd, [&met[0], &met[1]], 0.5 * (to - from) as f32) {
+                sweep.add_each(simd, pixels, (scalars, spread, thickness), gradient, self.at);
+                continue;
             }
             let cell = Cell { scalars, thickness, gradient };
             if spread.simd_gt(splat(simd, 0.0)).any_true() {

@@ -1,5 +1,6 @@
 //! What a slab's samples show between two depths, and whether means say enough of it.
 
+use crate::around::Around;
 use crate::blocks::Blocks;
 use crate::rough::Variation;
 use crate::slab::{EMPTY, LANES, Slab};
@@ -8,7 +9,7 @@ use lanes::*;
 use twin::Casting;
 use twin::composite::Over;
 use twin::spread::sample_over;
-use twin::tables::{Located, is_vacant_around, locate};
+use twin::tables::{Located, locate};
 
 /// What classification goes by.
 pub(crate) struct Classing<'a> {
@@ -26,11 +27,9 @@ const SURE: f32 = 0.25;
 /// The scalars of a block at two depths.
 #[derive(Clone, Copy)]
 struct Range {
-    low: f32,
-    high: f32,
+    around: Around,
     /// The largest difference of neighbours.
     apart: f32,
-    spread: f32,
     /// The least of what they stand for.
     least_spread: f32,
 }
@@ -49,11 +48,11 @@ impl Classing<'_> {
                     slab.shown.insert(block);
                 }
                 let Some(range) = range_of(simd, slab, cell, block) else { continue };
-                if is_vacant_around(&self.steep.casting.tables.cells, (range.low, range.high), range.spread) {
+                if self.steep.is_vacant(&range.around) {
                     continue;
                 }
                 // A mean over a spread bends by less.
-                let reach = ((range.low - range.spread).max(0.0), (range.high + range.spread).min(1.0));
+                let reach = range.around.reach();
                 let share = if slab.spreads.is_empty() || range.apart >= 2.0 * range.least_spread {
                     1.0
                 } else {
@@ -227,10 +226,8 @@ fn range_of<S: Simd>(simd: S, slab: &Slab, cell: usize, block: usize) -> Option<
     }
     let (low, high) = (least(low), greatest(simd, high));
     (low <= high).then_some(Range {
-        low,
-        high,
+        around: Around { low, high, spread: largest(spread) },
         apart: largest(apart),
-        spread: largest(spread),
         least_spread: least(least_spread),
     })
 }

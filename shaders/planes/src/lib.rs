@@ -18,6 +18,7 @@ macro_rules! outlined {
 }
 
 mod alone;
+mod around;
 mod blocks;
 mod classify;
 mod fan;

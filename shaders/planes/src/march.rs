@@ -1,5 +1,6 @@
 //! A row's plane, from the front to the back: how far apart samples lie in each part of it, and what every view adds of them.
 
+use crate::around::Around;
 use crate::blocks::Blocks;
 use crate::classify::Classing;
 use crate::fill::{Grid, Span};
@@ -219,7 +220,7 @@ impl March<'_> {
             if !self.is_by_pixel {
                 classing.settle(simd, slab, wanted);
             }
-            let is_fine = self.steep.is_fine(0.0, 1.0, thickness);
+            let is_fine = self.steep.is_fine(&Around::ALL, thickness);
             for (view, state) in views.iter_mut().enumerate() {
                 if pixels_of(state, reaches[view], &need[spacing], closer, pixels) {
                     let [least, most] = slab.reach(fan, view);

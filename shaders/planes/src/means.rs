@@ -1,12 +1,12 @@
 //! Means of what lies between two depths, column by column: all views share them.
 
+use crate::around::Around;
 use crate::blocks::Blocks;
 use crate::classify::{Classing, mean_alone};
 use crate::fine::{Looked, mean_between};
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
-use crate::steep::{self, range};
+use crate::steep;
 use lanes::*;
-use twin::tables::is_vacant_around;
 
 /// What eight columns hold between two depths.
 struct Met<S: Simd> {
@@ -78,10 +78,8 @@ impl Classing<'_> {
         let at = cell * slab.blocks_across() + block;
         let met = gather(simd, slab, (cell, block, phase));
         let [front, behind] = met.scalars;
-        let widest = largest(met.spread);
-        let cells = &self.steep.casting.tables.cells;
-        let (low, high) = match range(met.scalars) {
-            Some(ends) if !is_vacant_around(cells, ends, widest) => ends,
+        let around = match Around::between(simd, met.scalars, met.spread) {
+            Some(around) if !self.steep.is_vacant(&around) => around,
             Some(_) | None => {
                 forget(simd, slab, out);
                 return None;
@@ -90,18 +88,17 @@ impl Classing<'_> {
         let sum = front + behind;
         let is_met = sum.simd_eq(sum);
         let thickness = is_met.select(splat(simd, self.thickness), splat(simd, 0.0));
-        let reach = ((low - widest).max(0.0), (high + widest).min(1.0));
-        if !self.steep.is_fine(reach.0, reach.1, self.thickness) {
+        if !self.steep.is_fine(&around, self.thickness) {
             let k = self.each_alone(simd, &met, thickness);
             slab.errors[at] = f32::INFINITY;
             self.store(simd, slab, out, k, met.gradient);
             return None;
         }
-        let lowest = splat(simd, low);
+        let lowest = splat(simd, around.low);
         let ends = [is_met.select(front, lowest), is_met.select(behind, lowest)];
         let is_whole = is_met.all_true();
         let fine = self.steep.fine;
-        let (shows, back) = if widest > 0.0 {
+        let (shows, back) = if around.spread > 0.0 {
             let k = fine.mean_around(simd, ends, met.spread);
             ([fine.value_at(simd, ends[0]), k, fine.value_at(simd, ends[1])], None)
         } else {

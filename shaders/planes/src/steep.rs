@@ -1,6 +1,6 @@
 //! Cells too steep for means, met by eight neighbouring rays of a view.
 
-use crate::fine::{CLOSE, FineTable, Looked, mean_between};
+use crate::fine::{FineTable, Looked, mean_between};
 use crate::rough::Roughness;
 use crate::slab::LANES;
 use lanes::*;
@@ -10,9 +10,6 @@ use twin::refine::parts_by_errors;
 
 /// Parts of half a cell, at most, unless they are opaque.
 const MOST_PARTS: f32 = 32.0;
-
-/// The bound of the fine table's error is this many times what it comes to: few scalars lie beside a kink.
-const FINE_ENOUGH: f32 = 10.0;
 
 /// What eight rays meet between two depths.
 #[derive(Clone, Copy)]
@@ -51,13 +48,6 @@ pub(crate) struct Steep<'a> {
 }
 
 impl Steep<'_> {
-    /// Whether the fine table tells all of what lies between two scalars, where a cell has `thickness`.
-    #[inline(always)]
-    pub(crate) fn is_fine(&self, low: f32, high: f32, thickness: f32) -> bool {
-        let error = self.roughness.bend(low, high, CLOSE).max(self.fine.rounding);
-        error * thickness <= FINE_ENOUGH * self.tolerance
-    }
-
     /// Adds a cell whose scalars look up `front` and `back`; the light on it falls along `halfway` (toward the light, less the
     /// ray's direction; a unit vector).
     #[inline(never)]
@@ -348,19 +338,4 @@ pub(crate) fn composite<S: Simd>(
         }
     }
     pixels[3] += depth * share;
-}
-
-/// The lowest and the highest of those scalars that are numbers. None if there is none.
-#[inline(always)]
-pub(crate) fn range<S: Simd>(scalars: [f32x8<S>; 2]) -> Option<(f32, f32)> {
-    let (mut low, mut high) = (f32::MAX, f32::MIN);
-    let [front, back] = [scalars[0].to_array(), scalars[1].to_array()];
-    for lane in 0..LANES {
-        // Where nothing shows at one of the ends, nothing does; a comparison with NaN is false.
-        let (a, b) = (front[lane].min(back[lane]), front[lane].max(back[lane]));
-        let is_known = (front[lane] + back[lane]).is_finite();
-        low = if is_known && a < low { a } else { low };
-        high = if is_known && b > high { b } else { high };
-    }
-    (low <= high).then_some((low, high))
 }

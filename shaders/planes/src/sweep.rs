@@ -1,17 +1,17 @@
 //! One view's row over a slab: shifted, composited, eight pixels at a time.
 
 use crate::Fan;
+use crate::around::Around;
 use crate::blocks::Blocks;
 use crate::fine::Looked;
 use crate::near::Near;
 use crate::need::spacing_for;
 use crate::places::{Place, Places};
 use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
-use crate::steep::{Cell, Pixels, Steep, middle_of, range};
+use crate::steep::{Cell, Pixels, Steep, middle_of};
 use crate::thick;
 use crate::view_row::ViewRow;
 use lanes::*;
-use twin::tables::is_vacant_around;
 
 /// One row of one view.
 pub(crate) struct Sweep<'a> {
@@ -200,12 +200,12 @@ impl Sweep<'_> {
                     * half,
             )
         };
-        let widest = match spread {
-            Some(spread) => largest(spread),
-            None => 0.0,
+        let width = match spread {
+            Some(spread) => spread,
+            None => zero,
         };
-        let (low, high) = range(scalars)?;
-        if is_vacant_around(&casting.tables.cells, (low, high), widest) {
+        let around = Around::between(simd, scalars, width)?;
+        if self.steep.is_vacant(&around) {
             return None;
         }
         let is_open = (f32x8::splat(simd, 1.0) - pixels[3]).simd_ge(casting.scene.termination);
@@ -227,26 +227,19 @@ impl Sweep<'_> {
                 [front, back]
             }))
         };
-        let reach = ((low - widest).max(0.0), (high + widest).min(1.0));
-        if !self.steep.is_fine(reach.0, reach.1, self.thickness) {
-            let spread = match spread {
-                Some(spread) => spread,
-                None => zero,
-            };
-            self.add_each(simd, pixels, (scalars, spread, thickness), gradient, at);
+        if !self.steep.is_fine(&around, self.thickness) {
+            self.add_each(simd, pixels, (scalars, width, thickness), gradient, at);
             return None;
         }
-        let lowest = f32x8::splat(simd, low);
+        let lowest = f32x8::splat(simd, around.low);
         let cell_met = Cell {
             scalars: [is_met.select(scalars[0], lowest), is_met.select(scalars[1], lowest)],
             thickness: is_met.select(thickness, zero),
             gradient,
         };
         let halfway = self.halfway(simd, view, at);
-        if widest > 0.0
-            && let Some(spread) = spread
-        {
-            self.steep.add_spread(simd, pixels, &cell_met, spread, halfway);
+        if around.spread > 0.0 {
+            self.steep.add_spread(simd, pixels, &cell_met, width, halfway);
             return None;
         }
         // What is looked up for rays that meet nothing is not theirs.
