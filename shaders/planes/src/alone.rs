@@ -199,7 +199,7 @@ impl<S: Simd> Crossing<'_, '_, S> {
         if is_fine && !mean[3].max(whole[3]).simd_gt(zero).any_true() {
             return;
         }
-        let visible = one - pixels[3];
+        let visible = pixels[3];
         let is_open = visible.simd_ge(splat(simd, steep.casting.scene.termination));
         let is_met = s0.known & s1.known & s2.known & is_open;
         let mut thickness = self.thickness * splat(simd, (to - from) as f32);

@@ -219,6 +219,7 @@ impl March<'_> {
             }
             if !self.is_by_pixel {
                 classing.settle(simd, slab, wanted);
+                slab.find_kinds(tolerance, off_grid.is_some());
             }
             let is_fine = self.steep.is_fine(&Around::ALL, thickness);
             for (view, state) in views.iter_mut().enumerate() {

@@ -4,12 +4,65 @@ use crate::around::Around;
 use crate::blocks::Blocks;
 use crate::classify::{Classing, mean_alone};
 use crate::fine::{Looked, mean_between};
-use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
-use crate::steep;
+use crate::places::Places;
+use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab, between};
+use crate::steep::{self, Pixels};
 use lanes::*;
 
+/// What eight pixels meet of a cell's means.
+pub(crate) struct MetMeans<'a, S: Simd> {
+    means: &'a [f32],
+    /// Where the rows of either column begin.
+    starts: [usize; 2],
+    stride: usize,
+    /// The second column's share.
+    part: f32x8<S>,
+}
+
+impl<'a, S: Simd> MetMeans<'a, S> {
+    #[inline(always)]
+    pub(crate) fn of(simd: S, slab: &'a Slab, places: &Places, cell: usize, at: usize) -> Self {
+        Self {
+            means: &slab.means,
+            starts: places.means[cell].map(|start| (start + at as i64) as usize),
+            stride: slab.stride,
+            part: splat(simd, places.middles[cell].part),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn row(&self, simd: S, row: usize) -> f32x8<S> {
+        let further = row * self.stride;
+        between(simd, self.means, [self.starts[0] + further, self.starts[1] + further], self.part)
+    }
+
+    /// Adds them, of a cell of some lengths; with what shines `white` of it.
+    #[inline(always)]
+    pub(crate) fn add(
+        &self,
+        simd: S,
+        pixels: &mut Pixels<S>,
+        opacity: f32x8<S>,
+        length: f32x8<S>,
+        white: Option<f32x8<S>>,
+    ) {
+        let depth = opacity * length;
+        let share = attenuation_mean(simd, depth);
+        let lit = share * length * pixels[3];
+        for c in 0..3 {
+            let mut colour = self.row(simd, c);
+            if let Some(white) = white {
+                colour += white;
+            }
+            pixels[c] += colour * lit;
+        }
+        // Cells wait for each other by this alone.
+        pixels[3] *= splat(simd, 1.0) - depth * share;
+    }
+}
+
 /// What eight columns hold between two depths.
-struct Met<S: Simd> {
+struct Held<S: Simd> {
     scalars: [f32x8<S>; 2],
     spread: f32x8<S>,
     gradient: Option<[f32x8<S>; 3]>,
@@ -117,7 +170,7 @@ impl Classing<'_> {
 
     /// Means by the whole table, column by column.
     #[inline(always)]
-    fn each_alone<S: Simd>(&self, simd: S, met: &Met<S>, thickness: f32x8<S>) -> [f32x8<S>; 4] {
+    fn each_alone<S: Simd>(&self, simd: S, met: &Held<S>, thickness: f32x8<S>) -> [f32x8<S>; 4] {
         let [front, behind] = [met.scalars[0].to_array(), met.scalars[1].to_array()];
         let (spread, thickness) = (met.spread.to_array(), thickness.to_array());
         let mut means = [[0.0; LANES]; 4];
@@ -161,7 +214,7 @@ impl Classing<'_> {
 }
 
 #[inline(always)]
-fn gather<S: Simd>(simd: S, slab: &Slab, (cell, block, phase): (usize, usize, usize)) -> Met<S> {
+fn gather<S: Simd>(simd: S, slab: &Slab, (cell, block, phase): (usize, usize, usize)) -> Held<S> {
     let [front, back] = [cell, cell + 1].map(|depth| slab.row_start(depth, phase) + block * LANES);
     let half = splat(simd, 0.5);
     let mut spread = splat(simd, 0.0);
@@ -176,7 +229,7 @@ fn gather<S: Simd>(simd: S, slab: &Slab, (cell, block, phase): (usize, usize, us
             half * (load(simd, &slab.gradients, front + row) + load(simd, &slab.gradients, back + row))
         }));
     }
-    Met { scalars: [load(simd, &slab.scalars, front), load(simd, &slab.scalars, back)], spread, gradient }
+    Held { scalars: [load(simd, &slab.scalars, front), load(simd, &slab.scalars, back)], spread, gradient }
 }
 
 /// Notes that nothing shows in eight columns.

@@ -27,7 +27,7 @@ impl End {
 
 impl Sweep<'_> {
     /// Adds what the slab shows to a block of pixels, one by one. Whether nothing that follows shows there.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn add_pixels<S: Simd>(
         &self,
         simd: S,
@@ -35,6 +35,7 @@ impl Sweep<'_> {
         places: &Places,
         block: usize,
     ) -> bool {
+        outlined!(simd => {
         let (slab, casting) = (self.slab, self.steep.casting);
         let at = block * LANES;
         let mut fronts = [Accumulated::NOTHING; LANES];
@@ -93,6 +94,7 @@ impl Sweep<'_> {
             keep(view, at + lane, front);
         }
         is_closed
+        })
     }
 
     /// From where to where a pixel's ray is in the volume between two depths, z.

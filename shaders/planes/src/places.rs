@@ -41,6 +41,8 @@ impl Place {
 pub(crate) struct Places {
     pub(crate) middles: Vec<Place>,
     pub(crate) depths: Vec<Place>,
+    /// Where the means of both columns that pixel 0 meets of each cell are kept.
+    pub(crate) means: Vec<[i64; 2]>,
     /// Leaves near eight pixels, from the first depth to the last.
     pub(crate) leaves: Vec<usize>,
     /// The first of those pixels, once they are known.
@@ -57,6 +59,11 @@ impl Places {
             for depth in depths {
                 list.push(Place::new(slab, fan.shift(view, depth)));
             }
+        }
+        self.means.clear();
+        for (cell, place) in self.middles.iter().enumerate() {
+            let [a, b] = place.phases.map(|phase| slab.mean_start(cell, phase) as i64 + place.entry);
+            self.means.push([a, b + place.further as i64]);
         }
         self.leaves_of = None;
     }

@@ -3,6 +3,7 @@
 use crate::Fan;
 use crate::blocks::Blocks;
 use crate::fan::AtDepth;
+use lanes::*;
 
 /// Pixels that are swept at once.
 pub(crate) const LANES: usize = 8;
@@ -12,6 +13,11 @@ pub(crate) const HALO: usize = 2;
 
 /// The error of a block's means between two depths where nothing shows.
 pub(crate) const EMPTY: f32 = -1.0;
+
+/// What views meet of a block and the next between two depths: nothing, means that say enough, or more than these say.
+pub(crate) const NOTHING: u8 = 0;
+pub(crate) const MEANS: u8 = 1;
+const MORE: u8 = 3;
 
 /// Rows of a cell's means and phase: without light, and with.
 pub(crate) const PLAIN_ROWS: usize = 4;
@@ -53,6 +59,8 @@ pub struct Slab {
     pub(crate) is_sure: Vec<bool>,
     /// Likewise, the error of light that distances between samples make, as a share of what it may be.
     pub(crate) apart: Vec<f32>,
+    /// Likewise, what views meet of a block and the next.
+    pub(crate) kinds: Vec<u8>,
     /// Block by block, more than what scalars between samples are off by.
     pub(crate) reaches: Vec<f32>,
     /// Blocks that show anything.
@@ -148,6 +156,21 @@ impl Slab {
         self.shown.clear(across);
     }
 
+    /// Finds what views meet, where means may err by a `tolerance`; `is_alone`: where rays sample for themselves what is too far
+    /// apart.
+    pub(crate) fn find_kinds(&mut self, tolerance: f32, is_alone: bool) {
+        let kind_of = |(&error, &apart): (&f32, &f32)| match error {
+            EMPTY => NOTHING,
+            _ if error > tolerance || is_alone && apart > 1.0 => MORE,
+            _ => MEANS,
+        };
+        self.kinds.clear();
+        self.kinds.extend(self.errors.iter().zip(&self.apart).map(kind_of));
+        for at in 1..self.kinds.len() {
+            self.kinds[at - 1] |= self.kinds[at];
+        }
+    }
+
     /// The blocks that the first block of a view's pixels meets, counted from the slab's first: the least and the most. Its
     /// other blocks meet as many more.
     pub(crate) fn reach(&self, fan: &Fan, view: usize) -> [i64; 2] {
@@ -213,4 +236,11 @@ impl Slab {
     pub(crate) fn row_start(&self, depth: usize, phase: usize) -> usize {
         (depth * self.phases + phase) * self.stride
     }
+}
+
+/// What lies between two columns, for eight pixels: `part` of the way from what is kept at one place to what is at another.
+#[inline(always)]
+pub(crate) fn between<S: Simd>(simd: S, list: &[f32], starts: [usize; 2], part: f32x8<S>) -> f32x8<S> {
+    let (a, b) = (load(simd, list, starts[0]), load(simd, list, starts[1]));
+    a + (b - a) * part
 }

@@ -35,7 +35,7 @@ struct Direction<S: Simd> {
     weight: f32x8<S>,
 }
 
-/// Premultiplied red, green and blue, then opacity, of eight pixels.
+/// Of eight pixels: premultiplied red, green and blue, then how much of the light from behind gets through.
 pub(crate) type Pixels<S> = [f32x8<S>; 4];
 
 /// What cells are looked at with.
@@ -159,9 +159,9 @@ impl Steep<'_> {
         simd: S,
         ends: [[f32x8<S>; 4]; 3],
         thickness: f32x8<S>,
-        alpha: f32x8<S>,
+        visible: f32x8<S>,
     ) -> bool {
-        let worst = disorder(simd, ends, thickness) * (splat(simd, 1.0) - alpha);
+        let worst = disorder(simd, ends, thickness) * visible;
         largest(worst) <= self.tolerance
     }
 
@@ -184,13 +184,12 @@ impl Steep<'_> {
         simd: S,
         (a, b): ([f32x8<S>; 4], [f32x8<S>; 4]),
         thickness: f32x8<S>,
-        alpha: f32x8<S>,
+        visible: f32x8<S>,
     ) -> f32 {
-        let one = splat(simd, 1.0);
         let order = each!(c of 3 => (a[c] * b[3] - b[c] * a[3]).abs());
         let order = order[0].max(order[1]).max(order[2]);
         let depth = (a[3] + b[3]) * thickness;
-        let worst = order * thickness * thickness * (one - alpha) / (one + depth * depth);
+        let worst = order * thickness * thickness * visible / (splat(simd, 1.0) + depth * depth);
         let (errors, depths) = ((worst / splat(simd, self.tolerance)).to_array(), depth.to_array());
         if largest(worst) <= self.tolerance {
             return 1.0;
@@ -200,8 +199,7 @@ impl Steep<'_> {
 
     /// Whether what follows adds nothing to any of eight pixels.
     #[inline(always)]
-    pub(crate) fn are_closed<S: Simd>(&self, simd: S, alpha: f32x8<S>) -> bool {
-        let visible = splat(simd, 1.0) - alpha;
+    pub(crate) fn are_closed<S: Simd>(&self, simd: S, visible: f32x8<S>) -> bool {
         visible.simd_lt(splat(simd, self.casting.scene.termination)).all_true()
     }
 
@@ -322,8 +320,8 @@ pub(crate) fn composite<S: Simd>(
     light: Option<Light<S>>,
 ) {
     let depth = k[3] * thickness;
-    let share = attenuation_mean(simd, depth) * (splat(simd, 1.0) - pixels[3]);
-    let through = share * thickness;
+    let share = attenuation_mean(simd, depth);
+    let through = share * thickness * pixels[3];
     match light {
         None => {
             pixels[0] += k[0] * through;
@@ -337,5 +335,6 @@ pub(crate) fn composite<S: Simd>(
             pixels[2] += (k[2] * body + white) * through;
         }
     }
-    pixels[3] += depth * share;
+    // Cells wait for each other by this alone.
+    pixels[3] *= splat(simd, 1.0) - depth * share;
 }

@@ -4,10 +4,11 @@ use crate::Fan;
 use crate::around::Around;
 use crate::blocks::Blocks;
 use crate::fine::Looked;
+use crate::means::MetMeans;
 use crate::near::Near;
 use crate::need::spacing_for;
 use crate::places::{Place, Places};
-use crate::slab::{EMPTY, LANES, PLAIN_ROWS, Slab};
+use crate::slab::{LANES, MEANS, NOTHING, PLAIN_ROWS, Slab, between};
 use crate::steep::{Cell, Pixels, Steep, middle_of};
 use crate::thick;
 use crate::view_row::ViewRow;
@@ -32,29 +33,6 @@ pub(crate) struct Sweep<'a> {
     pub(crate) lines: [[f64; 2]; 2],
     /// Whether the fine table tells all that lies between any scalars.
     pub(crate) is_fine: bool,
-}
-
-/// What lies between two columns, for eight pixels.
-#[inline(always)]
-fn between<S: Simd>(simd: S, list: &[f32], starts: [usize; 2], part: f32x8<S>) -> f32x8<S> {
-    let (a, b) = (load(simd, list, starts[0]), load(simd, list, starts[1]));
-    a + (b - a) * part
-}
-
-/// What eight pixels meet of a cell's means.
-struct Met<'a, S: Simd> {
-    list: &'a [f32],
-    starts: [usize; 2],
-    stride: usize,
-    part: f32x8<S>,
-}
-
-impl<S: Simd> Met<'_, S> {
-    #[inline(always)]
-    fn row(&self, simd: S, row: usize) -> f32x8<S> {
-        let further = row * self.stride;
-        between(simd, self.list, [self.starts[0] + further, self.starts[1] + further], self.part)
-    }
 }
 
 impl Sweep<'_> {
@@ -84,92 +62,107 @@ impl Sweep<'_> {
     fn add_block<S: Simd>(&self, simd: S, view: &mut ViewRow, places: &mut Places, block: usize) -> bool {
         let slab = self.slab;
         let at = block * LANES;
-        let mut rgb = each!(c of 3 => load(simd, &view.rgba[c], at));
-        let mut alpha = load(simd, &view.rgba[3], at);
-        let length = load(simd, &view.lengths, at);
-        let one = f32x8::splat(simd, 1.0);
-        let zero = f32x8::splat(simd, 0.0);
         let across = slab.blocks_across();
-        // What the scalars at a depth look up, from the cell in front of it.
-        let mut known = None;
-        let mut known_alone = None;
+        // The cells that show anything, one by one in bits.
+        let (mut kinds, mut cells) = (NOTHING, 0u32);
         for cell in 0..slab.cells() {
-            let place = &places.middles[cell];
-            let entry = place.entry + at as i64;
+            let entry = places.middles[cell].entry + at as i64;
             if entry < 0 || entry as usize + LANES + 1 > slab.stride {
                 continue;
             }
-            let entry = entry as usize;
-            let first = cell * across + entry / LANES;
+            let kind = slab.kinds[cell * across + entry as usize / LANES];
+            kinds |= kind;
+            cells |= u32::from(kind != NOTHING) << cell;
+        }
+        if cells == 0 {
+            return false;
+        }
+        let is_outer = slab.is_outer && !self.are_inside(simd, view, at);
+        if kinds == MEANS && slab.gradients.is_empty() && !is_outer {
+            return self.add_means(simd, view, places, at, cells);
+        }
+        let mut pixels = view.pixels(simd, at);
+        let length = load(simd, &view.lengths, at);
+        let one = f32x8::splat(simd, 1.0);
+        // What the scalars at a depth look up, from the cell in front of it.
+        let mut known = None;
+        let mut known_alone = None;
+        while cells != 0 {
+            let cell = cells.trailing_zeros() as usize;
+            cells &= cells - 1;
+            let first = cell * across + (places.middles[cell].entry + at as i64) as usize / LANES;
             let next = (first + 1).min(slab.errors.len() - 1);
-            let error = slab.errors[first].max(slab.errors[next]);
-            if error == EMPTY {
-                continue;
-            }
-            // What lies behind something shows less of it.
-            let apart = slab.apart[first].max(slab.apart[next]);
-            if apart > 1.0 && self.near.is_some() && apart * largest(one - alpha) > 1.0 {
-                let spacing = spacing_for(apart * largest(one - alpha), 1.0);
-                let front = match known_alone {
-                    Some((behind, front)) if behind == cell => Some(front),
-                    Some(_) | None => None,
-                };
-                let mut pixels = [rgb[0], rgb[1], rgb[2], alpha];
-                let met = (cell, at, spacing, slab.reaches[first % across].max(slab.reaches[next % across]));
-                known_alone = self.add_alone(simd, &mut pixels, view, places, met, front);
-                [rgb[0], rgb[1], rgb[2], alpha] = pixels;
-                if self.steep.are_closed(simd, alpha) {
-                    break;
+            if slab.kinds[first] != MEANS {
+                // What lies behind something shows less of it.
+                let seen = largest(pixels[3]);
+                let apart = slab.apart[first].max(slab.apart[next]) * seen;
+                if self.near.is_some() && apart > 1.0 {
+                    let front = match known_alone {
+                        Some((behind, front)) if behind == cell => Some(front),
+                        Some(_) | None => None,
+                    };
+                    let reach = slab.reaches[first % across].max(slab.reaches[next % across]);
+                    let met = (cell, at, spacing_for(apart, 1.0), reach);
+                    let mut held = pixels;
+                    known_alone = self.add_alone(simd, &mut held, view, places, met, front);
+                    pixels = held;
+                    if self.steep.are_closed(simd, pixels[3]) {
+                        break;
+                    }
+                    continue;
                 }
-                continue;
+                if slab.errors[first].max(slab.errors[next]) * seen > self.tolerance {
+                    let looks = match known {
+                        Some((behind, looks)) if behind == cell => Some(looks),
+                        Some(_) | None => None,
+                    };
+                    let mut held = pixels;
+                    known = self.add_steep(simd, &mut held, view, places, (cell, at), looks);
+                    pixels = held;
+                    continue;
+                }
             }
-            if error > self.tolerance && error * largest(one - alpha) > self.tolerance {
-                let looks = match known {
-                    Some((behind, looks)) if behind == cell => Some(looks),
-                    Some(_) | None => None,
-                };
-                let mut pixels = [rgb[0], rgb[1], rgb[2], alpha];
-                known = self.add_steep(simd, &mut pixels, view, places, (cell, at), looks);
-                [rgb[0], rgb[1], rgb[2], alpha] = pixels;
-                continue;
-            }
-            let part = f32x8::splat(simd, place.part);
-            let met = Met {
-                list: &slab.means,
-                starts: [
-                    slab.mean_start(cell, place.phases[0]) + entry,
-                    slab.mean_start(cell, place.phases[1]) + entry + place.further,
-                ],
-                stride: slab.stride,
-                part,
-            };
+            let met = MetMeans::of(simd, slab, places, cell, at);
             let opacity = met.row(simd, 3);
-            let depth = opacity * length;
-            if !depth.simd_gt(zero).any_true() {
+            if !opacity.simd_gt(f32x8::splat(simd, 0.0)).any_true() {
                 continue;
             }
-            let inside = if slab.is_outer { self.share_inside(simd, view, cell, at) } else { one };
-            let (depth, length) = (depth * inside, length * inside);
-            let share = attenuation_mean(simd, depth) * (one - alpha);
-            let lit = share * length;
-            let white = if slab.gradients.is_empty() {
-                zero
-            } else {
+            let inside = if is_outer { self.share_inside(simd, view, cell, at) } else { one };
+            let mut white = None;
+            if !slab.gradients.is_empty() {
                 let gradient = each!(axis of 3 => met.row(simd, PLAIN_ROWS + axis));
-                opacity * self.steep.highlight(simd, gradient, self.halfway(simd, view, at))
-            };
-            rgb = each!(c of 3 => rgb[c] + (met.row(simd, c) + white) * lit);
-            alpha += depth * share;
+                white = Some(opacity * self.steep.highlight(simd, gradient, self.halfway(simd, view, at)));
+            }
+            met.add(simd, &mut pixels, opacity, length * inside, white);
         }
-        for (c, value) in rgb.iter().enumerate() {
-            value.store_slice(&mut view.rgba[c][at..at + LANES]);
+        view.keep(pixels, at);
+        self.steep.are_closed(simd, pixels[3])
+    }
+
+    /// Adds some cells of which means say enough.
+    #[inline(always)]
+    fn add_means<S: Simd>(
+        &self,
+        simd: S,
+        view: &mut ViewRow,
+        places: &Places,
+        at: usize,
+        mut cells: u32,
+    ) -> bool {
+        let mut pixels = view.pixels(simd, at);
+        let length = load(simd, &view.lengths, at);
+        while cells != 0 {
+            let cell = cells.trailing_zeros() as usize;
+            cells &= cells - 1;
+            let met = MetMeans::of(simd, self.slab, places, cell, at);
+            met.add(simd, &mut pixels, met.row(simd, 3), length, None);
         }
-        alpha.store_slice(&mut view.rgba[3][at..at + LANES]);
-        self.steep.are_closed(simd, alpha)
+        view.keep(pixels, at);
+        self.steep.are_closed(simd, pixels[3])
     }
 
     /// Adds a cell that is too steep for means. What its back looks up, and the cell behind, if that was looked up.
-    #[inline(always)]
+    #[inline(never)]
     fn add_steep<S: Simd>(
         &self,
         simd: S,
@@ -179,6 +172,7 @@ impl Sweep<'_> {
         (cell, at): (usize, usize),
         looks: Option<Looked<S>>,
     ) -> Option<(usize, Looked<S>)> {
+        outlined!(simd => {
         let (casting, slab) = (self.steep.casting, self.slab);
         let ends = [&places.depths[cell], &places.depths[cell + 1]];
         let entries = [ends[0].entry + at as i64, ends[1].entry + at as i64];
@@ -189,26 +183,18 @@ impl Sweep<'_> {
             self.fetch(simd, &slab.scalars, (cell, 0), ends[0], entries[0], (1, 0)),
             self.fetch(simd, &slab.scalars, (cell, 1), ends[1], entries[1], (1, 0)),
         ];
-        let half = f32x8::splat(simd, 0.5);
         let zero = f32x8::splat(simd, 0.0);
-        let spread = if slab.spreads.is_empty() {
-            None
-        } else {
-            Some(
-                (self.fetch(simd, &slab.spreads, (cell, 0), ends[0], entries[0], (1, 0))
-                    + self.fetch(simd, &slab.spreads, (cell, 1), ends[1], entries[1], (1, 0)))
-                    * half,
-            )
-        };
-        let width = match spread {
-            Some(spread) => spread,
-            None => zero,
-        };
-        let around = Around::between(simd, scalars, width)?;
+        let mut spread = zero;
+        if !slab.spreads.is_empty() {
+            let front = self.fetch(simd, &slab.spreads, (cell, 0), ends[0], entries[0], (1, 0));
+            let back = self.fetch(simd, &slab.spreads, (cell, 1), ends[1], entries[1], (1, 0));
+            spread = (front + back) * f32x8::splat(simd, 0.5);
+        }
+        let around = Around::between(simd, scalars, spread)?;
         if self.steep.is_vacant(&around) {
             return None;
         }
-        let is_open = (f32x8::splat(simd, 1.0) - pixels[3]).simd_ge(casting.scene.termination);
+        let is_open = pixels[3].simd_ge(casting.scene.termination);
         let sum = scalars[0] + scalars[1];
         let is_met = sum.simd_eq(sum) & is_open;
         if !is_met.any_true() {
@@ -228,7 +214,7 @@ impl Sweep<'_> {
             }))
         };
         if !self.steep.is_fine(&around, self.thickness) {
-            self.add_each(simd, pixels, (scalars, width, thickness), gradient, at);
+            self.add_each(simd, pixels, (scalars, spread, thickness), gradient, at);
             return None;
         }
         let lowest = f32x8::splat(simd, around.low);
@@ -239,7 +225,7 @@ impl Sweep<'_> {
         };
         let halfway = self.halfway(simd, view, at);
         if around.spread > 0.0 {
-            self.steep.add_spread(simd, pixels, &cell_met, width, halfway);
+            self.steep.add_spread(simd, pixels, &cell_met, spread, halfway);
             return None;
         }
         // What is looked up for rays that meet nothing is not theirs.
@@ -252,6 +238,7 @@ impl Sweep<'_> {
         let back = self.steep.fine.look_up(simd, cell_met.scalars[1]);
         self.steep.add(simd, pixels, &cell_met, [&front, &back], halfway);
         is_whole.then_some((cell + 1, back))
+        })
     }
 
     /// Half-way between the light and eight rays, where light falls.
@@ -261,6 +248,15 @@ impl Sweep<'_> {
             return [splat(simd, 0.0); 3];
         }
         each!(axis of 3 => load(simd, &view.halfway[axis], at))
+    }
+
+    /// Whether eight rays are in the volume all the way through the slab.
+    #[inline(always)]
+    fn are_inside<S: Simd>(&self, simd: S, view: &ViewRow, at: usize) -> bool {
+        let [front, back] = self.slab.ends();
+        let enter = load(simd, &view.ends[0], at).simd_ge(splat(simd, front.z as f32));
+        let leave = load(simd, &view.ends[1], at).simd_le(splat(simd, back.z as f32));
+        (enter & leave).all_true()
     }
 
     /// The share of a cell within which rays are in the volume.
@@ -320,10 +316,9 @@ impl Sweep<'_> {
             middle = Some(each!(axis of 3 => g[axis].to_array()));
         }
         let gradient = middle;
-        let mut rgba =
-            [pixels[0].to_array(), pixels[1].to_array(), pixels[2].to_array(), pixels[3].to_array()];
+        let mut rgbv = each!(c of 4 => pixels[c].to_array());
         for lane in 0..LANES {
-            let is_open = 1.0 - rgba[3][lane] >= self.steep.casting.scene.termination;
+            let is_open = rgbv[3][lane] >= self.steep.casting.scene.termination;
             if !(s0[lane] + s1[lane]).is_finite() || !is_open {
                 continue;
             }
@@ -338,14 +333,14 @@ impl Sweep<'_> {
             } else {
                 [0.0; 3]
             };
-            let mut pixel = [rgba[0][lane], rgba[1][lane], rgba[2][lane], rgba[3][lane]];
+            let mut pixel = each!(c of 4 => rgbv[c][lane]);
             thick::add(self.steep.casting, &mut pixel, &met, direction);
             for c in 0..4 {
-                rgba[c][lane] = pixel[c];
+                rgbv[c][lane] = pixel[c];
             }
         }
         for c in 0..4 {
-            pixels[c] = f32x8::load_array(simd, rgba[c]);
+            pixels[c] = f32x8::load_array(simd, rgbv[c]);
         }
     }
 }

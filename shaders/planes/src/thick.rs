@@ -23,9 +23,9 @@ pub(crate) struct Met {
     pub(crate) gradient: Option<[f32; 3]>,
 }
 
-/// Adds a cell to premultiplied colour and opacity.
+/// Adds a cell to premultiplied colour and how much of the light from behind gets through.
 #[inline(always)]
-pub(crate) fn add(casting: &Casting<f32>, rgba: &mut [f32; 4], met: &Met, direction: [f32; 3]) {
+pub(crate) fn add(casting: &Casting<f32>, pixel: &mut [f32; 4], met: &Met, direction: [f32; 3]) {
     let tables = casting.tables;
     let (s0, s1) = met.scalars;
     if is_vacant_around(&tables.cells, (s0.min(s1), s0.max(s1)), met.spread) {
@@ -40,14 +40,14 @@ pub(crate) fn add(casting: &Casting<f32>, rgba: &mut [f32; 4], met: &Met, direct
         Some(gradient) if a[3].max(b[3]) > 0.0 => lighting(casting, gradient, direction),
         _ => Lighting::NONE,
     };
-    let visible = 1.0 - rgba[3];
+    let visible = pixel[3];
     let depth = (a[3] + b[3]) * half;
     let order = (0..3).map(|c| (a[c] * b[3] - b[c] * a[3]).abs()).fold(0.0, f32::max);
     let worst = order * half * half / (1.0 + depth * depth) * visible;
     let parts = parts_by_errors(worst / casting.scene.tolerance, depth, MOST_PARTS);
     if parts <= 1.0 {
-        composite(rgba, a, half, &light);
-        composite(rgba, b, half, &light);
+        composite(pixel, a, half, &light);
+        composite(pixel, b, half, &light);
         return;
     }
     let count = 2 * parts as u32;
@@ -57,8 +57,8 @@ pub(crate) fn add(casting: &Casting<f32>, rgba: &mut [f32; 4], met: &Met, direct
         let s = if j == count { s1 } else { s0 + (s1 - s0) * (j as f32 * share) };
         let to = (s, locate(tables, s));
         let k = mean(casting, [&from.1, &to.1], (from.0, s), met.spread);
-        composite(rgba, k, met.thickness * share, &light);
-        if 1.0 - rgba[3] < casting.scene.termination {
+        composite(pixel, k, met.thickness * share, &light);
+        if pixel[3] < casting.scene.termination {
             return;
         }
         from = to;
@@ -66,15 +66,14 @@ pub(crate) fn add(casting: &Casting<f32>, rgba: &mut [f32; 4], met: &Met, direct
 }
 
 #[inline(always)]
-fn composite(rgba: &mut [f32; 4], k: [f32; 4], thickness: f32, light: &Lighting<f32>) {
+fn composite(pixel: &mut [f32; 4], k: [f32; 4], thickness: f32, light: &Lighting<f32>) {
     let depth = k[3] * thickness;
     let mean = attenuation_mean(depth);
-    let through = 1.0 - rgba[3];
     for c in 0..3 {
         let lit = k[c] * light.body + k[3] * light.highlight;
-        rgba[c] += through * (lit * (thickness * mean));
+        pixel[c] += pixel[3] * (lit * (thickness * mean));
     }
-    rgba[3] += through * (depth * mean);
+    pixel[3] *= 1.0 - depth * mean;
 }
 
 #[inline(always)]

@@ -3,7 +3,9 @@
 use crate::Fan;
 use crate::blocks::Blocks;
 use crate::slab::LANES;
+use crate::steep::Pixels;
 use glam::DAffine3;
+use lanes::*;
 
 /// What a view has gathered along the rays of a row.
 #[derive(Clone, Debug, Default)]
@@ -53,6 +55,21 @@ impl ViewRow {
 }
 
 impl ViewRow {
+    /// What eight pixels have gathered.
+    #[inline(always)]
+    pub(crate) fn pixels<S: Simd>(&self, simd: S, at: usize) -> Pixels<S> {
+        let [r, g, b, alpha] = each!(c of 4 => load(simd, &self.rgba[c], at));
+        [r, g, b, splat(simd, 1.0) - alpha]
+    }
+
+    #[inline(always)]
+    pub(crate) fn keep<S: Simd>(&mut self, [r, g, b, visible]: Pixels<S>, at: usize) {
+        let alpha = splat(visible.simd, 1.0) - visible;
+        for (channel, value) in self.rgba.iter_mut().zip([r, g, b, alpha]) {
+            value.store_slice(&mut channel[at..at + LANES]);
+        }
+    }
+
     /// Finds where rays enter and leave a volume of `dims` voxels.
     #[inline(always)]
     pub(crate) fn find_ends(
