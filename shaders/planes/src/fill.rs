@@ -5,7 +5,7 @@ use crate::blocks::Blocks;
 use crate::fan::AtDepth;
 use crate::gradients::{gradients_every, spread_gradients};
 use crate::leaves::Leaf;
-use crate::sample::scalars_at;
+use crate::sample::{scalars_in, spreads_in, texels_at};
 use crate::slab::{HALO, Keeps, LANES, Slab};
 use crate::view_row::ViewRow;
 use glam::{DAffine3, DVec3};
@@ -288,19 +288,24 @@ impl Line<'_> {
             let at = slab.place(self.depth, block, (column - first) as usize);
             samples += self.put::<K>(slab, (column, ruler.x_of(column)), at);
         }
-        let spreads = self.keeps.spreads && self.brick.own.has_deviations();
+        let own_level = &self.brick.own;
+        let has_spreads = self.keeps.spreads && own_level.deviations.is_some();
         let mut column = own[0];
         while column < own[1] {
             let count = (own[1] - column).min(LANES as i64) as usize;
             let further = splat(simd, (column - first) as f32) + ramp(simd);
             let x = splat(simd, ruler.x) + further * splat(simd, ruler.pitch);
-            let scalars = scalars_at(simd, &self.brick.own, x).to_array();
+            let texels = texels_at(simd, own_level, x);
+            let scalars = scalars_in(simd, own_level, texels).to_array();
             for (lane, &scalar) in scalars.iter().enumerate().take(count) {
                 let at = slab.place(self.depth, block, (column - first) as usize + lane);
                 slab.scalars[at] = scalar;
-                if spreads {
-                    let x = ruler.x_of(column + lane as i64);
-                    slab.spreads[at] = self.brick.spread_at::<K>(self.casting, &self.ray, x);
+            }
+            if has_spreads {
+                let spreads = spreads_in(simd, own_level, texels).to_array();
+                for (lane, &spread) in spreads.iter().enumerate().take(count) {
+                    let at = slab.place(self.depth, block, (column - first) as usize + lane);
+                    slab.spreads[at] = spread;
                 }
             }
             samples += count as u64;

@@ -2,7 +2,7 @@
 
 use crate::fill::Grid;
 use crate::leaves::Leaf;
-use crate::sample::{gradients_in, scalars_in};
+use crate::sample::{gradients_in, scalars_in, spreads_in};
 use crate::slab::{LANES, Slab};
 use glam::DVec3;
 use lanes::*;
@@ -17,7 +17,6 @@ const MARGIN: f64 = 1e-3;
 
 /// A leaf's samples around the plane of a row.
 struct NearLevel<'a> {
-    node: u32,
     /// Its t is x, at the front of the part.
     level: Level<'a, f32>,
     /// Texels per metre of z.
@@ -29,7 +28,6 @@ struct NearLevel<'a> {
 
 /// The leaves of a part, by the blocks of its slab that they lie in.
 pub(crate) struct Near<'a> {
-    grid: &'a Grid<'a>,
     levels: Vec<NearLevel<'a>>,
     blocks: Vec<[i64; 2]>,
     /// z that all is counted from.
@@ -57,7 +55,7 @@ pub(crate) struct Samples<S: Simd> {
 
 impl<'a> Near<'a> {
     /// Of the leaves near a slab.
-    pub(crate) fn of(grid: &'a Grid<'a>, leaves: &[Leaf], slab: &Slab) -> Self {
+    pub(crate) fn of(grid: &Grid<'a>, leaves: &[Leaf], slab: &Slab) -> Self {
         let front = slab.depths[0].z;
         let line = grid.line(&slab.depths[0]);
         let casting = grid.casting;
@@ -70,7 +68,6 @@ impl<'a> Near<'a> {
             let lowest = DVec3::from_array(node.cell.map(f64::from)) * OWN_EDGE;
             let texels = |corner: DVec3| corner / leaf.edge - lowest + OVERLAP as f64;
             NearLevel {
-                node: leaf.node,
                 level,
                 along: of(along / leaf.edge),
                 low: of(texels(leaf.low) - MARGIN),
@@ -85,7 +82,6 @@ impl<'a> Near<'a> {
         };
         let m = &casting.scene.volume_from_display;
         Self {
-            grid,
             levels: leaves.iter().map(level).collect(),
             blocks: leaves.iter().map(across).collect(),
             front,
@@ -112,8 +108,9 @@ impl<'a> Near<'a> {
             let is_new = is_inside & !samples.known;
             if is_new.any_true() {
                 samples.scalars = is_new.select(scalars_in(simd, &near.level, texels), samples.scalars);
-                if near.level.has_deviations() {
-                    samples.spreads = is_new.select(self.spreads(simd, near, points), samples.spreads);
+                if near.level.deviations.is_some() {
+                    let spreads = spreads_in(simd, &near.level, texels);
+                    samples.spreads = is_new.select(spreads, samples.spreads);
                 }
                 samples.known |= is_new;
                 if samples.known.all_true() {
@@ -122,14 +119,6 @@ impl<'a> Near<'a> {
             }
         }
         samples
-    }
-
-    /// What samples of a leaf stand for at eight points, one by one: few leaves that show have any.
-    fn spreads<S: Simd>(&self, simd: S, near: &NearLevel, points: Points<S>) -> f32x8<S> {
-        let Grid { casting, fan, .. } = *self.grid;
-        let node = &casting.volume.nodes[near.node as usize];
-        let level = Level::new(casting, node, &self.grid.line(&fan.at(points.z)));
-        f32x8::load_array(simd, points.x.to_array().map(|x| level.spread(x)))
     }
 
     /// Their gradients, display frame; 0 where none is known.

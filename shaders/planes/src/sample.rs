@@ -30,21 +30,24 @@ fn place<S: Simd>(
     (eight!(LANE => (base[LANE] as usize).clamp(first, last)), part)
 }
 
-/// The scalars of eight columns at these x on a level's line.
+/// Where eight columns at these x on a level's line lie in its brick.
 #[inline(always)]
-pub(crate) fn scalars_at<S: Simd>(simd: S, level: &Level<f32>, x: f32x8<S>) -> f32x8<S> {
+pub(crate) fn texels_at<S: Simd>(simd: S, level: &Level<f32>, x: f32x8<S>) -> [f32x8<S>; 3] {
     let origin = level.point(0.0);
-    let texels = each!(axis of 3 => splat(simd, origin.0[axis]) + splat(simd, level.slope.0[axis]) * x);
-    scalars_in(simd, level, texels)
+    each!(axis of 3 => splat(simd, origin.0[axis]) + splat(simd, level.slope.0[axis]) * x)
 }
 
-/// The scalars at eight points of a level's brick.
+/// What a brick's codes are at eight points.
 #[inline(always)]
-pub(crate) fn scalars_in<S: Simd>(simd: S, level: &Level<f32>, texels: [f32x8<S>; 3]) -> f32x8<S> {
+fn codes_in<S: Simd, C: Copy + Into<i32>>(
+    simd: S,
+    codes: &[C; brick::VOXELS],
+    texels: [f32x8<S>; 3],
+) -> f32x8<S> {
     let (base, part) = place(simd, texels, [0, EDGE - 2]);
     let mut pairs = [[0i32; LANES]; 4];
     for lane in 0..LANES {
-        let window = &level.codes[base[lane]..base[lane] + LAYER + ROW + 2];
+        let window = &codes[base[lane]..base[lane] + LAYER + ROW + 2];
         pairs[0][lane] = pair(window, 0);
         pairs[1][lane] = pair(window, ROW);
         pairs[2][lane] = pair(window, LAYER);
@@ -54,9 +57,24 @@ pub(crate) fn scalars_in<S: Simd>(simd: S, level: &Level<f32>, texels: [f32x8<S>
         let [near, far] = halves(simd, pairs[i]);
         near + (far - near) * part[0]
     });
+    between(along_x, part[1], part[2])
+}
+
+/// The scalars at eight points of a level's brick.
+#[inline(always)]
+pub(crate) fn scalars_in<S: Simd>(simd: S, level: &Level<f32>, texels: [f32x8<S>; 3]) -> f32x8<S> {
     let [offset, scale] = level.code_range();
-    let scalar = splat(simd, offset) + splat(simd, scale / 65535.0) * between(along_x, part[1], part[2]);
+    let scalar = splat(simd, offset) + splat(simd, scale / 65535.0) * codes_in(simd, level.codes, texels);
     scalar.max(splat(simd, 0.0)).min(splat(simd, 1.0))
+}
+
+/// The standard deviations at eight points of a level's brick; 0 where samples stand for themselves.
+#[inline(always)]
+pub(crate) fn spreads_in<S: Simd>(simd: S, level: &Level<f32>, texels: [f32x8<S>; 3]) -> f32x8<S> {
+    match level.deviations {
+        Some((codes, scale)) => splat(simd, scale / 255.0) * codes_in(simd, codes, texels),
+        None => splat(simd, 0.0),
+    }
 }
 
 /// Differences over two texels at eight points of a level's brick, per finest voxel; see `twin::sample::differences`.
@@ -120,6 +138,6 @@ fn between<S: Simd>(corners: [f32x8<S>; 4], first: f32x8<S>, second: f32x8<S>) -
 
 /// Two neighbours along x as one word, the nearer in the low half.
 #[inline(always)]
-fn pair(window: &[u16], offset: usize) -> i32 {
-    i32::from(window[offset]) | i32::from(window[offset + 1]) << 16
+fn pair<C: Copy + Into<i32>>(window: &[C], offset: usize) -> i32 {
+    window[offset].into() | window[offset + 1].into() << 16
 }

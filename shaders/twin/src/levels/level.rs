@@ -18,7 +18,7 @@ pub struct Level<'a, F> {
     offset: F,
     scale: F,
     /// The standard deviations, and that of code 255; None where samples stand for themselves.
-    pub(crate) deviations: Option<(&'a [u8; brick::VOXELS], F)>,
+    pub deviations: Option<(&'a [u8; brick::VOXELS], F)>,
 }
 
 impl<'a, F: Real> Level<'a, F> {
@@ -50,15 +50,9 @@ impl<'a, F: Real> Level<'a, F> {
         self.base + self.slope * t
     }
 
-    /// Whether samples stand for others around them.
-    #[inline(always)]
-    pub fn has_deviations(&self) -> bool {
-        self.deviations.is_some()
-    }
-
     /// The standard deviation at t of what samples stand for.
     #[inline(always)]
-    pub fn spread(&self, t: F) -> F {
+    pub(crate) fn spread(&self, t: F) -> F {
         self.deviations.map_or(F::ZERO, |(codes, scale)| scale * sample_deviations(codes, self.point(t)))
     }
 
