@@ -49,15 +49,15 @@ impl<'a, S: Simd> MetMeans<'a, S> {
         let depth = opacity * length;
         let share = attenuation_mean(simd, depth);
         let lit = share * length * pixels[3];
-        for c in 0..3 {
+        let [r, g, b] = each!(c of 3 => {
             let mut colour = self.row(simd, c);
             if let Some(white) = white {
                 colour += white;
             }
-            pixels[c] += colour * lit;
-        }
-        // Cells wait for each other by this alone.
-        pixels[3] *= splat(simd, 1.0) - depth * share;
+            pixels[c] + colour * lit
+        });
+        // Cells wait for each other by what is visible alone.
+        *pixels = [r, g, b, pixels[3] * (splat(simd, 1.0) - depth * share)];
     }
 }
 
