@@ -20,6 +20,8 @@ use twin::kernel::Kernel;
 
 /// Cells of a slab at closer spacings: what is sampled of them fits a core's own cache beside the views' rows.
 const FINE_CELLS: usize = 16;
+// A sweep has a bit for each.
+const _: () = assert!(FINE_CELLS <= u32::BITS as usize);
 
 /// What one thread keeps from slab to slab.
 #[derive(Debug, Default)]
