@@ -28,6 +28,14 @@ impl Index {
         self.knots.partition_point(|&knot| knot <= s)
     }
 
+    /// By how much the scalar `s` lies within `phase`; negative outside it.
+    pub fn margin(&self, phase: usize, s: f64) -> f64 {
+        let from = phase.checked_sub(1).map_or(f64::NEG_INFINITY, |below| self.knots[below]);
+        let to = self.knots.get(phase).copied().unwrap_or(f64::INFINITY);
+        // The upper end belongs to the next phase.
+        if s < to { (s - from).min(to - s) } else { (to - s).min(-f64::MIN_POSITIVE) }
+    }
+
     /// Whether there is more than one phase.
     pub fn has_knots(&self) -> bool {
         !self.knots.is_empty()
@@ -74,6 +82,8 @@ mod tests {
         let (value, slope) = index.at(1, 0.35);
         assert!((value - 1.15).abs() < 1e-15 && (slope - 1.0).abs() < 1e-15);
         assert_eq!(index.at(3, 1.0), (2.0, 0.0));
+        assert_eq!([0.3, 0.1, 0.6].map(|s| (100.0 * index.margin(1, s)).round()), [10.0, -10.0, -10.0]);
+        assert!(index.margin(1, 0.2) == 0.0 && index.margin(1, 0.5) < 0.0 && index.margin(3, 9.0) > 0.0);
         assert!(!Index::new(&Curve::constant(1.3)).has_knots());
     }
 }

@@ -14,8 +14,15 @@ pub const LONGEST_WAY_DIAGONALS: f64 = 4.0;
 const LONGEST_STEP_VOXELS: f64 = 1.0;
 /// Shortest step, finest voxels: where one is not enough, the way is not known.
 const SHORTEST_STEP_VOXELS: f64 = 1e-12;
-/// Places on a step at which the scalar's phase is looked at: what lies between two of them is missed.
-const LOOKS: u32 = 4;
+/// Places on a step at which the scalar is looked at. Where it comes closer to another phase than at its neighbours, the closest
+/// place between these is sought: a surface that is only grazed bends light as much as one that is crossed.
+const LOOKS: usize = 8;
+/// Times that the interval in which that place lies is narrowed, each by the golden section: to 1e-5 voxels.
+const NARROWINGS: u32 = 20;
+/// Share of an interval that the golden section leaves.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// A place may be closer to another phase by this many times what the looks around it differ by.
+const MOST_DIP: f64 = 2.0;
 /// Share of the deviation that a single step may always have, so that the kinks of the gradient between voxels do not
 /// drive steps to nothing.
 const SHARE_OF_A_STEP: f64 = 1e-3;
@@ -171,13 +178,43 @@ impl<'a> Follower<'a> {
         if !self.bending.index.has_knots() {
             return Ok(None);
         }
-        let mut before = 0.0;
-        for look in 1..=LOOKS {
-            let behind = f64::from(look) / f64::from(LOOKS);
-            if self.bending.phase(self.pose.point.lerp(whole.end.point, behind))? != self.phase {
-                return self.bisect(length_m, (before, behind)).map(Some);
+        let part = |look: usize| look as f64 / LOOKS as f64;
+        let mut margins = [0.0; LOOKS + 1];
+        for (look, margin) in margins.iter_mut().enumerate() {
+            *margin = self.margin(whole, part(look))?;
+        }
+        for look in 0..=LOOKS {
+            let (before, after) = (look.saturating_sub(1), (look + 1).min(LOOKS));
+            if look > 0 && margins[look] < 0.0 {
+                return self.bisect(length_m, (part(before), part(look))).map(Some);
             }
-            before = behind;
+            let rises = [before, after].map(|other| margins[other] - margins[look]);
+            let may_dip = margins[look] <= MOST_DIP * rises[0].max(rises[1]);
+            if may_dip
+                && rises.iter().all(|&rise| rise >= 0.0)
+                && let Some(behind) = self.dip(whole, (part(before), part(after)))?
+            {
+                return self.bisect(length_m, (part(before), behind)).map(Some);
+            }
+        }
+        Ok(None)
+    }
+
+    /// By how much the scalar is within its phase, part of a step ahead; negative beyond.
+    fn margin(&self, whole: &Stepped, part: f64) -> Result<f64, BrickError> {
+        let scalar = self.bending.local(self.pose.point.lerp(whole.end.point, part))?.scalar;
+        Ok(self.bending.index.margin(self.phase, scalar))
+    }
+
+    /// A place beyond the phase between two parts of a step, between which the scalar comes closest to another.
+    fn dip(&self, whole: &Stepped, (mut low, mut high): (f64, f64)) -> Result<Option<f64>, BrickError> {
+        for _ in 0..NARROWINGS {
+            let places = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+            let margins = [self.margin(whole, places[0])?, self.margin(whole, places[1])?];
+            if let Some(beyond) = (0..2).find(|&i| margins[i] < 0.0) {
+                return Ok(Some(places[beyond]));
+            }
+            if margins[0] < margins[1] { high = places[1] } else { low = places[0] }
         }
         Ok(None)
     }

@@ -127,6 +127,27 @@ fn beyond_the_critical_angle_a_surface_is_a_mirror() {
 }
 
 #[test]
+fn a_ball_that_is_only_grazed_bends_light_as_much_as_any() {
+    let (radius, index) = (3.0, 1.5);
+    let from_centre = |p: DVec3| (p - CENTRE).length();
+    let field = AnalyticField::new(
+        DVec3::splat(EDGE),
+        move |p| 1.0 - from_centre(p) / EDGE,
+        move |p: DVec3| -(p - CENTRE).normalize_or_zero() / EDGE,
+    );
+    let at_surface = 1.0 - radius / EDGE;
+    for depth in [0.3, 1e-2, 1e-4, 1e-6, -1e-6] {
+        let aside = radius - depth;
+        let start = ray([0.03, 5.0 + aside, 5.0], [1.0, 0.0, 0.0]);
+        let way = Way::new(&field, &[(at_surface, 1.0), (at_surface, index)], &start);
+        let sine: f64 = aside / radius;
+        let turn = if depth > 0.0 { 2.0 * (sine.asin() - (sine / index).asin()) } else { 0.0 };
+        let last = way.last().direction_in_display;
+        assert!((last - DVec3::new(turn.cos(), -turn.sin(), 0.0)).length() < 1e-6, "{depth}: {last}");
+    }
+}
+
+#[test]
 fn an_index_whose_square_is_linear_makes_parabolas() {
     // Along σ with ds = ν dσ the way is p'' = ∇ν²/2: here ν² = 1 + 0.2 x of the display, in a volume that is turned and
     // stretched.
