@@ -5,6 +5,11 @@ use optics::{Curve, CurveValue};
 /// Equal cells of [0, 1], by which nodes are found.
 pub const TABLE_CELLS: usize = 1023;
 
+/// Nodes inside a cell that it lists: kernels find these without a search.
+const LISTED: usize = 2;
+/// Narrower pieces are not halved: numbers of f32 hold a place among a thousand cells to a few hundred-thousandths of one.
+const NARROWEST_CELLS: f64 = 0.01;
+
 /// A place in a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {
@@ -75,6 +80,32 @@ impl Nodes {
         }
         nodes
     }
+
+    /// Halves what lies between two nodes, the worst of a cell first, while `error` of it is more than `most` and the cell
+    /// still lists its nodes.
+    pub(super) fn halved(self, most: f64, error: impl Fn([Node; 2]) -> f64) -> Self {
+        let narrowest = 2.0 * NARROWEST_CELLS / TABLE_CELLS as f64;
+        let error = |ends: [Node; 2]| if ends[1].s - ends[0].s < narrowest { 0.0 } else { error(ends) };
+        let mut halved = Self { all: Vec::with_capacity(self.all.len()), first: Vec::new() };
+        for ends in self.first.windows(2) {
+            let mut cell = self.all[ends[0]..=ends[1]].to_vec();
+            while cell.len() < 2 + LISTED {
+                let errors = cell.windows(2).map(|ends| error([ends[0], ends[1]])).enumerate();
+                let Some((worst, _)) =
+                    errors.filter(|(_, error)| *error > most).max_by(|a, b| a.1.total_cmp(&b.1))
+                else {
+                    break;
+                };
+                let middle = Node { s: 0.5 * (cell[worst].s + cell[worst + 1].s), is_below: false };
+                cell.insert(worst + 1, middle);
+            }
+            halved.first.push(halved.all.len());
+            halved.all.extend(&cell[..cell.len() - 1]);
+        }
+        halved.first.push(halved.all.len());
+        halved.all.extend(self.all.last());
+        halved
+    }
 }
 
 #[cfg(test)]
@@ -97,5 +128,27 @@ mod tests {
         assert_eq!(nodes.all[342..344].iter().map(|node| node.is_below).collect::<Vec<_>>(), [true, false]);
         assert_eq!(nodes.first[TABLE_CELLS], nodes.all.len() - 1);
         assert!(nodes.all[nodes.all.len() - 2].is_below);
+    }
+
+    #[test]
+    fn what_errs_most_is_halved_while_a_cell_lists_its_nodes() {
+        let mut knots = Knots::default();
+        let cell = 1.0 / TABLE_CELLS as f64;
+        knots.add(&Curve::new(vec![(7.5 * cell, 1.0), (9.3 * cell, 2.0), (9.6 * cell, 1.0)]).unwrap());
+        let before = Nodes::new(knots);
+        // All between cells 5 and 10 errs by its width, and a little more farther up.
+        let error = |[a, b]: [Node; 2]| {
+            if a.s >= 4.9 * cell && b.s <= 10.1 * cell { (b.s - a.s) / cell * (1.0 + a.s) } else { 0.0 }
+        };
+        let nodes = before.halved(0.3, error);
+        let inside = |index: usize| -> Vec<f64> {
+            let nodes = &nodes.all[nodes.first[index] + 1..nodes.first[index + 1]];
+            nodes.iter().map(|node| ((node.s / cell - index as f64) * 1e3).round() / 1e3).collect()
+        };
+        assert_eq!(inside(4), []);
+        assert_eq!(inside(5), [0.5, 0.75]);
+        assert_eq!((inside(7), inside(9)), (vec![0.5, 0.75], vec![0.3, 0.6]));
+        assert_eq!((nodes.all.len(), nodes.first.len()), (nodes.first[TABLE_CELLS] + 1, TABLE_CELLS + 1));
+        assert!(nodes.all.is_sorted_by(|a, b| a.s <= b.s));
     }
 }
