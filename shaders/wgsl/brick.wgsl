@@ -81,6 +81,8 @@ struct Step {
     // Where it begins, and its length, metres.
     t0: f32,
     length: f32,
+    // Whether enhancers look at its gradient.
+    enhancers_look: bool,
 }
 
 // Adds a step in equal parts, as many of them as can be seen. Yields the number of samples taken between its ends.
@@ -106,7 +108,7 @@ fn add_parts(accumulated: ptr<function, Accumulated>, brick: Brick, ray: Ray, st
         let plain = sample_over(from_located, to_located, from_s, to_s, spread_at(brick, ray, middle));
         if !is_clear(plain.k.w) {
             var gradients = NO_GRADIENTS;
-            if plain.k.w > 0.0 && (SHADES || chain_looks(middle)) {
+            if plain.k.w > 0.0 && (SHADES || step.enhancers_look) {
                 gradients = gradients_at(brick, ray, middle);
             }
             let sample = enhance(plain, ray, middle, part, from_s, to_s, gradients);
@@ -175,7 +177,7 @@ fn add_both(front: ptr<function, Accumulated>, pair: Pair, steps: PairOfSteps, g
     let material = material_of_pair(steps.s.x, steps.s.y, steps.s.z);
     let light = lighting(gradients.near, steps.first, material);
     var light_beyond = light;
-    if chain_looks(steps.t.x + steps.length) {
+    if chain_looks(steps.t.y) {
         light_beyond = lighting(gradients.far, steps.first, material);
     }
     *front = add_whole(*front, pair.first, thickness, light, steps.first, steps.t.x + half);
@@ -196,7 +198,8 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, next_brick: Brick, 
     var pair = pair_of(s.x, s.y, s.z, steps.range, spreads);
     let middle = steps.t.x + steps.length;
     var gradients = PairGradients(NO_GRADIENTS, NO_GRADIENTS);
-    let enhancers_look = chain_looks(middle);
+    // Breaks are known of the way that the second takes.
+    let enhancers_look = chain_looks(steps.t.y);
     if enhancers_look && max(pair.reach.k.w, pair.both.k.w) > 0.0 {
         gradients.near = gradients_at(brick, steps.first, steps.t.x + 0.5 * steps.length);
         gradients.far = gradients_at(next_brick, steps.second, steps.t.y + 0.5 * steps.length);
@@ -209,6 +212,6 @@ fn add_pair(front: ptr<function, Accumulated>, brick: Brick, next_brick: Brick, 
         }
         add_both(front, pair, steps, gradients);
     }
-    return CutPair(parts, Step(pair.first, s.x, s.y, steps.t.x, steps.length),
-        Step(pair.second, s.y, s.z, steps.t.y, steps.length));
+    return CutPair(parts, Step(pair.first, s.x, s.y, steps.t.x, steps.length, enhancers_look),
+        Step(pair.second, s.y, s.z, steps.t.y, steps.length, enhancers_look));
 }

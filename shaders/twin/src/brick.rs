@@ -135,6 +135,8 @@ struct Step<F, W> {
     scalars: (F, F),
     t0: F,
     length: F,
+    /// Whether enhancers look at its gradient.
+    enhancers_look: bool,
 }
 
 /// Light of a segment, composited alone; `thickness` is metres times the extinction per metre where the table says 1.
@@ -234,7 +236,7 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
         let plain = sample_over::<F, K::Composite>(casting, located, (from, to), spread);
         if !K::Composite::is_clear(plain.k[3]) {
             let mut gradients = Gradients::NONE;
-            let are_read = K::Shade::reads_gradients(casting.needs) || chain.looks::<K>(casting, middle);
+            let are_read = K::Shade::reads_gradients(casting.needs) || step.enhancers_look;
             if plain.k[3] > F::ZERO && are_read {
                 gradients = way.gradients_at::<K>(casting, middle);
             }
@@ -283,7 +285,8 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     let middle = t0 + length;
     let half = F::of(0.5) * length;
     let mut own = [Gradients::NONE; 2];
-    let enhancers_look = chain.looks::<K>(casting, middle);
+    // Breaks are known of the way that the second takes.
+    let enhancers_look = chain.looks::<K>(casting, t1);
     if K::ENHANCES {
         // Each step is seen by its own gradient: so the pair tells how much what is made of it varies.
         let mut gradients = Gradients::NONE;
@@ -314,9 +317,10 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     let parts = parts_of_step(pair.emitted(), thickness, visible, spread, scene.tolerance)
         .most(K::Composite::parts_of_rise(casting, front, &pair.reach));
     if parts > F::ONE {
-        let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length };
+        let step = Step { way: first, whole: pair.first, scalars: (s0, s1), t0, length, enhancers_look };
         let (front, near) = add_parts::<F, K, W>(casting, chain, front, &step, parts);
-        let step = Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length };
+        let step =
+            Step { way: second, whole: pair.second, scalars: (s1, s2), t0: t1, length, enhancers_look };
         let (front, far) = add_parts::<F, K, W>(casting, chain, front, &step, parts);
         return (front, near + far);
     }

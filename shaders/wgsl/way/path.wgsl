@@ -101,6 +101,8 @@ struct Bent {
     since: f32,
     // The side of the jumps of ν that it is on; UNKNOWN_SIDE before the first sample.
     side: u32,
+    // Surfaces in a row that were met at once.
+    met_at_once: u32,
 }
 
 // From where a ray from the eye enters the volume.
@@ -113,6 +115,7 @@ fn entering(eye_ray: Ray, t: f32) -> Bent {
     bent.force = vec3<f32>(0.0);
     bent.since = 0.0;
     bent.side = UNKNOWN_SIDE;
+    bent.met_at_once = 0u;
     return bent;
 }
 

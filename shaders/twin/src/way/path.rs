@@ -28,6 +28,8 @@ pub(super) struct Bent<F> {
     pub(super) since: F,
     /// The side of the jumps of ν that the ray is on, where that is known.
     pub(super) side: Option<Side>,
+    /// Surfaces in a row that were met at once.
+    pub(super) met_at_once: u32,
 }
 
 /// A side of the jumps of ν: how many of them lie at or below it. ν is seen from there.
@@ -122,7 +124,16 @@ impl<F: Real> Bent<F> {
     #[inline(always)]
     pub(super) fn entering(casting: &Casting<F>, eye_ray: &Ray<F>, t: F) -> Self {
         let ray = turned_at(casting, eye_ray, t, eye_ray.direction_in_display);
-        Self { ray, t: F::ZERO, way: F::ZERO, passing: None, force: Vec3::ZERO, since: F::ZERO, side: None }
+        Self {
+            ray,
+            t: F::ZERO,
+            way: F::ZERO,
+            passing: None,
+            force: Vec3::ZERO,
+            since: F::ZERO,
+            side: None,
+            met_at_once: 0,
+        }
     }
 
     /// A new origin where the last is far behind, so that no step is lost to rounding; whether there is one.
