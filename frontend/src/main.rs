@@ -2,6 +2,7 @@
 
 use clap::Parser;
 use clap::error::ErrorKind;
+use display_config::text::brief_text;
 use frontend::FrontendError;
 use frontend::accuracy::AccuracyError;
 use frontend::adapter::dismiss_backends;
@@ -41,6 +42,14 @@ fn usage(error: &clap::Error) -> ! {
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = write!(std::io::stderr(), "{}", error.render());
+        }
+        ErrorKind::InvalidUtf8 => {
+            let names = std::env::args_os().filter(|name| name.to_str().is_none());
+            let names: Vec<_> = names.map(|name| brief_text(&name.to_string_lossy()).into_owned()).collect();
+            complain(&format!(
+                "this command takes names in UTF-8 alone, and {} is none: rename it, or link to it by another name",
+                names.join(" ")
+            ));
         }
         _ => complain(error.render().to_string().trim_start_matches("error: ").trim_end()),
     }

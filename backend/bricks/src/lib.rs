@@ -1,6 +1,7 @@
 //! The octree of bricks: its geometry, what a brick is, where bricks come from, how fine they must be, and the store that
 //! keeps them.
 
+pub mod links;
 mod lod;
 pub mod procedural;
 pub mod store;

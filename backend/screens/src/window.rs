@@ -30,11 +30,17 @@ pub struct Acts {
 pub fn open(title: &str, width: u32, height: u32) -> Result<(WindowLoop, Window, Acts), ScreenError> {
     let events = EventLoop::with_user_event()
         .build()
-        .map_err(|error| ScreenError::NoWindowSystem(error.to_string()))?;
+        .map_err(|error| ScreenError::NoWindowSystem(without_place(&error.to_string())))?;
     let (tell, acts) = channel();
     let orders = events.create_proxy();
     let app = App::new(title.to_owned(), Picture::black(width, height), tell);
     Ok((WindowLoop { events, app }, Window { orders }, Acts { acts }))
+}
+
+/// What the window library says, without the line of its own code that it names before.
+fn without_place(text: &str) -> String {
+    let after = text.split_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    after.map_or(text, |(_, what)| what).to_owned()
 }
 
 impl WindowLoop {
@@ -80,5 +86,17 @@ impl Acts {
 impl Drop for Window {
     fn drop(&mut self) {
         let _ = self.orders.send_event(Order::Close);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_line_of_a_library_is_told() {
+        let text = "os error at /home/me/x-0.30/src/linux/mod.rs:765: neither A nor B is set.";
+        assert_eq!(without_place(text), "neither A nor B is set.");
+        assert_eq!(without_place("no window"), "no window");
     }
 }

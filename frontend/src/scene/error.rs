@@ -3,7 +3,17 @@
 use super::names::PROCEDURAL_NAMES;
 use display_config::Place;
 use display_config::text::{brief_number, brief_text, did_you_mean};
-use std::path::PathBuf;
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+/// The longest path that a system takes, bytes.
+const LONGEST_PATH: usize = 4096;
+
+/// A path that a message can quote: whole, unless no file can have it.
+fn named(path: &Path) -> Cow<'_, str> {
+    let name = path.to_string_lossy();
+    if name.len() > LONGEST_PATH { brief_text(&name).into_owned().into() } else { name }
+}
 
 /// Why a scene cannot be read. Each is one sentence that says where, what, and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -30,8 +40,8 @@ pub enum SceneError {
     #[error(
         "{}there is no volume {}; make it with `lightloom import IN -o {}`",
         place.iter().map(|place| format!("{place}: ")).collect::<String>(),
-        path.display(),
-        path.display()
+        named(path),
+        named(path)
     )]
     NoStore {
         /// What names it; None where that is the command line.

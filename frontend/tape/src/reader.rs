@@ -25,10 +25,11 @@ impl Tape {
     /// It cannot be read, it is no tape, or one of a later version.
     pub fn open(path: &Path) -> Result<Self, TapeError> {
         let cannot_read = |cause| TapeError::Read { path: path.to_owned(), cause };
-        let file = File::open(path).map_err(cannot_read)?;
-        if !file.metadata().map_err(cannot_read)?.is_file() {
+        // Before it is opened: a pipe would wait for somebody who writes.
+        if !std::fs::metadata(path).map_err(cannot_read)?.is_file() {
             return Err(cannot_read(std::io::Error::other("it is no regular file")));
         }
+        let file = File::open(path).map_err(cannot_read)?;
         // SAFETY: a tape only grows while it is written; one that somebody shortens under a reader ends the process with a
         // bus error, and nothing else.
         let bytes = unsafe { Mmap::map(&file) }.map_err(cannot_read)?;

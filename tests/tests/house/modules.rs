@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const ORDERS: [(&str, &[&str]); 3] = [
     (
         "backend/bricks",
-        &["temporary", "working_file", "working_folder", "volume", "store", "lod", "procedural"],
+        &["links", "temporary", "working_file", "working_folder", "volume", "store", "lod", "procedural"],
     ),
     ("backend/renderer", &["output", "present", "cache_size", "working_set", "device", "refine", "render"]),
     (

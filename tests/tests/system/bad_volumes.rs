@@ -64,6 +64,19 @@ fn no_command_waits_for_a_pipe() {
         refused(&[command, &store], &store);
     }
     refused(&["export", &store, &bench.path("b.nrrd")], &store);
+    let tape = [
+        "simulate",
+        "procedural:shells@16",
+        "--display",
+        "desk8",
+        "--out",
+        &bench.path("out"),
+        "--tape",
+        &store,
+    ];
+    for command in [&["tape", "info", &store][..], &tape] {
+        start(&mut lightloom(command)).finish(A_MOMENT).refused(&[&store, "no regular file"]);
+    }
     assert_eq!(files_but_pipes(&bench), 0);
 }
 
@@ -164,6 +177,9 @@ fn names_need_not_be_text() {
     for rest in [&["verify"][..], &["info"]] {
         run(lightloom(rest).arg(name(b"\xfe.lloom"))).succeeded();
     }
+    // Scenes are named by text.
+    let mut command = lightloom(&["simulate", "--display", "desk8", "--out", &bench.path("out")]);
+    run(command.arg(name(b"\xfe.lloom"))).refused(&[".lloom is none: rename it"]);
 }
 
 /// The parser's own complaints of what is missing would be as many as slices.

@@ -168,3 +168,13 @@ fn a_trace_counts_once() {
     let again = format!("{traces}/../traces/backend-0.trace");
     run(&mut lightloom(&["replay", &trace, &again])).refused(&[&again, "given twice"]);
 }
+
+#[test]
+fn a_name_that_nobody_reads_is_cut_off() {
+    let bench = Bench::new();
+    let (scene, out) = (bench.path("long.toml"), bench.path("out"));
+    fs::write(&scene, format!("[volume]\nsource = \"{}.lloom\"\n", "x".repeat(200_000))).unwrap();
+    let ran = run(&mut lightloom(&bench.simulate(&scene, &out, &[])));
+    ran.refused(&[&scene, "line 2", "xxx…"]);
+    assert!(ran.stderr.len() < 2000, "{}", ran.stderr.len());
+}

@@ -276,7 +276,7 @@ fn long_import(bench: &Bench) -> lightloom_tests::program::Running {
 
 #[test]
 fn an_interrupted_import_leaves_nothing() {
-    for (name, code) in [("INT", 130), ("TERM", 143)] {
+    for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let bench = Bench::new();
         let running = long_import(&bench);
         signal(name, running.process());

@@ -6,13 +6,11 @@ use super::pack::PackedBrick;
 use super::tree::Tree;
 use super::writer::Writer;
 use crate::OctreeShape;
+use crate::links::followed;
 use crate::working_file::WorkingFile;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-
-/// Links that are followed one after the other; Linux follows as many.
-const MOST_LINKS: usize = 40;
 
 /// The file being written. It has its name only when it is complete, and until then no header either.
 pub(super) struct Sink {
@@ -78,18 +76,6 @@ impl Sink {
     }
 }
 
-/// Where links lead from a path, whether anything is there or not: a store is written there, and the link stays.
-fn followed(path: &Path) -> std::io::Result<PathBuf> {
-    let mut path = path.to_path_buf();
-    for _ in 0..MOST_LINKS {
-        match std::fs::read_link(&path) {
-            Ok(target) => path = path.with_file_name(target),
-            Err(_) => return Ok(path),
-        }
-    }
-    Err(std::io::Error::other("its links lead in a circle"))
-}
-
 /// A store may replace a store and nothing else: a mistyped name must not destroy data.
 fn check_replaceable(path: &Path) -> Result<(), StoreError> {
     let Ok(found) = std::fs::metadata(path) else { return Ok(()) };
@@ -115,24 +101,5 @@ pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
-    }
-}
-
-#[cfg(all(test, unix))]
-mod tests {
-    use super::*;
-    use std::os::unix::fs::symlink;
-
-    #[test]
-    fn links_are_followed_to_where_they_lead() {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        std::fs::create_dir(at("there")).unwrap();
-        symlink("b", at("a")).unwrap();
-        symlink("there/store.lloom", at("b")).unwrap();
-        symlink("circle", at("circle")).unwrap();
-        assert_eq!(followed(&at("a")).unwrap(), at("there/store.lloom"));
-        assert_eq!(followed(&at("plain")).unwrap(), at("plain"));
-        assert!(followed(&at("circle")).unwrap_err().to_string().contains("circle"));
     }
 }

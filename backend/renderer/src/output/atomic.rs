@@ -1,16 +1,19 @@
 //! Files that appear whole or not at all.
 
 use super::OutputError;
+use bricks::links::followed;
 use bricks::temporary::temporary_in;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Writes `path` through a temporary file beside it: whoever looks sees the old file or the new one, never a part.
+/// Writes `path` through a temporary file beside it: whoever looks sees the old file or the new one, never a part. A link stays,
+/// and what it leads to is written.
 pub fn write_atomically(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> Result<(), OutputError>,
 ) -> Result<(), OutputError> {
+    let path = &followed(path).map_err(|e| OutputError::write(path, e))?;
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = temporary_in(folder).map_err(|e| OutputError::write(path, e))?;
     let mut writer = BufWriter::new(file.as_file_mut());
@@ -44,6 +47,23 @@ mod tests {
         assert!(result.is_err());
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_leads_to_what_was_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, there] = ["link.txt", "there.txt"].map(|name| folder.path().join(name));
+        std::os::unix::fs::symlink("there.txt", &link).unwrap();
+        // Whether anything is there or not.
+        for text in ["new", "newer"] {
+            write_atomically(&link, |w| {
+                w.write_all(text.as_bytes()).unwrap();
+                Ok(())
+            })
+            .unwrap();
+            assert!(link.is_symlink() && std::fs::read_to_string(&there).unwrap() == text);
+        }
     }
 
     #[test]

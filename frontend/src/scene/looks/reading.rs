@@ -28,14 +28,24 @@ pub fn read_values(volume: &dyn BrickSource) -> Values {
     Values::new(&coarse, fine.as_ref(), edge, VolumeFacts::of(volume).value_range)
 }
 
-/// Bricks of the finest level that are not of one value, from all over it.
+/// Bricks of the finest level that are not of one value, from all over it. Only those are met that are looked at: a file may
+/// claim more than anybody could count.
 fn some_of(volume: &dyn BrickSource, shape: &OctreeShape, bricks: u64) -> Vec<NodeKey> {
-    let step = (bricks as usize / (8 * FINE_BRICKS)).max(1);
+    let step = (bricks / (8 * FINE_BRICKS as u64)).max(1);
+    let depth = shape.finest_depth();
+    let across = shape.level_bricks(depth).as_u64vec3();
+    // x fastest.
+    let node = |number: u64| {
+        let rows = number / across.x;
+        let cell = [number % across.x, rows % across.y, rows / across.y].map(|i| i as u32);
+        NodeKey { depth, cell: cell.into() }
+    };
     let varies = |node: &NodeKey| {
         let summary = volume.summary(*node);
         summary.min < summary.max
     };
-    let nodes: Vec<_> = shape.nodes(shape.finest_depth()).step_by(step).filter(varies).collect();
+    let looked_at = (0..bricks.div_ceil(step)).map(|place| node(place * step));
+    let nodes: Vec<_> = looked_at.filter(varies).collect();
     let every = nodes.len().div_ceil(FINE_BRICKS).max(1);
     nodes.into_iter().step_by(every).collect()
 }
@@ -73,4 +83,48 @@ fn of_brick(brick: &Brick, own: UVec3, stride: usize) -> Sample {
         }
     }
     sample
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bricks::volume::{MAX_EDGE_VOXELS, VolumeFrame};
+    use bricks::{BRICK_VOXELS, BrickError, Codes, NodeSummary};
+    use glam::DVec3;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    /// A volume as large as can be, which counts what is asked of it.
+    struct Endless(AtomicU64);
+
+    impl BrickSource for Endless {
+        fn shape(&self) -> OctreeShape {
+            OctreeShape::new(UVec3::splat(MAX_EDGE_VOXELS))
+        }
+
+        fn frame(&self) -> VolumeFrame {
+            VolumeFrame::of_voxels(DVec3::splat(1e-3))
+        }
+
+        fn value_range(&self) -> (f64, f64) {
+            (0.0, 255.0)
+        }
+
+        fn summary(&self, _: NodeKey) -> NodeSummary {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            NodeSummary { min: 0.0, max: 255.0 }
+        }
+
+        fn brick(&self, node: NodeKey) -> Result<Brick, BrickError> {
+            assert!(self.shape().contains(node), "{node:?}");
+            Ok(Brick::new(Codes::U8(vec![7; BRICK_VOXELS]), 0.0, 1.0))
+        }
+    }
+
+    #[test]
+    fn no_claim_of_bricks_makes_it_count_them() {
+        let volume = Endless(AtomicU64::new(0));
+        read_values(&volume);
+        let asked = volume.0.load(Ordering::Relaxed);
+        assert!((1..=16 * FINE_BRICKS as u64).contains(&asked), "{asked}");
+    }
 }
