@@ -4,8 +4,8 @@ use super::LevelSummary;
 use crate::FrontendError;
 use crate::orientation::FrameFacts;
 use crate::progress::Progress;
+use bricks::BrickSource;
 use bricks::store::{self, CodeBits, Codec, Store, StoreError};
-use bricks::{BrickSource, OctreeShape};
 use glam::UVec3;
 use serde::Serialize;
 use std::cell::RefCell;
@@ -76,7 +76,7 @@ pub fn store_summary(path: &Path) -> Result<StoreSummary, FrontendError> {
         },
         codec: codec_name(store.codec()),
         levels: u32::from(shape.finest_depth()) + 1,
-        nodes: nodes(&shape),
+        nodes: shape.total_node_count(),
         stored_bricks: store.stored_bricks(),
         bytes,
         bits_per_voxel: 8.0 * bytes as f64 / voxels as f64,
@@ -109,9 +109,4 @@ fn codec_name(codec: Codec) -> &'static str {
         Codec::Lz4 => "lz4",
         Codec::Zstd => "zstd",
     }
-}
-
-fn nodes(shape: &OctreeShape) -> u64 {
-    let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
-    (0..=shape.finest_depth()).map(level).sum()
 }

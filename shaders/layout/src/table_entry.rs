@@ -10,8 +10,13 @@ pub struct TableCell {
     pub first: u32,
     /// How many cells below it change a picture: so cells a to b together change nothing if those of a and b + 1 are equal.
     pub occupied: u32,
-    /// Where the first two nodes inside it are, in table cells; `f32::MAX` where there are fewer.
-    pub inside: [f32; 2],
+    /// Where the first nodes inside it are, in table cells; `f32::MAX` where there are fewer.
+    pub inside: [f32; TableCell::LISTED],
+}
+
+impl TableCell {
+    /// Nodes inside a cell that it lists: kernels find these without a search.
+    pub const LISTED: usize = 2;
 }
 
 /// f and F = ∫ f of four functions at one node of a table: (k red, k green, k blue, τ), or the factors of a material.

@@ -241,9 +241,9 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
                 gradients = way.gradients_at::<K>(casting, middle);
             }
             let mut enhanced = [plain];
-            let gradient = gradients.at;
-            let segment = Segment { ray, t: middle, length: part, scalars: (from, to), gradient };
-            chain.enhance::<K, 1>(casting, &mut enhanced, [segment]);
+            let (line, gradient) = (ray.line(), gradients.at);
+            let segment = Segment { line, t: middle, length: part, scalars: (from, to), gradient };
+            chain.enhance::<K, 1>(casting, &mut enhanced, &[segment]);
             let [sample] = enhanced;
             let light = if sample.k[3] > F::ZERO {
                 let material = material_between::<F, K>(casting, from, to);
@@ -286,7 +286,7 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
     let half = F::of(0.5) * length;
     let mut own = [Gradients::NONE; 2];
     // Breaks are known of the way that the second takes.
-    let enhancers_look = chain.looks::<K>(casting, t1);
+    let enhancers_look = chain.looks::<K, F>(casting, t1) > F::ZERO;
     if K::ENHANCES {
         // Each step is seen by its own gradient: so the pair tells how much what is made of it varies.
         let mut gradients = Gradients::NONE;
@@ -295,8 +295,8 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
             gradients = own[0].halfway(&own[1]);
         }
         let both = F::of(2.0) * length;
-        let segment = |ray, t, length, scalars, gradients: &Gradients<F>| Segment {
-            ray,
+        let segment = |ray: &Ray<F>, t, length, scalars, gradients: &Gradients<F>| Segment {
+            line: ray.line(),
             t,
             length,
             scalars,
@@ -309,7 +309,7 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
             segment(first.ray(), middle, both, range, &gradients),
         ];
         let mut samples = [pair.first, pair.second, pair.both, pair.reach];
-        chain.enhance::<K, 4>(casting, &mut samples, segments);
+        chain.enhance::<K, 4>(casting, &mut samples, &segments);
         [pair.first, pair.second, pair.both, pair.reach] = samples;
     }
     let visible = K::Composite::still_to_come(casting, front);

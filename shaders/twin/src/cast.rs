@@ -44,12 +44,18 @@ macro_rules! in_packets {
     };
 }
 
-/// A frame and a shading with enhancers, of those compositings that [`Frame::of`] lets through.
+/// The same with enhancers, of those compositings that [`Frame::of`] lets through.
 macro_rules! enhanced {
-    ($shade:ident, $casting:ident, $ray:ident) => {
-        match $casting.needs.compositing {
-            Compositing::Over => cast_ray::<f32, Enhanced<$shade, Over<false>>>($casting, &$ray),
-            Compositing::Mimda(_) => cast_ray::<f32, Enhanced<$shade, Mimda<Consistent>>>($casting, &$ray),
+    ($shade:ident, $simd:ident, $casting:ident, $rays:ident, $casts:ident) => {
+        for rays in $rays.chunks(RAYS) {
+            match $casting.needs.compositing {
+                Compositing::Over => {
+                    cast_packet::<S, Enhanced<$shade, Over<false>>>($simd, $casting, rays, $casts)
+                }
+                Compositing::Mimda(_) => {
+                    cast_packet::<S, Enhanced<$shade, Mimda<Consistent>>>($simd, $casting, rays, $casts)
+                }
+            }
         }
     };
 }
@@ -76,13 +82,11 @@ pub(super) fn cast_leanly<S: Simd>(
         (Frame::Lean, false) => in_packets!(Lean, Phong, simd, casting, rays, casts),
         (Frame::Blended, true) => in_packets!(Blended, Plain, simd, casting, rays, casts),
         (Frame::Blended, false) => in_packets!(Blended, Phong, simd, casting, rays, casts),
-        (frame, is_plain) => {
+        (Frame::Enhanced, true) => enhanced!(Plain, simd, casting, rays, casts),
+        (Frame::Enhanced, false) => enhanced!(Phong, simd, casting, rays, casts),
+        (Frame::Full, _) => {
             for &ray in rays {
-                casts.push(match (&frame, is_plain) {
-                    (Frame::Enhanced, true) => enhanced!(Plain, casting, ray),
-                    (Frame::Enhanced, false) => enhanced!(Phong, casting, ray),
-                    _ => cast_with_all(casting, ray),
-                });
+                casts.push(cast_with_all(casting, ray));
             }
         }
     }

@@ -135,7 +135,7 @@ fn add_with<K: Kernel>(
     let way = CellOnRay { cell, ray };
     let [mut t, end] = cell.within;
     while t < end {
-        let until = chain.next_break::<K>(t).least(end);
+        let until = chain.next_break::<K, f32>(casting, t).least(end);
         let step = 0.5 * (until - t);
         let scalars = [t, t + step, until].map(|t| way.scalar_at::<K>(casting, t));
         let spreads = [0.5, 1.5].map(|steps| way.spread_at::<K>(casting, t + steps * step));

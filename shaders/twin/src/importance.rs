@@ -1,6 +1,6 @@
 //! Averages of the importance over a segment.
 
-use super::{Real, tables::TablePlace};
+use super::{Real, real::Number, tables::TablePlace};
 use layout::ImportanceEntry;
 use needs::tables::Tables;
 
@@ -25,9 +25,13 @@ pub struct Importance<F> {
     pub most: F,
 }
 
-impl<F: Real> Importance<F> {
-    /// Where all is equally important.
-    pub const EQUAL: Self = Self { mean: F::ONE, most: F::ONE };
+impl<F: Number> Importance<F> {
+    /// Where all is equally important, as it is to a number.
+    #[inline(always)]
+    pub fn equal(number: F) -> Self {
+        let one = number.alike(1.0);
+        Self { mean: one, most: one }
+    }
 }
 
 /// ι over the scalars between two places.

@@ -1,9 +1,9 @@
 //! The ray of a projector pixel (LFD eq. 1), seen from the volume.
 
-use super::{ProjectorRays, Real, SceneNumbers, vector::Vec3};
+use super::{ProjectorRays, Real, SceneNumbers, real::Number, vector::Vec3};
 
 /// Stands for infinity, as in the kernel.
-const FAR: f64 = 1e30;
+pub(super) const FAR: f64 = 1e30;
 /// Slower than this along an axis (voxels per metre), a ray counts as parallel to it.
 const PARALLEL: f64 = 1e-12;
 
@@ -26,6 +26,31 @@ pub struct Ray<F> {
     pub end: F,
     /// Voxels per metre of t.
     pub speed: F,
+}
+
+/// A straight way, display frame, of one ray or of eight side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<F> {
+    /// Where t is 0, metres.
+    pub origin: Vec3<F>,
+    /// A unit vector.
+    pub direction: Vec3<F>,
+}
+
+impl<F: Number> Line<F> {
+    /// The point at t.
+    #[inline(always)]
+    pub fn point(&self, t: F) -> Vec3<F> {
+        self.origin + self.direction * t
+    }
+
+    /// t where `normal` · point = `offset`; far where the way is parallel to that plane.
+    #[inline(always)]
+    pub fn plane_crossing(&self, normal: Vec3<F>, offset: F) -> F {
+        let speed = normal.dot(self.direction);
+        let crossing = (offset - normal.dot(self.origin)) / speed;
+        speed.abs().choose(speed.alike(PARALLEL), speed.alike(FAR), crossing)
+    }
 }
 
 impl<F: Real> Ray<F> {
@@ -89,17 +114,13 @@ impl<F: Real> Ray<F> {
     /// The point at t, metres.
     #[inline(always)]
     pub fn point_in_display(&self, t: F) -> Vec3<F> {
-        self.origin_in_display + self.direction_in_display * t
+        self.line().point(t)
     }
 
-    /// t where `normal` · point = `offset`, display frame; far where the ray is parallel to that plane.
+    /// The same ray, display frame.
     #[inline(always)]
-    pub fn plane_crossing(&self, normal: Vec3<F>, offset: F) -> F {
-        let speed = normal.dot(self.direction_in_display);
-        if speed.abs() < F::of(PARALLEL) {
-            return far();
-        }
-        (offset - normal.dot(self.origin_in_display)) / speed
+    pub fn line(&self) -> Line<F> {
+        Line { origin: self.origin_in_display, direction: self.direction_in_display }
     }
 
     /// The same ray as far as t.

@@ -30,6 +30,16 @@ pub trait Number:
     fn choose(self, limit: Self, below: Self, beyond: Self) -> Self;
     /// Whether this is below `limit`, each of them.
     fn is_below(self, limit: Self) -> bool;
+    /// Whether this is below `limit`, any of them.
+    fn is_any_below(self, limit: Self) -> bool;
+
+    /// 0 up to `low`, 1 from `high` on, smooth between.
+    #[inline(always)]
+    fn smoothstep(self, low: Self, high: Self) -> Self {
+        let (zero, one) = (self.alike(0.0), self.alike(1.0));
+        let t = ((self - low) / (high - low)).most(zero).least(one);
+        t * t * (self.alike(3.0) - self.alike(2.0) * t)
+    }
 }
 
 /// f32 or f64.
@@ -42,6 +52,8 @@ pub trait Real: Number + Debug + PartialOrd + Send + Sync + 'static {
     fn of_u32(value: u32) -> Self;
     /// Rounded to f32.
     fn to_f32(self) -> f32;
+    /// The same number.
+    fn to_f64(self) -> f64;
     /// Truncated to an index, for numbers from 0 to 2³¹; NaN gives 0.
     fn to_index(self) -> u32;
     /// log₂ x.
@@ -51,13 +63,6 @@ pub trait Real: Number + Debug + PartialOrd + Send + Sync + 'static {
     const ZERO: Self;
     /// One.
     const ONE: Self;
-
-    /// 0 up to `low`, 1 from `high` on, smooth between.
-    #[inline(always)]
-    fn smoothstep(self, low: Self, high: Self) -> Self {
-        let t = ((self - low) / (high - low)).most(Self::ZERO).least(Self::ONE);
-        t * t * (Self::of(3.0) - Self::of(2.0) * t)
-    }
 }
 
 macro_rules! real {
@@ -107,6 +112,10 @@ macro_rules! real {
             fn is_below(self, limit: Self) -> bool {
                 self < limit
             }
+            #[inline(always)]
+            fn is_any_below(self, limit: Self) -> bool {
+                self < limit
+            }
         }
 
         impl Real for $type {
@@ -128,6 +137,10 @@ macro_rules! real {
             #[inline(always)]
             fn to_f32(self) -> f32 {
                 self as f32
+            }
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self as f64
             }
             #[inline(always)]
             fn to_index(self) -> u32 {
@@ -192,5 +205,9 @@ impl<S: Simd> Number for f32x8<S> {
     #[inline(always)]
     fn is_below(self, limit: Self) -> bool {
         self.simd_lt(limit).all_true()
+    }
+    #[inline(always)]
+    fn is_any_below(self, limit: Self) -> bool {
+        self.simd_lt(limit).any_true()
     }
 }

@@ -73,7 +73,7 @@ impl<F: Real> Voxel<F> {
     }
 }
 
-/// What a pair of steps shows.
+/// What a pair of steps shows, of one ray or of eight side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<F> {
     /// The first step.
@@ -106,13 +106,18 @@ impl<F: Real> Pair<F> {
             reach: sample_over::<F, C>(casting, [&low, &high], reach, spreads[0].most(spreads[1])),
         }
     }
+}
 
+impl<F: Number> Pair<F> {
     /// What it emits.
     #[inline(always)]
     pub fn emitted(&self) -> Emitted<F> {
-        let Self { first, second, both, reach } = self;
-        let [first, second, both, reach] = [first, second, both, reach].map(Sample::emitted);
-        Emitted { first, second, both, reach }
+        Emitted {
+            first: self.first.emitted(),
+            second: self.second.emitted(),
+            both: self.both.emitted(),
+            reach: self.reach.emitted(),
+        }
     }
 }
 

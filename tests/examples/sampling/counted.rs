@@ -88,6 +88,10 @@ impl Number for Counted {
     fn is_below(self, limit: Self) -> bool {
         self.0.is_below(limit.0)
     }
+
+    fn is_any_below(self, limit: Self) -> bool {
+        self.0.is_any_below(limit.0)
+    }
 }
 
 impl Real for Counted {
@@ -119,6 +123,10 @@ impl Real for Counted {
 
     fn to_f32(self) -> f32 {
         self.0
+    }
+
+    fn to_f64(self) -> f64 {
+        self.0.to_f64()
     }
 
     fn to_index(self) -> u32 {

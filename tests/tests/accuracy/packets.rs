@@ -16,7 +16,20 @@ const STRIDE: usize = 1237;
 /// The canary changes so many neighbouring codes of the atlas.
 const SPOILED: usize = 64;
 
-/// Scenes with and without skins, levels of detail that are shown, importance and deviations.
+/// Enhancers one by one, and several.
+const ENHANCED: [&str; 5] =
+    ["clip plane", "probe", "band picker", "layer opacity", "picker, probe and clip plane with MImDA"];
+
+/// A scene with enhancers, one after the other; the last time without the importance that several come with.
+fn enhanced(base: &TestScene) -> Vec<TestScene> {
+    let mut all: Vec<TestScene> = ENHANCED.iter().map(|name| techniques::with(base, name)).collect();
+    let mut chained = techniques::with(base, ENHANCED[4]);
+    chained.frame.optics.mimda = None;
+    all.push(chained);
+    all
+}
+
+/// Scenes with and without skins, levels of detail that are shown, importance, deviations and enhancers.
 fn all(display: &Display) -> Vec<TestScene> {
     let mut all = vec![techniques::bumps(display), scenes::sparse_vessels(display)];
     all.extend(scenes::cranium(display));
@@ -26,6 +39,9 @@ fn all(display: &Display) -> Vec<TestScene> {
     let mut coarse = scenes::stored_vessels(display);
     coarse.frame.quality.lod_scale = 2.0;
     all.push(coarse);
+    let enhanced: Vec<TestScene> =
+        all.iter().filter(|scene| scene.frame.optics.mimda.is_none()).flat_map(enhanced).collect();
+    all.extend(enhanced);
     all
 }
 

@@ -8,6 +8,7 @@ use lightloom_tests::closure_volume::ClosureVolume;
 use lightloom_tests::compare::{Errors, Limits, TruePixel, errors_of, truth};
 use lightloom_tests::draw::{self, With, draw};
 use lightloom_tests::scenes::{self, TestScene};
+use lightloom_tests::techniques;
 use lightloom_tests::twin_scene::{TwinScene, view};
 use optics::MimdaForm;
 use protocol::{DeviceChoice, FrameState};
@@ -50,6 +51,32 @@ fn f32_costs_no_more_than_rounding() {
         println!("{:28} f32 against f64: {errors}", scene.name);
         assert!(ROUNDING.hold(&errors), "{}: {errors}", scene.name);
     }
+}
+
+/// In media so thin that little can hide between two samples, `step_voxels` changes nothing, but where all steps have its length:
+/// so says the page on scenes.
+#[test]
+fn steps_grow_in_thin_media_whatever_their_length() {
+    let _turn = draw::turn();
+    let display = Display::load("desk8").unwrap().with_rasters(32, 24);
+    let mut scene = techniques::bumps(&display);
+    let (extinction, colours) = (vec![(0.0, 1e-5), (1.0, 2e-5)], vec![(0.0, [1.0; 3])]);
+    scene.frame.optics = scenes::optics((0.0, 1.0), &extinction, &colours);
+    scene.frame.light = None;
+    let mut samples = |step_voxels, tolerance| -> u32 {
+        (scene.frame.quality.step_voxels, scene.frame.quality.tolerance) = (step_voxels, tolerance);
+        let view = view(&display, PROJECTORS[1], &scene.frame, &*scene.source).rounded();
+        let twin = TwinScene::new(&display, &scene.frame, &*scene.source);
+        twin.cast_whole::<f32>(&view, &pixels(&display, PROJECTORS[1], 1))
+            .iter()
+            .map(|cast| cast.samples)
+            .sum()
+    };
+    let grown = samples(0.4, 1e-4);
+    assert!(grown > 1000, "{grown}");
+    assert_eq!([samples(0.05, 1e-4), samples(1.0, 1e-4)], [grown; 2]);
+    let [long, short] = [0.4, 0.05].map(|step| samples(step, 1.0));
+    assert!((7 * long..9 * long).contains(&short), "{short} samples, {long} with steps eight times as long");
 }
 
 #[test]

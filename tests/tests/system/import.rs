@@ -1,10 +1,13 @@
 //! From a volume file to pictures and a report, as a user goes.
 
 use lightloom_tests::data::cranium_raw;
-use lightloom_tests::program::{Ran, files, lightloom, report, run, small_display, test_data};
+use lightloom_tests::processes::{is_there, resident_mib};
+use lightloom_tests::program::{Ran, files, lightloom, report, run, small_display, start, test_data};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use std::thread::sleep;
+use std::time::Duration;
 
 /// An sRGB code above which a pixel is lit for the eye.
 const LIT: u8 = 16;
@@ -148,4 +151,36 @@ fn warnings_are_plain_text_in_a_file() {
     let ran = run(&mut lightloom(&["import", &longer.to_string_lossy(), "-o", &store])).succeeded();
     assert!(ran.stderr.contains("more bytes than the header says"), "{ran:?}");
     assert!(ran.stderr.contains("longer.nrrd") && !ran.stderr.contains('\u{1b}'), "{ran:?}");
+}
+
+/// Voxels of two bytes along each axis: more of them than an import of little memory holds.
+const LARGE: [usize; 3] = [512, 512, 320];
+/// The memory that it is given, and what comes on top of it, MiB: a quarter more than the help's "some 100".
+const GIVEN_AND_ON_TOP_MIB: [f64; 2] = [16.0, 125.0];
+
+#[test]
+fn an_import_holds_no_more_memory_than_its_help_says() {
+    let help = run(&mut lightloom(&["import", "--help"])).succeeded().stdout;
+    assert!(help.contains("some 100 MiB come on top"), "{help}");
+    let [given, on_top] = GIVEN_AND_ON_TOP_MIB;
+    let bytes: Vec<u8> = (0..LARGE.iter().product::<usize>() as u32)
+        .flat_map(|i| ((i.wrapping_mul(2_654_435_761) >> 20) as u16).to_le_bytes())
+        .collect();
+    assert!(bytes.len() as f64 > (given + on_top) * f64::from(1 << 20), "all of it at once would pass");
+    let folder = tempfile::tempdir().unwrap();
+    let (raw, store) = (folder.path().join("large.raw"), folder.path().join("large.lloom"));
+    fs::write(&raw, bytes).unwrap();
+    let (raw, store, dims) = (raw.to_str().unwrap(), store.to_str().unwrap(), LARGE.map(|n| n.to_string()));
+    let memory = given.to_string();
+    let layout = ["--raw-dims", &dims.join(","), "--raw-type", "uint16", "--raw-endian", "little"];
+    let arguments = [&["import", raw, "-o", store, "--memory", &memory], &layout[..]].concat();
+    let import = start(&mut lightloom(&arguments));
+    let mut most = 0.0_f64;
+    while is_there(import.process()) {
+        most = most.max(resident_mib(import.process()));
+        sleep(Duration::from_millis(1));
+    }
+    import.finish(Duration::from_secs(60)).succeeded();
+    println!("{most:.0} MiB");
+    assert!(most > 0.0 && most <= given + on_top, "{most} MiB");
 }

@@ -115,12 +115,27 @@ impl OctreeShape {
         })
     }
 
-    /// All nodes of a depth, x fastest.
+    /// Nodes of a depth.
+    pub fn node_count(&self, depth: u8) -> u64 {
+        self.level_bricks(depth).as_u64vec3().element_product()
+    }
+
+    /// Nodes of all depths.
+    pub fn total_node_count(&self) -> u64 {
+        (0..=self.finest_depth()).map(|depth| self.node_count(depth)).sum()
+    }
+
+    /// A node of a depth by its number, x fastest.
+    pub fn node(&self, depth: u8, number: u64) -> NodeKey {
+        let across = self.level_bricks(depth).as_u64vec3();
+        let row = number / across.x;
+        let cell = [number % across.x, row % across.y, row / across.y].map(|i| i as u32);
+        NodeKey { depth, cell: cell.into() }
+    }
+
+    /// All nodes of a depth, in the order of their numbers.
     pub fn nodes(&self, depth: u8) -> impl Iterator<Item = NodeKey> {
-        let n = self.level_bricks(depth);
-        (0..n.z).flat_map(move |z| {
-            (0..n.y).flat_map(move |y| (0..n.x).map(move |x| NodeKey { depth, cell: UVec3::new(x, y, z) }))
-        })
+        (0..self.node_count(depth)).map(move |number| self.node(depth, number))
     }
 }
 
@@ -144,5 +159,6 @@ mod tests {
         assert!(shape.contains(last));
         assert_eq!(shape.region(last), (DVec3::new(56.0, 0.0, 0.0), DVec3::new(57.0, 28.0, 1.0)));
         assert_eq!(last.parent().and_then(NodeKey::parent), Some(NodeKey::ROOT));
+        assert_eq!(shape.nodes(2).last(), Some(last));
     }
 }

@@ -42,12 +42,9 @@ impl Engine {
         options: &RendererOptions,
         source: Arc<dyn BrickSource>,
     ) -> Result<(Self, DeviceInfo), RenderError> {
-        let shape = source.shape();
-        let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
-        let bricks: u64 = (0..=shape.finest_depth()).map(level).sum();
         let cache = CacheWish {
             bytes: options.cache_bytes,
-            slots_needed: bricks,
+            slots_needed: source.shape().total_node_count(),
             has_deviations: source.has_deviation(),
         };
         let ChosenDevice { device, info } =

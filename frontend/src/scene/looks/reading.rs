@@ -18,33 +18,26 @@ const FINE_BRICKS: usize = 32;
 /// read does not count.
 pub fn read_values(volume: &dyn BrickSource) -> Values {
     let shape = volume.shape();
-    let bricks = |depth: u8| shape.level_bricks(depth).as_u64vec3().element_product();
     let finest = shape.finest_depth();
-    let depth = (0..=finest).rev().find(|&depth| bricks(depth) <= MOST_BRICKS).unwrap_or(0);
-    let stride = if bricks(depth) <= WHOLE_BRICKS { 1 } else { 2 };
+    let depth = (0..=finest).rev().find(|&depth| shape.node_count(depth) <= MOST_BRICKS).unwrap_or(0);
+    let stride = if shape.node_count(depth) <= WHOLE_BRICKS { 1 } else { 2 };
     let coarse = sample(volume, &shape.nodes(depth).collect::<Vec<_>>(), stride);
-    let fine = (depth < finest).then(|| sample(volume, &some_of(volume, &shape, bricks(finest)), 1));
+    let fine = (depth < finest).then(|| sample(volume, &some_of(volume, &shape), 1));
     let edge = f64::from(1_u32 << shape.level(depth));
     Values::new(&coarse, fine.as_ref(), edge, VolumeFacts::of(volume).value_range)
 }
 
 /// Bricks of the finest level that are not of one value, from all over it. Only those are met that are looked at: a file may
 /// claim more than anybody could count.
-fn some_of(volume: &dyn BrickSource, shape: &OctreeShape, bricks: u64) -> Vec<NodeKey> {
-    let step = (bricks / (8 * FINE_BRICKS as u64)).max(1);
+fn some_of(volume: &dyn BrickSource, shape: &OctreeShape) -> Vec<NodeKey> {
     let depth = shape.finest_depth();
-    let across = shape.level_bricks(depth).as_u64vec3();
-    // x fastest.
-    let node = |number: u64| {
-        let rows = number / across.x;
-        let cell = [number % across.x, rows % across.y, rows / across.y].map(|i| i as u32);
-        NodeKey { depth, cell: cell.into() }
-    };
+    let bricks = shape.node_count(depth);
+    let step = (bricks / (8 * FINE_BRICKS as u64)).max(1);
     let varies = |node: &NodeKey| {
         let summary = volume.summary(*node);
         summary.min < summary.max
     };
-    let looked_at = (0..bricks.div_ceil(step)).map(|place| node(place * step));
+    let looked_at = (0..bricks.div_ceil(step)).map(|place| shape.node(depth, place * step));
     let nodes: Vec<_> = looked_at.filter(varies).collect();
     let every = nodes.len().div_ceil(FINE_BRICKS).max(1);
     nodes.into_iter().step_by(every).collect()

@@ -67,7 +67,7 @@ impl Tables {
 
     /// Whether a cell has more nodes inside than it lists.
     pub fn is_crowded(&self) -> bool {
-        let listed = 1 + self.cells.first().map_or(0, |cell| cell.inside.len() as u32);
+        let listed = 1 + TableCell::LISTED as u32;
         self.cells.windows(2).any(|ends| ends[1].first - ends[0].first > listed)
     }
 
@@ -160,11 +160,15 @@ fn cells(first: &[usize], optics: &[TableEntry], acts: impl Fn(usize) -> bool) -
     let mut cells: Vec<TableCell> = Vec::with_capacity(first.len());
     for (cell, ends) in first.windows(2).enumerate() {
         let mut inside = optics[ends[0] + 1..ends[1]].iter().map(|node| node.position);
-        let inside = [(); 2].map(|()| inside.next().unwrap_or(f32::MAX));
+        let inside = [(); TableCell::LISTED].map(|()| inside.next().unwrap_or(f32::MAX));
         cells.push(TableCell { first: ends[0] as u32, occupied, inside });
         occupied += u32::from(optics[ends[0]..=ends[1]].windows(2).any(has_extinction) || acts(cell));
     }
-    cells.push(TableCell { first: first[first.len() - 1] as u32, occupied, inside: [f32::MAX; 2] });
+    cells.push(TableCell {
+        first: first[first.len() - 1] as u32,
+        occupied,
+        inside: [f32::MAX; TableCell::LISTED],
+    });
     cells
 }
 

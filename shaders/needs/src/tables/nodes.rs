@@ -1,12 +1,11 @@
 //! Where tables hold values.
 
+use layout::TableCell;
 use optics::{Curve, CurveValue};
 
 /// Equal cells of [0, 1], by which nodes are found.
 pub const TABLE_CELLS: usize = 1023;
 
-/// Nodes inside a cell that it lists: kernels find these without a search.
-const LISTED: usize = 2;
 /// Narrower pieces are not halved: numbers of f32 hold a place among a thousand cells to a few hundred-thousandths of one.
 const NARROWEST_CELLS: f64 = 0.01;
 
@@ -89,7 +88,7 @@ impl Nodes {
         let mut halved = Self { all: Vec::with_capacity(self.all.len()), first: Vec::new() };
         for ends in self.first.windows(2) {
             let mut cell = self.all[ends[0]..=ends[1]].to_vec();
-            while cell.len() < 2 + LISTED {
+            while cell.len() < 2 + TableCell::LISTED {
                 let errors = cell.windows(2).map(|ends| error([ends[0], ends[1]])).enumerate();
                 let Some((worst, _)) =
                     errors.filter(|(_, error)| *error > most).max_by(|a, b| a.1.total_cmp(&b.1))

@@ -2,9 +2,9 @@
 
 use crate::importance::{Importance, importance_between};
 use crate::tables::TablePlace;
-use crate::{Casting, Real};
+use crate::{Casting, Real, real::Number};
 
-/// What a segment shows.
+/// What a segment shows, of one ray or of eight side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<F> {
     /// Mean (τ c, τ).
@@ -13,11 +13,11 @@ pub struct Sample<F> {
     pub lit: F,
     /// Factor of the light that it emits.
     pub brightness: F,
-    /// Its importance; [`Importance::EQUAL`] in ordinary compositing.
+    /// Its importance; [`Importance::equal`] in ordinary compositing.
     pub importance: Importance<F>,
 }
 
-impl<F: Real> Sample<F> {
+impl<F: Number> Sample<F> {
     /// Mean (τ c, τ) with its brightness, as no light falls on it.
     #[inline(always)]
     pub fn emitted(&self) -> [F; 4] {
@@ -27,10 +27,13 @@ impl<F: Real> Sample<F> {
 
     /// Of a mean (τ c, τ), where nothing looks at importance.
     #[inline(always)]
-    pub(super) fn plain(k: [F; 4]) -> Self {
-        Self { k, lit: F::ONE, brightness: F::ONE, importance: Importance::EQUAL }
+    pub fn plain(k: [F; 4]) -> Self {
+        let one = k[0].alike(1.0);
+        Self { k, lit: one, brightness: one, importance: Importance::equal(one) }
     }
+}
 
+impl<F: Real> Sample<F> {
     /// Of a mean (τ c, τ) between the places of two scalars.
     #[inline(always)]
     pub(super) fn told(casting: &Casting<F>, k: [F; 4], [a, b]: [&TablePlace<F>; 2]) -> Self {

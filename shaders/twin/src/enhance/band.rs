@@ -1,66 +1,55 @@
 //! A band of scalars: a trapezoid of four corners.
 
-use crate::Real;
+use crate::real::Number;
 
 #[inline(always)]
-fn clamp<F: Real>(x: F, low: F, high: F) -> F {
+fn clamp<N: Number>(x: N, low: N, high: N) -> N {
     x.most(low).least(high)
 }
 
 /// The band at a scalar.
 #[inline(always)]
-pub(super) fn band_at<F: Real>(corners: &[F; 4], s: F) -> F {
+pub(super) fn band_at<N: Number>(corners: &[N; 4], s: N) -> N {
     let [a, b, c, d] = *corners;
-    if s < a || s > d {
-        F::ZERO
-    } else if s < b {
-        (s - a) / (b - a)
-    } else if s <= c {
-        F::ONE
-    } else {
-        (d - s) / (d - c)
-    }
+    let (zero, one) = (s.alike(0.0), s.alike(1.0));
+    let (rising, falling) = ((s - a) / (b - a), (d - s) / (d - c));
+    let within = s.choose(b, rising, c.choose(s, falling, one));
+    s.choose(a, zero, d.choose(s, zero, within))
 }
 
 /// Its mean between two scalars, flank by flank: nothing cancels.
 #[inline(always)]
-pub(super) fn band_between<F: Real>(corners: &[F; 4], (s0, s1): (F, F)) -> F {
+pub(super) fn band_between<N: Number>(corners: &[N; 4], (s0, s1): (N, N)) -> N {
     let [a, b, c, d] = *corners;
     let (low, high) = (s0.least(s1), s0.most(s1));
-    if high <= low {
-        return band_at(corners, s0);
-    }
+    let (zero, half, one) = (s0.alike(0.0), s0.alike(0.5), s0.alike(1.0));
     // Mostly a segment lies on one side of every corner: what follows would come to the same, to the bit.
-    if low >= b && high <= c {
-        return F::ONE;
+    if !low.is_any_below(b) && !c.is_any_below(high) {
+        return one;
     }
-    if high <= a || low >= d {
-        return F::ZERO;
+    if high.is_below(a) || d.is_below(low) {
+        return zero;
     }
-    let half = F::of(0.5);
     let mut sum = clamp(high, b, c) - clamp(low, b, c);
-    if b > a {
+    if a.is_below(b) {
         let (from, to) = (clamp(low, a, b), clamp(high, a, b));
         sum = sum + (to - from) * (half * (from + to) - a) / (b - a);
     }
-    if d > c {
+    if c.is_below(d) {
         let (from, to) = (clamp(low, c, d), clamp(high, c, d));
         sum = sum + (to - from) * (d - half * (from + to)) / (d - c);
     }
-    (sum / (high - low)).least(F::ONE)
+    let mean = (sum / (high - low)).least(one);
+    if low.is_below(high) { mean } else { low.choose(high, mean, band_at(corners, s0)) }
 }
 
 /// Its largest value between two scalars.
 #[inline(always)]
-pub(super) fn band_most<F: Real>(corners: &[F; 4], (s0, s1): (F, F)) -> F {
+pub(super) fn band_most<N: Number>(corners: &[N; 4], (s0, s1): (N, N)) -> N {
+    let [_, b, c, _] = *corners;
     let (low, high) = (s0.least(s1), s0.most(s1));
-    if high < corners[1] {
-        band_at(corners, high)
-    } else if low > corners[2] {
-        band_at(corners, low)
-    } else {
-        F::ONE
-    }
+    let falling = c.choose(low, band_at(corners, low), s0.alike(1.0));
+    high.choose(b, band_at(corners, high), falling)
 }
 
 #[cfg(test)]

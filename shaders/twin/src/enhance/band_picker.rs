@@ -1,12 +1,14 @@
 //! View-dependent band picker (LFD section 4).
 
 use super::band::{band_between, band_most};
-use super::hooks::{Hooks, LinkState, Place};
+use super::hooks::{Hooks, LinkState};
 use super::link::{UNUSED, corners, scaled, with, xyz};
+use super::place::Place;
 use crate::composite::Sample;
 use crate::importance::Importance;
+use crate::real::Number;
 use crate::scene::Constants;
-use crate::{Real, vector::Vec3};
+use crate::vector::Vec3;
 use optics::BandPicker;
 
 impl Hooks for BandPicker {
@@ -21,32 +23,35 @@ impl Hooks for BandPicker {
 
     /// x: weight of the change.
     #[inline(always)]
-    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-        let aligned = xyz(&link[1]).dot(view).most(F::ZERO).smoothstep(link[2][0], link[2][1]);
-        [link[1][3] * aligned, F::ZERO, F::ZERO, F::ZERO]
+    fn start<N: Number>(link: &Constants<N>, view: Vec3<N>) -> [N; 4] {
+        let aligned = xyz(&link[1]).dot(view);
+        let zero = aligned.alike(0.0);
+        [link[1][3] * aligned.most(zero).smoothstep(link[2][0], link[2][1]), zero, zero, zero]
     }
 
     #[inline(always)]
-    fn acts<F: Real>(_: &Constants<F>, state: &LinkState<F>, _: (Vec3<F>, F)) -> bool {
-        state.weights[0] != F::ZERO
+    fn acts<N: Number>(_: &Constants<N>, state: &LinkState<N>, _: (Vec3<N>, N)) -> N {
+        state.weights[0].abs()
     }
 
     #[inline(always)]
-    fn at<F: Real>(
-        link: &Constants<F>,
-        state: &LinkState<F>,
-        sample: Sample<F>,
-        place: &Place<F>,
-    ) -> Sample<F> {
-        let weight = state.weights[0];
+    fn at<N: Number>(
+        link: &Constants<N>,
+        state: &LinkState<N>,
+        sample: Sample<N>,
+        place: &Place<N>,
+    ) -> Sample<N> {
+        let (weight, one) = (state.weights[0], state.weights[0].alike(1.0));
         let picked = band_between(&link[0], place.scalars);
-        let changed = scaled(sample, F::ONE - weight * (F::ONE - picked));
+        let changed = scaled(sample, one - weight * (one - picked));
         if !place.has_importance {
             return changed;
         }
-        let toward = |from: F, to: F| from + (to - from) * weight;
         let Importance { mean, most } = sample.importance;
-        let most = toward(most, band_most(&link[0], place.scalars));
-        Sample { importance: Importance { mean: toward(mean, picked), most }, ..changed }
+        let importance = Importance {
+            mean: mean + (picked - mean) * weight,
+            most: most + (band_most(&link[0], place.scalars) - most) * weight,
+        };
+        Sample { importance, ..changed }
     }
 }

@@ -1,140 +1,185 @@
-//! The chain of enhancers along one ray: each hook calls the links in order.
+//! The chain of enhancers along a ray, or along eight side by side: each hook calls the links in order.
 
-use super::hooks::{self, LinkState, Place};
+use super::hooks::{self, LinkState};
+use super::link::alike;
+use super::place::Segment;
 use crate::composite::Sample;
 use crate::features::Features;
-use crate::ray::{Ray, far};
+use crate::ray::{FAR, Line, Ray, far};
+use crate::real::Number;
 use crate::{Casting, Real, vector::Vec3};
+use lanes::*;
 use optics::MOST_ENHANCERS;
 
-/// A segment that enhancers change.
+/// The chain of a ray, or of eight.
 #[derive(Clone, Copy, Debug)]
-pub struct Segment<'a, F> {
-    /// The straight way that it lies on.
-    pub ray: &'a Ray<F>,
-    /// Its middle.
-    pub t: F,
-    /// Metres.
-    pub length: F,
-    /// The scalars at its ends.
-    pub scalars: (F, F),
-    /// In its middle, per finest voxel, display frame; only where [`Chain::looks`] there.
-    pub gradient: Vec3<F>,
-}
-
-/// The chain of one ray.
-#[derive(Clone, Copy, Debug)]
-pub struct Chain<F> {
-    view: Vec3<F>,
+pub struct Chain<N> {
+    view: Vec3<N>,
     looks_at_gradients: bool,
-    links: [LinkState<F>; MOST_ENHANCERS],
+    links: [LinkState<N>; MOST_ENHANCERS],
 }
 
 impl<F: Real> Chain<F> {
     /// For a ray as it leaves the eye.
     #[inline(always)]
     pub fn start<K: Features>(casting: &Casting<F>, ray: &Ray<F>) -> Self {
-        let unused = LinkState { weights: [F::ZERO; 4], breaks: [far(); 3] };
-        let looks_at_gradients = K::ENHANCES && casting.needs.chain.needs_gradient();
-        let mut chain =
-            Self { view: ray.direction_in_display, looks_at_gradients, links: [unused; MOST_ENHANCERS] };
+        let line = ray.line();
+        let mut chain = Self::idle::<K, F>(casting, &line);
         if K::ENHANCES {
-            chain.start_links(casting, ray);
+            chain.start_apart(casting, &line);
         }
         chain
     }
 
+    /// Not inlined: it is called from many places.
     #[inline(never)]
-    fn start_links(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
-        for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            self.links[i].weights = hooks::start(kind, &casting.scene.links[i], self.view);
-        }
-        self.follow(casting, ray);
+    fn start_apart(&mut self, casting: &Casting<F>, line: &Line<F>) {
+        self.start_links(casting, line);
     }
 
     /// The breaks again, for another straight path.
     #[inline(never)]
     pub fn follow(&mut self, casting: &Casting<F>, ray: &Ray<F>) {
-        for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            self.links[i].breaks = hooks::breaks(kind, &casting.scene.links[i], self.view, ray);
-        }
-    }
-
-    /// The first break beyond t.
-    #[inline(always)]
-    pub fn next_break<K: Features>(&self, t: F) -> F {
-        let mut next: F = far();
-        if K::ENHANCES {
-            for at in self.links.iter().flat_map(|link| link.breaks) {
-                next = if at > t { next.least(at) } else { next };
-            }
-        }
-        next
-    }
-
-    /// Whether any link changes samples of a straight stretch around t without breaks.
-    #[inline(always)]
-    pub fn acts<K: Features>(&self, casting: &Casting<F>, ray: &Ray<F>, t: F) -> bool {
-        let point = ray.point_in_display(t);
-        let acts = |(i, kind)| hooks::acts(kind, &casting.scene.links[i], &self.links[i], (point, t));
-        K::ENHANCES && casting.needs.chain.kinds().enumerate().any(acts)
-    }
-
-    /// Whether any link looks at the gradient around t.
-    #[inline(always)]
-    pub fn looks<K: Features>(&self, casting: &Casting<F>, t: F) -> bool {
-        let looks = |(i, kind)| hooks::looks(kind, &self.links[i], t);
-        K::ENHANCES && self.looks_at_gradients && casting.needs.chain.kinds().enumerate().any(looks)
+        self.follow_line(casting, &ray.line());
     }
 
     /// Segments of a ray, or of the rays before and beyond a turn, after all links.
     #[inline(always)]
-    pub fn enhance<K: Features, const N: usize>(
+    pub fn enhance<K: Features, const COUNT: usize>(
         &self,
         casting: &Casting<F>,
-        samples: &mut [Sample<F>; N],
-        segments: [Segment<F>; N],
+        samples: &mut [Sample<F>; COUNT],
+        segments: &[Segment<F>; COUNT],
     ) {
-        if !K::ENHANCES || casting.needs.chain.is_empty() {
-            return;
-        }
-        if K::IS_FULL {
-            self.enhance_apart::<K>(casting, samples, &segments);
+        if K::IS_FULL && !casting.needs.chain.is_empty() {
+            self.enhance_apart::<K, COUNT>(casting, samples, segments);
         } else {
-            self.enhance_here::<K>(casting, samples, &segments);
+            self.enhance_here::<K, F, COUNT>(casting, samples, segments);
         }
     }
 
     /// Not inlined: there is much of it in kernels with everything.
     #[inline(never)]
-    fn enhance_apart<K: Features>(
+    fn enhance_apart<K: Features, const COUNT: usize>(
         &self,
         casting: &Casting<F>,
-        samples: &mut [Sample<F>],
-        segments: &[Segment<F>],
+        samples: &mut [Sample<F>; COUNT],
+        segments: &[Segment<F>; COUNT],
     ) {
-        self.enhance_here::<K>(casting, samples, segments);
+        self.enhance_here::<K, F, COUNT>(casting, samples, segments);
+    }
+}
+
+impl<S: Simd> Chain<f32x8<S>> {
+    /// That of one of eight rays.
+    #[inline(always)]
+    pub fn of<K: Features>(&self, casting: &Casting<f32>, lane: usize) -> Chain<f32> {
+        let mut links = [LinkState { weights: [0.0; 4], breaks: [far(); 3] }; MOST_ENHANCERS];
+        let used = if K::ENHANCES { casting.needs.chain.kinds().count() } else { 0 };
+        for i in 0..used {
+            let LinkState { weights, breaks } = &self.links[i];
+            links[i] = LinkState {
+                weights: each!(c of 4 => weights[c][lane]),
+                breaks: each!(c of 3 => breaks[c][lane]),
+            };
+        }
+        let view = Vec3(each!(c of 3 => self.view.0[c][lane]));
+        Chain { view, looks_at_gradients: self.looks_at_gradients, links }
+    }
+}
+
+impl<N: Number> Chain<N> {
+    /// For rays side by side as they leave the eye.
+    #[inline(always)]
+    pub fn beside<K: Features, F: Real>(casting: &Casting<F>, line: &Line<N>) -> Self {
+        let mut chain = Self::idle::<K, F>(casting, line);
+        if K::ENHANCES {
+            chain.start_links(casting, line);
+        }
+        chain
     }
 
-    /// Link by link, so that each finds its constants once.
+    /// Before its links start.
     #[inline(always)]
-    fn enhance_here<K: Features>(
+    fn idle<K: Features, F: Real>(casting: &Casting<F>, line: &Line<N>) -> Self {
+        let (view, number) = (line.direction, line.direction.0[0]);
+        let unused = LinkState { weights: [number.alike(0.0); 4], breaks: [number.alike(FAR); 3] };
+        let looks_at_gradients = K::ENHANCES && casting.needs.chain.needs_gradient();
+        Self { view, looks_at_gradients, links: [unused; MOST_ENHANCERS] }
+    }
+
+    #[inline(always)]
+    fn start_links<F: Real>(&mut self, casting: &Casting<F>, line: &Line<N>) {
+        for (i, kind) in casting.needs.chain.kinds().enumerate() {
+            let link = alike(self.view.0[0], &casting.scene.links[i]);
+            self.links[i].weights = hooks::start(kind, &link, self.view);
+        }
+        self.follow_line(casting, line);
+    }
+
+    #[inline(always)]
+    fn follow_line<F: Real>(&mut self, casting: &Casting<F>, line: &Line<N>) {
+        for (i, kind) in casting.needs.chain.kinds().enumerate() {
+            let link = alike(self.view.0[0], &casting.scene.links[i]);
+            self.links[i].breaks = hooks::breaks(kind, &link, self.view, line);
+        }
+    }
+
+    /// The first break beyond t.
+    #[inline(always)]
+    pub fn next_break<K: Features, F: Real>(&self, casting: &Casting<F>, t: N) -> N {
+        let mut next = t.alike(FAR);
+        if K::ENHANCES {
+            for (i, _) in casting.needs.chain.kinds().enumerate() {
+                for at in self.links[i].breaks {
+                    next = t.choose(at, next.least(at), next);
+                }
+            }
+        }
+        next
+    }
+
+    /// Above 0 if any link changes samples of a straight stretch around t without breaks.
+    #[inline(always)]
+    pub fn acts<K: Features, F: Real>(&self, casting: &Casting<F>, line: &Line<N>, t: N) -> N {
+        let mut acts = t.alike(0.0);
+        if K::ENHANCES {
+            let at = (line.point(t), t);
+            for (i, kind) in casting.needs.chain.kinds().enumerate() {
+                let link = alike(t, &casting.scene.links[i]);
+                acts = acts.most(hooks::acts(kind, &link, &self.links[i], at));
+            }
+        }
+        acts
+    }
+
+    /// Above 0 if any link looks at the gradient around t.
+    #[inline(always)]
+    pub fn looks<K: Features, F: Real>(&self, casting: &Casting<F>, t: N) -> N {
+        let mut looks = t.alike(0.0);
+        if K::ENHANCES && self.looks_at_gradients {
+            for (i, kind) in casting.needs.chain.kinds().enumerate() {
+                looks = looks.most(hooks::looks(kind, &self.links[i], t));
+            }
+        }
+        looks
+    }
+
+    /// Segments after all links, link by link, so that each finds its constants once.
+    #[inline(always)]
+    pub fn enhance_here<K: Features, F: Real, const COUNT: usize>(
         &self,
         casting: &Casting<F>,
-        samples: &mut [Sample<F>],
-        segments: &[Segment<F>],
+        samples: &mut [Sample<N>; COUNT],
+        segments: &[Segment<N>; COUNT],
     ) {
-        let place = |segment: &Segment<F>| Place {
-            point: segment.ray.point_in_display(segment.t),
-            reach: segment.ray.direction_in_display * (F::of(0.5) * segment.length),
-            gradient: segment.gradient,
-            scalars: segment.scalars,
-            view: self.view,
-            has_importance: K::READS_IMPORTANCE,
-        };
+        if !K::ENHANCES {
+            return;
+        }
         for (i, kind) in casting.needs.chain.kinds().enumerate() {
-            let all = samples.iter_mut().zip(segments);
-            hooks::at(kind, &casting.scene.links[i], &self.links[i], all, place);
+            let link = alike(segments[0].t, &casting.scene.links[i]);
+            let seen = (self.view, K::READS_IMPORTANCE);
+            hooks::at(kind, &link, &self.links[i], samples, segments, seen);
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Clip plane with view-dependent context (LFD section 4).
 
-use super::hooks::{Hooks, LinkState, Place};
+use super::hooks::{Hooks, LinkState};
 use super::link::{UNUSED, scaled, with, xyz};
+use super::place::Place;
 use crate::composite::Sample;
-use crate::ray::{Ray, far};
+use crate::ray::{FAR, Line};
+use crate::real::Number;
 use crate::scene::Constants;
-use crate::{Real, vector::Vec3};
+use crate::vector::Vec3;
 use optics::ClipPlane;
 
 impl Hooks for ClipPlane {
@@ -24,59 +26,77 @@ impl Hooks for ClipPlane {
 
     /// x: factor of what is cut away.
     #[inline(always)]
-    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-        let aside = F::ONE - (-xyz(&link[0]).dot(view)).most(F::ZERO);
-        let context = aside.smoothstep(link[1][0], link[1][1]);
-        [F::ONE + (context - F::ONE) * link[2][0], F::ZERO, F::ZERO, F::ZERO]
+    fn start<N: Number>(link: &Constants<N>, view: Vec3<N>) -> [N; 4] {
+        let towards = xyz(&link[0]).dot(view);
+        let (zero, one) = (towards.alike(0.0), towards.alike(1.0));
+        let context = (one - (-towards).most(zero)).smoothstep(link[1][0], link[1][1]);
+        [one + (context - one) * link[2][0], zero, zero, zero]
     }
 
     #[inline(always)]
-    fn breaks<F: Real>(link: &Constants<F>, _: Vec3<F>, ray: &Ray<F>) -> [F; 3] {
-        if link[2][0] <= F::ZERO {
-            return [far(); 3];
-        }
-        let (normal, offset) = (xyz(&link[0]), link[0][3]);
-        [offset, offset - link[1][2], link[2][1]].map(|offset| ray.plane_crossing(normal, offset))
+    fn breaks<N: Number>(link: &Constants<N>, _: Vec3<N>, line: &Line<N>) -> [N; 3] {
+        let (normal, offset, strength) = (xyz(&link[0]), link[0][3], link[2][0]);
+        let (zero, far) = (strength.alike(0.0), strength.alike(FAR));
+        let surface = line.plane_crossing(normal, offset);
+        let [begin, held] =
+            [line.plane_crossing(normal, offset - link[1][2]), line.plane_crossing(normal, link[2][1])];
+        [
+            zero.choose(strength, surface, far),
+            zero.choose(strength, begin, far),
+            zero.choose(strength, held, far),
+        ]
     }
 
     #[inline(always)]
-    fn acts<F: Real>(link: &Constants<F>, state: &LinkState<F>, (point, _): (Vec3<F>, F)) -> bool {
-        let above = above(link, point);
-        if above > F::ZERO { state.weights[0] != F::ONE } else { above > -link[1][2] }
+    fn acts<N: Number>(link: &Constants<N>, state: &LinkState<N>, (point, _): (Vec3<N>, N)) -> N {
+        let (above, thickness) = (above(link, point), link[1][2]);
+        let (zero, one) = (above.alike(0.0), above.alike(1.0));
+        zero.choose(above, (state.weights[0] - one).abs(), above + thickness)
     }
 
     #[inline(always)]
-    fn at<F: Real>(
-        link: &Constants<F>,
-        state: &LinkState<F>,
-        sample: Sample<F>,
-        place: &Place<F>,
-    ) -> Sample<F> {
+    fn at<N: Number>(
+        link: &Constants<N>,
+        state: &LinkState<N>,
+        sample: Sample<N>,
+        place: &Place<N>,
+    ) -> Sample<N> {
         let [_, _, thickness, held] = link[1];
-        let above = above(link, place.point);
-        if above > F::ZERO {
+        let (above, strength) = (above(link, place.point), link[2][0]);
+        let (zero, one, two) = (above.alike(0.0), above.alike(1.0), above.alike(2.0));
+        if zero.is_below(above) {
             return scaled(sample, state.weights[0]);
         }
-        if above <= -thickness {
+        if above.is_below(-thickness) {
             return sample;
         }
-        let sliced = link[2][0] * above.smoothstep(-thickness, F::ZERO);
+        let sliced = strength * above.smoothstep(-thickness, zero);
         // y at both ends; 1 / (a b) is the mean of 1 / y² between them.
         let reach = xyz(&link[0]).dot(place.reach);
-        let edge = |above: F| {
-            let near = (F::ONE + above / thickness).most(F::ZERO).least(F::ONE);
-            (F::ONE - link[2][0] * near).most(held)
-        };
-        let (a, b) = (edge(above - reach), edge(above + reach));
-        let changed = scaled(sample, F::ONE / (a * b) - F::of(2.0) + (a + b));
-        Sample { lit: changed.lit * (F::ONE - sliced), ..changed }
+        let a = edge(link, above - reach).most(held);
+        let b = edge(link, above + reach).most(held);
+        let near = one / (a * b) - two + (a + b);
+        let (near, unsliced) =
+            ((-thickness).choose(above, near, one), (-thickness).choose(above, one - sliced, one));
+        let factor = zero.choose(above, state.weights[0], near);
+        let unsliced = zero.choose(above, one, unsliced);
+        let changed = scaled(sample, factor);
+        Sample { lit: changed.lit * unsliced, ..changed }
     }
 }
 
 /// δ: metres before the plane.
 #[inline(always)]
-fn above<F: Real>(link: &Constants<F>, point: Vec3<F>) -> F {
+fn above<N: Number>(link: &Constants<N>, point: Vec3<N>) -> N {
     xyz(&link[0]).dot(point) - link[0][3]
+}
+
+/// y so many metres before the plane.
+#[inline(always)]
+fn edge<N: Number>(link: &Constants<N>, above: N) -> N {
+    let (zero, one) = (above.alike(0.0), above.alike(1.0));
+    let near = (one + above / link[1][2]).most(zero).least(one);
+    one - link[2][0] * near
 }
 
 /// The y from which on the factor of the extinction is less than `boost`.

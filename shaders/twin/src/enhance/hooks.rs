@@ -1,35 +1,20 @@
-//! What an enhancer does along a ray.
+//! What an enhancer does along a ray, or along eight side by side.
 
+use super::place::{Place, Segment};
 use crate::composite::Sample;
-use crate::ray::{Ray, far};
+use crate::ray::{FAR, Line};
+use crate::real::Number;
 use crate::scene::Constants;
-use crate::{Real, vector::Vec3};
+use crate::vector::Vec3;
 use optics::{Enhancer, EnhancerKind};
 
-/// An enhancer's state along one ray.
+/// An enhancer's state along a ray.
 #[derive(Clone, Copy, Debug)]
-pub struct LinkState<F> {
+pub struct LinkState<N> {
     /// What it has made of the ray's direction.
-    pub weights: [F; 4],
+    pub weights: [N; 4],
     /// Where on the ray its law is not smooth; far where there is no such place.
-    pub breaks: [F; 3],
-}
-
-/// Where a segment lies that enhancers look at.
-#[derive(Clone, Copy, Debug)]
-pub struct Place<F> {
-    /// Middle of the segment, metres, display frame.
-    pub point: Vec3<F>,
-    /// From there to the end of the segment.
-    pub reach: Vec3<F>,
-    /// Of the scalar there, per finest voxel, display frame.
-    pub gradient: Vec3<F>,
-    /// The scalars at the segment's ends.
-    pub scalars: (F, F),
-    /// The direction in which the ray left the eye.
-    pub view: Vec3<F>,
-    /// Whether the scene accumulates importance.
-    pub has_importance: bool,
+    pub breaks: [N; 3],
 }
 
 /// An enhancer as the kernel has it: how it packs its constants, and its hooks at the ray's start and at its samples.
@@ -39,35 +24,33 @@ pub(super) trait Hooks {
 
     /// What it makes of the ray's direction, for the other hooks.
     #[inline(always)]
-    fn start<F: Real>(_: &Constants<F>, _view: Vec3<F>) -> [F; 4] {
-        [F::ZERO; 4]
+    fn start<N: Number>(_: &Constants<N>, view: Vec3<N>) -> [N; 4] {
+        [view.0[0].alike(0.0); 4]
     }
 
     /// Where its law is not smooth on a straight way; far where there is no such place.
     #[inline(always)]
-    fn breaks<F: Real>(_: &Constants<F>, _view: Vec3<F>, _: &Ray<F>) -> [F; 3] {
-        [far(); 3]
+    fn breaks<N: Number>(_: &Constants<N>, view: Vec3<N>, _: &Line<N>) -> [N; 3] {
+        [view.0[0].alike(FAR); 3]
     }
 
-    /// Whether it changes samples of a stretch without breaks, of which a point and its t are given.
+    /// Above 0 if it changes samples of a stretch without breaks, of which a point and its t are given.
+    fn acts<N: Number>(_: &Constants<N>, _: &LinkState<N>, at: (Vec3<N>, N)) -> N;
+
+    /// Above 0 if it looks at the gradient around t.
     #[inline(always)]
-    fn acts<F: Real>(_: &Constants<F>, _: &LinkState<F>, _: (Vec3<F>, F)) -> bool {
-        true
+    fn looks<N: Number>(_: &LinkState<N>, t: N) -> N {
+        t.alike(0.0)
     }
 
-    /// Whether it looks at the gradient around t.
-    #[inline(always)]
-    fn looks<F: Real>(_: &LinkState<F>, _t: F) -> bool {
-        false
-    }
-
-    /// What it makes of a sample.
-    fn at<F: Real>(
-        link: &Constants<F>,
-        state: &LinkState<F>,
-        sample: Sample<F>,
-        place: &Place<F>,
-    ) -> Sample<F>;
+    /// What it makes of a sample: the same to the bit of a ray alone and beside others, so whatever the law chooses between is
+    /// worked out, and left early only where all agree.
+    fn at<N: Number>(
+        link: &Constants<N>,
+        state: &LinkState<N>,
+        sample: Sample<N>,
+        place: &Place<N>,
+    ) -> Sample<N>;
 }
 
 /// The constants of an enhancer, and each hook of the enhancer of a kind, for all in the table.
@@ -79,48 +62,50 @@ macro_rules! dispatch {
         }
 
         #[inline(always)]
-        pub(super) fn start<F: Real>(kind: EnhancerKind, link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
+        pub(super) fn start<N: Number>(kind: EnhancerKind, link: &Constants<N>, view: Vec3<N>) -> [N; 4] {
             match kind { $(EnhancerKind::$name => optics::$name::start(link, view),)+ }
         }
 
         #[inline(always)]
-        pub(super) fn breaks<F: Real>(
+        pub(super) fn breaks<N: Number>(
             kind: EnhancerKind,
-            link: &Constants<F>,
-            view: Vec3<F>,
-            ray: &Ray<F>,
-        ) -> [F; 3] {
-            match kind { $(EnhancerKind::$name => optics::$name::breaks(link, view, ray),)+ }
+            link: &Constants<N>,
+            view: Vec3<N>,
+            line: &Line<N>,
+        ) -> [N; 3] {
+            match kind { $(EnhancerKind::$name => optics::$name::breaks(link, view, line),)+ }
         }
 
         #[inline(always)]
-        pub(super) fn acts<F: Real>(
+        pub(super) fn acts<N: Number>(
             kind: EnhancerKind,
-            link: &Constants<F>,
-            state: &LinkState<F>,
-            at: (Vec3<F>, F),
-        ) -> bool {
+            link: &Constants<N>,
+            state: &LinkState<N>,
+            at: (Vec3<N>, N),
+        ) -> N {
             match kind { $(EnhancerKind::$name => optics::$name::acts(link, state, at),)+ }
         }
 
         #[inline(always)]
-        pub(super) fn looks<F: Real>(kind: EnhancerKind, state: &LinkState<F>, t: F) -> bool {
+        pub(super) fn looks<N: Number>(kind: EnhancerKind, state: &LinkState<N>, t: N) -> N {
             match kind { $(EnhancerKind::$name => optics::$name::looks(state, t),)+ }
         }
 
         /// All samples in turn; what an enhancer does not look at of a place is not worked out.
         #[inline(always)]
-        pub(super) fn at<'a, F: Real, S: 'a>(
+        pub(super) fn at<N: Number, const COUNT: usize>(
             kind: EnhancerKind,
-            link: &Constants<F>,
-            state: &LinkState<F>,
-            samples: impl Iterator<Item = (&'a mut Sample<F>, &'a S)>,
-            place: impl Fn(&S) -> Place<F>,
+            link: &Constants<N>,
+            state: &LinkState<N>,
+            samples: &mut [Sample<N>; COUNT],
+            segments: &[Segment<N>; COUNT],
+            (view, has_importance): (Vec3<N>, bool),
         ) {
             match kind {
                 $(EnhancerKind::$name => {
-                    for (sample, segment) in samples {
-                        *sample = optics::$name::at(link, state, *sample, &place(segment));
+                    for (sample, segment) in samples.iter_mut().zip(segments) {
+                        let place = segment.place(view, has_importance);
+                        *sample = optics::$name::at(link, state, *sample, &place);
                     }
                 })+
             }

@@ -1,11 +1,13 @@
 //! Layer opacity by view direction (LFD section 4).
 
 use super::band::band_between;
-use super::hooks::{Hooks, LinkState, Place};
+use super::hooks::{Hooks, LinkState};
 use super::link::{UNUSED, corners, scaled, with, xyz};
+use super::place::Place;
 use crate::composite::Sample;
+use crate::real::Number;
 use crate::scene::Constants;
-use crate::{Real, vector::Vec3};
+use crate::vector::Vec3;
 use optics::LayerOpacity;
 
 impl Hooks for LayerOpacity {
@@ -20,24 +22,26 @@ impl Hooks for LayerOpacity {
 
     /// x: μ − 1.
     #[inline(always)]
-    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
+    fn start<N: Number>(link: &Constants<N>, view: Vec3<N>) -> [N; 4] {
         let [low, high, away, toward] = link[2];
         let aligned = xyz(&link[1]).dot(view).smoothstep(low, high);
-        [away + (toward - away) * aligned - F::ONE, F::ZERO, F::ZERO, F::ZERO]
+        let (zero, one) = (aligned.alike(0.0), aligned.alike(1.0));
+        [away + (toward - away) * aligned - one, zero, zero, zero]
     }
 
     #[inline(always)]
-    fn acts<F: Real>(_: &Constants<F>, state: &LinkState<F>, _: (Vec3<F>, F)) -> bool {
-        state.weights[0] != F::ZERO
+    fn acts<N: Number>(_: &Constants<N>, state: &LinkState<N>, _: (Vec3<N>, N)) -> N {
+        state.weights[0].abs()
     }
 
     #[inline(always)]
-    fn at<F: Real>(
-        link: &Constants<F>,
-        state: &LinkState<F>,
-        sample: Sample<F>,
-        place: &Place<F>,
-    ) -> Sample<F> {
-        scaled(sample, F::ONE + band_between(&link[0], place.scalars) * state.weights[0])
+    fn at<N: Number>(
+        link: &Constants<N>,
+        state: &LinkState<N>,
+        sample: Sample<N>,
+        place: &Place<N>,
+    ) -> Sample<N> {
+        let weight = state.weights[0];
+        scaled(sample, weight.alike(1.0) + band_between(&link[0], place.scalars) * weight)
     }
 }

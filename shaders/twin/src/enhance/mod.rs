@@ -7,7 +7,9 @@ mod clip_plane;
 mod hooks;
 mod layer_opacity;
 mod link;
+mod place;
 mod probe;
 
-pub use chain::{Chain, Segment};
-pub use hooks::{LinkState, Place, constants};
+pub use chain::Chain;
+pub use hooks::constants;
+pub use place::Segment;

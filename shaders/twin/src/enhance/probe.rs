@@ -1,12 +1,14 @@
 //! Context-preserving probe (LFD eq. 4 and 5).
 
-use super::hooks::{Hooks, LinkState, Place};
+use super::hooks::{Hooks, LinkState};
 use super::link::{scaled, with, xyz};
+use super::place::Place;
 use crate::composite::Sample;
 use crate::gradient::LEAST_SQUARE;
-use crate::ray::{Ray, far};
+use crate::ray::{FAR, Line};
+use crate::real::Number;
 use crate::scene::Constants;
-use crate::{Real, vector::Vec3};
+use crate::vector::Vec3;
 use optics::Probe;
 
 impl Hooks for Probe {
@@ -21,79 +23,89 @@ impl Hooks for Probe {
 
     /// x: ω_a.
     #[inline(always)]
-    fn start<F: Real>(link: &Constants<F>, view: Vec3<F>) -> [F; 4] {
-        let aligned = xyz(&link[1]).dot(view).most(F::ZERO).smoothstep(link[2][0], link[2][1]);
-        [aligned, F::ZERO, F::ZERO, F::ZERO]
+    fn start<N: Number>(link: &Constants<N>, view: Vec3<N>) -> [N; 4] {
+        let aligned = xyz(&link[1]).dot(view);
+        let zero = aligned.alike(0.0);
+        [aligned.most(zero).smoothstep(link[2][0], link[2][1]), zero, zero, zero]
     }
 
     /// Inside the sphere.
     #[inline(always)]
-    fn looks<F: Real>(state: &LinkState<F>, t: F) -> bool {
-        is_inside(state, t)
+    fn looks<N: Number>(state: &LinkState<N>, t: N) -> N {
+        inside(state, t)
     }
 
     /// Where the ray enters and leaves the sphere, and where it crosses the plane through the centre.
     #[inline(always)]
-    fn breaks<F: Real>(link: &Constants<F>, view: Vec3<F>, ray: &Ray<F>) -> [F; 3] {
-        let (centre, radius) = (xyz(&link[0]), link[0][3]);
-        let from_centre = ray.origin_in_display - centre;
-        let nearest = -from_centre.dot(ray.direction_in_display);
-        let aside = from_centre + ray.direction_in_display * nearest;
+    fn breaks<N: Number>(link: &Constants<N>, view: Vec3<N>, line: &Line<N>) -> [N; 3] {
+        let (centre, radius, strength) = (xyz(&link[0]), link[0][3], link[1][3]);
+        let (zero, far) = (radius.alike(0.0), radius.alike(FAR));
+        let from_centre = line.origin - centre;
+        let nearest = -from_centre.dot(line.direction);
+        let aside = from_centre + line.direction * nearest;
         let square = radius * radius - aside.dot(aside);
-        if link[1][3] <= F::ZERO || square <= F::ZERO {
-            return [far(); 3];
+        // Above 0 if the ray meets the sphere of a probe that does something.
+        let meets = square.least(strength);
+        if !zero.is_any_below(meets) {
+            return [far; 3];
         }
         let half = square.sqrt();
-        [nearest - half, ray.plane_crossing(view, view.dot(centre)), nearest + half]
+        let middle = line.plane_crossing(view, view.dot(centre));
+        [
+            zero.choose(meets, nearest - half, far),
+            zero.choose(meets, middle, far),
+            zero.choose(meets, nearest + half, far),
+        ]
     }
 
     #[inline(always)]
-    fn acts<F: Real>(_: &Constants<F>, state: &LinkState<F>, (_, t): (Vec3<F>, F)) -> bool {
-        is_inside(state, t)
+    fn acts<N: Number>(_: &Constants<N>, state: &LinkState<N>, (_, t): (Vec3<N>, N)) -> N {
+        inside(state, t)
     }
 
     #[inline(always)]
-    fn at<F: Real>(
-        link: &Constants<F>,
-        state: &LinkState<F>,
-        sample: Sample<F>,
-        place: &Place<F>,
-    ) -> Sample<F> {
-        let (from_centre, radius) = (place.point - xyz(&link[0]), link[0][3]);
-        if from_centre.dot(from_centre) >= radius * radius {
+    fn at<N: Number>(
+        link: &Constants<N>,
+        state: &LinkState<N>,
+        sample: Sample<N>,
+        place: &Place<N>,
+    ) -> Sample<N> {
+        let (from_centre, radius, strength) = (place.point - xyz(&link[0]), link[0][3], link[1][3]);
+        let (square, radius_square) = (from_centre.dot(from_centre), radius * radius);
+        let (zero, one) = (square.alike(0.0), square.alike(1.0));
+        if radius_square.is_below(square) {
             return sample;
         }
         let past = from_centre.dot(place.view);
-        let near = F::ONE - (past * past) / (radius * radius);
+        let near = one - (past * past) / radius_square;
         let edge = edge(link, state.weights[0], &sample, place);
-        let (mut opacity, mut intensity) = (edge * near, F::ONE - edge);
-        if past >= F::ZERO {
-            opacity = edge + (F::ONE - edge) * (F::ONE - near);
-            intensity = F::ONE - edge + edge * (F::ONE - near);
-        }
-        let strength = link[1][3];
-        let changed = scaled(sample, F::ONE + (opacity - F::ONE) * strength);
-        let brightness = changed.brightness * (F::ONE + (intensity - F::ONE) * strength);
-        Sample { brightness, ..changed }
+        let opacity = past.choose(zero, edge * near, edge + (one - edge) * (one - near));
+        let intensity = past.choose(zero, one - edge, one - edge + edge * (one - near));
+        let opacity = one + (opacity - one) * strength;
+        let intensity = one + (intensity - one) * strength;
+        let changed = scaled(sample, square.choose(radius_square, opacity, one));
+        Sample { brightness: changed.brightness * square.choose(radius_square, intensity, one), ..changed }
     }
 }
 
-/// Whether t lies between where the ray enters the sphere and where it leaves it.
+/// Above 0 between where a ray enters the sphere and where it leaves it.
 #[inline(always)]
-fn is_inside<F: Real>(state: &LinkState<F>, t: F) -> bool {
-    t > state.breaks[0] && t < state.breaks[2]
+fn inside<N: Number>(state: &LinkState<N>, t: N) -> N {
+    (t - state.breaks[0]).least(state.breaks[2] - t)
 }
 
 /// η: how much of an edge a sample is.
 #[inline(always)]
-fn edge<F: Real>(link: &Constants<F>, aligned: F, sample: &Sample<F>, place: &Place<F>) -> F {
+fn edge<N: Number>(link: &Constants<N>, aligned: N, sample: &Sample<N>, place: &Place<N>) -> N {
     let square = place.gradient.dot(place.gradient);
-    if square < F::of(LEAST_SQUARE) {
-        return F::ZERO;
+    let (zero, one, least) = (square.alike(0.0), square.alike(1.0), square.alike(LEAST_SQUARE));
+    if square.is_below(least) {
+        return zero;
     }
     let size = square.sqrt();
-    let flat_share = F::ONE - (place.gradient.dot(place.view).abs() / size).least(F::ONE);
-    let importance = if place.has_importance { sample.importance.mean } else { F::ONE };
+    let flat_share = one - (place.gradient.dot(place.view).abs() / size).least(one);
+    let importance = if place.has_importance { sample.importance.mean } else { one };
     let strength = (importance * size / link[2][2]).smoothstep(link[3][0], link[3][1]);
-    aligned * strength * (flat_share * flat_share) * (flat_share * flat_share)
+    let edge = aligned * strength * (flat_share * flat_share) * (flat_share * flat_share);
+    square.choose(least, zero, edge)
 }

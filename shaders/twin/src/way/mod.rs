@@ -1,9 +1,11 @@
 //! How a ray passes through the volume.
 
 mod beside;
+mod enhancing;
 mod in_level;
 mod packet;
 mod pair;
+mod pairs;
 mod path;
 mod paths;
 mod refracted;

@@ -276,7 +276,7 @@ impl<'a, S: Simd> Paths<'a, S> {
         }
     }
 
-    /// The gradients of some rays at `t`: see [`crate::gradient::Gradients`].
+    /// The gradients of some rays at `t`, zero of all others: see [`crate::gradient::Gradients`].
     #[inline(always)]
     pub(super) fn gradients<K: Kernel>(
         &self,
@@ -284,7 +284,7 @@ impl<'a, S: Simd> Paths<'a, S> {
         t: f32x8<S>,
         rays: mask32x8<S>,
     ) -> Vec3<f32x8<S>> {
-        let mut rays = rays.to_bitmask();
+        let (read, mut rays, zero) = (rays, rays.to_bitmask(), self.number(0.0));
         if rays.count_ones() <= FEW {
             let mut gradients = [[0.0; RAYS]; 3];
             while rays != 0 {
@@ -298,10 +298,12 @@ impl<'a, S: Simd> Paths<'a, S> {
             }
             return Vec3(each!(axis of 3 => load(self.simd, &gradients[axis], 0)));
         }
-        let own = self.own.gradients(casting, t);
-        let Some(share) = self.parents_share(t) else { return own };
-        let parent = self.parent.gradients(casting, t);
-        Vec3(each!(axis of 3 => self.blended(share, own.0[axis], parent.0[axis])))
+        let mut gradients = self.own.gradients(casting, t);
+        if let Some(share) = self.parents_share(t) {
+            let (own, parent) = (gradients, self.parent.gradients(casting, t));
+            gradients = Vec3(each!(axis of 3 => self.blended(share, own.0[axis], parent.0[axis])));
+        }
+        Vec3(each!(axis of 3 => read.select(gradients.0[axis], zero)))
     }
 
     /// What is of the node itself and of its parent, which has a share.

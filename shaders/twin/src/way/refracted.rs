@@ -154,7 +154,7 @@ impl<F: Real> Walk<F> {
     ) -> (F, F) {
         let Bent { ray, t, .. } = &self.bent;
         let voxel = Voxel::new(casting, node, ray);
-        let until = t_out.least(self.chain.next_break::<K>(*t));
+        let until = t_out.least(self.chain.next_break::<K, F>(casting, *t));
         let span = (until - *t).most(F::of(LEAST_PAIR) * voxel.edge);
         let longest = voxel.longest_step::<K>(casting, brick, ray, *t);
         let longest = longest.least(F::of(MOST_STEP) * voxel.edge);

@@ -109,10 +109,11 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -
             let mut t = walk.t;
             // Cut where the law of an enhancer is not smooth.
             while t < exit.t && !walk.is_done {
-                let until = chain.next_break::<K>(t).least(exit.t);
+                let until = chain.next_break::<K, F>(casting, t).least(exit.t);
                 let way = Straight { brick: &brick, ray };
                 let stretch = (t, until);
-                walk.add(if K::IS_FULL || chain.acts::<K>(casting, ray, F::of(0.5) * (t + until)) {
+                let acts = chain.acts::<K, F>(casting, &ray.line(), F::of(0.5) * (t + until)) > F::ZERO;
+                walk.add(if K::IS_FULL || acts {
                     march::<F, K>(casting, &chain, walk.front, way, voxel, stretch)
                 } else {
                     march::<F, K::Plain>(casting, &chain, walk.front, way, voxel, stretch)

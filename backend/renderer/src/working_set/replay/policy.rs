@@ -47,9 +47,8 @@ pub struct Policy {
 impl Policy {
     /// Bricks that the cache holds, as the CPU renderer's does; a GPU's holds a power of two.
     pub(super) fn slots(&self, shape: &OctreeShape) -> u32 {
-        let level = |depth| shape.level_bricks(depth).as_u64vec3().element_product();
         // The renderer keeps one of them blank.
-        slots_within(self.cache_bytes, SAMPLE_BYTES, (0..=shape.finest_depth()).map(level).sum()) - 1
+        slots_within(self.cache_bytes, SAMPLE_BYTES, shape.total_node_count()) - 1
     }
 }
 
