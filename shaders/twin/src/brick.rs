@@ -214,6 +214,7 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
     parts: F,
 ) -> (Accumulated<F>, u32) {
     let (way, ray) = (&step.way, step.way.ray());
+    let line = ray.line();
     let part = step.length / parts;
     let thickness = casting.scene.extinction_per_metre * part;
     let half = F::of(0.5);
@@ -241,8 +242,8 @@ fn add_parts_here<F: Real, K: Kernel, W: Along<F>>(
                 gradients = way.gradients_at::<K>(casting, middle);
             }
             let mut enhanced = [plain];
-            let (line, gradient) = (ray.line(), gradients.at);
-            let segment = Segment { line, t: middle, length: part, scalars: (from, to), gradient };
+            let gradient = gradients.at;
+            let segment = Segment { line: &line, t: middle, length: part, scalars: (from, to), gradient };
             chain.enhance::<K, 1>(casting, &mut enhanced, &[segment]);
             let [sample] = enhanced;
             let light = if sample.k[3] > F::ZERO {
@@ -295,18 +296,19 @@ pub(super) fn add_pair<F: Real, K: Kernel, W: Along<F> + Copy>(
             gradients = own[0].halfway(&own[1]);
         }
         let both = F::of(2.0) * length;
-        let segment = |ray: &Ray<F>, t, length, scalars, gradients: &Gradients<F>| Segment {
-            line: ray.line(),
+        let lines = [first.ray().line(), second.ray().line()];
+        let segment = |way: usize, t, length, scalars, gradients: &Gradients<F>| Segment {
+            line: &lines[way],
             t,
             length,
             scalars,
             gradient: gradients.at,
         };
         let segments = [
-            segment(first.ray(), t0 + half, length, (s0, s1), &own[0]),
-            segment(second.ray(), t1 + half, length, (s1, s2), &own[1]),
-            segment(first.ray(), middle, both, (s0, s2), &gradients),
-            segment(first.ray(), middle, both, range, &gradients),
+            segment(0, t0 + half, length, (s0, s1), &own[0]),
+            segment(1, t1 + half, length, (s1, s2), &own[1]),
+            segment(0, middle, both, (s0, s2), &gradients),
+            segment(0, middle, both, range, &gradients),
         ];
         let mut samples = [pair.first, pair.second, pair.both, pair.reach];
         chain.enhance::<K, 4>(casting, &mut samples, &segments);

@@ -49,7 +49,7 @@ impl<F: Real> Chain<F> {
         &self,
         casting: &Casting<F>,
         samples: &mut [Sample<F>; COUNT],
-        segments: &[Segment<F>; COUNT],
+        segments: &[Segment<'_, F>; COUNT],
     ) {
         if K::IS_FULL && !casting.needs.chain.is_empty() {
             self.enhance_apart::<K, COUNT>(casting, samples, segments);
@@ -64,7 +64,7 @@ impl<F: Real> Chain<F> {
         &self,
         casting: &Casting<F>,
         samples: &mut [Sample<F>; COUNT],
-        segments: &[Segment<F>; COUNT],
+        segments: &[Segment<'_, F>; COUNT],
     ) {
         self.enhance_here::<K, F, COUNT>(casting, samples, segments);
     }
@@ -76,9 +76,8 @@ impl<S: Simd> Chain<f32x8<S>> {
     pub fn of<K: Features>(&self, casting: &Casting<f32>, lane: usize) -> Chain<f32> {
         let mut links = [LinkState { weights: [0.0; 4], breaks: [far(); 3] }; MOST_ENHANCERS];
         let used = if K::ENHANCES { casting.needs.chain.kinds().count() } else { 0 };
-        for i in 0..used {
-            let LinkState { weights, breaks } = &self.links[i];
-            links[i] = LinkState {
+        for (link, LinkState { weights, breaks }) in links.iter_mut().zip(&self.links).take(used) {
+            *link = LinkState {
                 weights: each!(c of 4 => weights[c][lane]),
                 breaks: each!(c of 3 => breaks[c][lane]),
             };
@@ -171,7 +170,7 @@ impl<N: Number> Chain<N> {
         &self,
         casting: &Casting<F>,
         samples: &mut [Sample<N>; COUNT],
-        segments: &[Segment<N>; COUNT],
+        segments: &[Segment<'_, N>; COUNT],
     ) {
         if !K::ENHANCES {
             return;

@@ -98,7 +98,7 @@ macro_rules! dispatch {
             link: &Constants<N>,
             state: &LinkState<N>,
             samples: &mut [Sample<N>; COUNT],
-            segments: &[Segment<N>; COUNT],
+            segments: &[Segment<'_, N>; COUNT],
             (view, has_importance): (Vec3<N>, bool),
         ) {
             match kind {

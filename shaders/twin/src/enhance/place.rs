@@ -6,9 +6,9 @@ use crate::vector::Vec3;
 
 /// A segment that enhancers change, of one ray or of eight side by side.
 #[derive(Clone, Copy, Debug)]
-pub struct Segment<N> {
+pub struct Segment<'a, N> {
     /// The straight way that it lies on.
-    pub line: Line<N>,
+    pub line: &'a Line<N>,
     /// Its middle.
     pub t: N,
     /// Metres.
@@ -36,7 +36,7 @@ pub struct Place<N> {
     pub has_importance: bool,
 }
 
-impl<N: Number> Segment<N> {
+impl<N: Number> Segment<'_, N> {
     /// Its place, seen along `view`.
     #[inline(always)]
     pub(super) fn place(&self, view: Vec3<N>, has_importance: bool) -> Place<N> {

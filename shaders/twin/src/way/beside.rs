@@ -180,10 +180,10 @@ impl<'a, S: Simd> Gathered<'a, S> {
             lights = [light; 2];
         }
         if own.any_true() {
-            for i in 0..2 {
-                let Lighting { body, highlight } = self.light::<K>(casting, seen.gradients[i], own);
-                lights[i].body = own.select(body, lights[i].body);
-                lights[i].highlight = own.select(highlight, lights[i].highlight);
+            for (light, gradients) in lights.iter_mut().zip(seen.gradients) {
+                let Lighting { body, highlight } = self.light::<K>(casting, gradients, own);
+                light.body = own.select(body, light.body);
+                light.highlight = own.select(highlight, light.highlight);
             }
         }
         lights
@@ -272,9 +272,9 @@ impl<'a, S: Simd> Gathered<'a, S> {
             if read.any_true() {
                 gradients = paths.gradients::<K>(casting, middle, read);
             }
-            let (line, gradient) = (self.enhancing.line, gradients);
+            let (line, gradient) = (&self.enhancing.line, gradients);
             let segment = Part { line, t: middle, length: part, scalars: (from, to), gradient };
-            self.enhancing.change_part::<K>(casting, &mut sample, segment, shows);
+            self.enhancing.change_part::<K>(casting, &mut sample, &segment, shows);
             let mut light = self.unlit();
             if is_lit && read.any_true() {
                 light = self.light::<K>(casting, gradients, sample.k[3].simd_gt(zero) & read);

@@ -69,7 +69,7 @@ impl<S: Simd> Enhancing<'_, S> {
             ];
             between = (seen.gradients[0] + seen.gradients[1]) * t0.alike(0.5);
         }
-        let (line, [first, second]) = (self.line, seen.gradients);
+        let (line, [first, second]) = (&self.line, seen.gradients);
         let segments = [
             Segment { line, t: t0 + half, length, scalars: (s0, s1), gradient: first },
             Segment { line, t: t1 + half, length, scalars: (s1, s2), gradient: second },
@@ -88,12 +88,12 @@ impl<S: Simd> Enhancing<'_, S> {
         &self,
         casting: &Casting<f32>,
         sample: &mut Sample<f32x8<S>>,
-        segment: Segment<f32x8<S>>,
+        segment: &Segment<'_, f32x8<S>>,
         rays: mask32x8<S>,
     ) {
         if K::ENHANCES && (self.acts & rays).any_true() {
             let mut samples = [*sample];
-            self.change_samples::<K, 1>(casting, &mut samples, &[segment], rays);
+            self.change_samples::<K, 1>(casting, &mut samples, std::array::from_ref(segment), rays);
             [*sample] = samples;
         }
     }
@@ -104,7 +104,7 @@ impl<S: Simd> Enhancing<'_, S> {
         &self,
         casting: &Casting<f32>,
         samples: &mut [Sample<f32x8<S>>; COUNT],
-        segments: &[Segment<f32x8<S>>; COUNT],
+        segments: &[Segment<'_, f32x8<S>>; COUNT],
         rays: mask32x8<S>,
     ) {
         let plain = *samples;

@@ -112,8 +112,8 @@ pub(super) fn cast_ray<F: Real, K: Kernel>(casting: &Casting<F>, ray: &Ray<F>) -
                 let until = chain.next_break::<K, F>(casting, t).least(exit.t);
                 let way = Straight { brick: &brick, ray };
                 let stretch = (t, until);
-                let acts = chain.acts::<K, F>(casting, &ray.line(), F::of(0.5) * (t + until)) > F::ZERO;
-                walk.add(if K::IS_FULL || acts {
+                let acts = || chain.acts::<K, F>(casting, &ray.line(), F::of(0.5) * (t + until)) > F::ZERO;
+                walk.add(if K::IS_FULL || acts() {
                     march::<F, K>(casting, &chain, walk.front, way, voxel, stretch)
                 } else {
                     march::<F, K::Plain>(casting, &chain, walk.front, way, voxel, stretch)
