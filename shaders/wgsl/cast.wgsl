@@ -16,6 +16,6 @@ fn cast_tile(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     var count = 0u;
     let colour = cast_ray(ray_of_pixel(vec2<f32>(pixel) + 0.5), &count);
     let index = index_of(pixel);
-    pixels[index] = debug_pixel(colour, count & ~MISSING);
+    pixels[index] = debug_pixel(colour, count & SAMPLE_COUNT);
     counts[index] = count;
 }

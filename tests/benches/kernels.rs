@@ -143,8 +143,23 @@ fn unused(results: &mut Results, display: &Display) {
             let mut lean = Contender::new(display, &scene, frame.clone(), with);
             let mut full = Contender::new(display, &scene, nothing_left_out(frame), with);
             compare(results, &format!("{}, lit", scene.name), &mut lean, &mut full);
+            let mut frame = blended_mimda(scene.frame.clone());
+            let mut lean = Contender::new(display, &scene, frame.clone(), with);
+            // A light that leaves colours as they are.
+            frame.light = Some(Light { ambient: 1.0, diffuse: 0.0, specular: 0.0, ..Light::default() });
+            let mut full = Contender::new(display, &scene, nothing_left_out(frame), with);
+            compare(results, &format!("{}, MImDA, levels blended", scene.name), &mut lean, &mut full);
         }
     }
+}
+
+/// A plain frame of blended levels, four times as coarse as usual, in which what is dense has importance.
+fn blended_mimda(mut frame: FrameState) -> FrameState {
+    let importance = Curve::new(vec![(0.3, 0.0), (0.8, 1.0)]).expect("two points that rise make a curve");
+    frame.light = None;
+    frame.optics.mimda = Some(Mimda { importance, gamma: 0.5, form: MimdaForm::Consistent });
+    frame.quality = Quality { blended: true, lod_scale: 4.0, ..frame.quality };
+    frame
 }
 
 /// A γ that is 0 in single precision, but not to those who ask whether it is.
@@ -157,7 +172,8 @@ fn nothing_left_out(mut frame: FrameState) -> FrameState {
     let Light { ambient, diffuse, specular, shininess, .. } = light;
     frame.optics.materials = Some(constant(Material { ambient, diffuse, specular, shininess }));
     let (gamma, form) = (NO_GAMMA, MimdaForm::Consistent);
-    frame.optics.mimda = Some(Mimda { importance: constant(0.0), gamma, form });
+    let idle = Mimda { importance: constant(0.0), gamma, form };
+    frame.optics.mimda.get_or_insert(idle);
     frame.optics.enhancers = idle_enhancers().pop().map_or(Vec::new(), |(_, chain)| chain);
     frame
 }

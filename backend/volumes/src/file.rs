@@ -4,7 +4,7 @@ use super::data_files::DataFiles;
 use super::data_stream::{DataStream, Source, Start, StreamError, warn_of_more};
 use super::packing::Packing;
 use super::shape::Shape;
-use bricks::volume::{ByteOrder, Element, Samples, VolumeError, VolumeFrame};
+use bricks::volume::{ByteOrder, Element, Modality, Samples, VolumeError, VolumeFrame};
 use bricks::volume::{VolumeInfo, VolumeReader};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -25,6 +25,7 @@ pub(super) struct FileLayout {
     pub start: Start,
     pub shape: Shape,
     pub frame: VolumeFrame,
+    pub modality: Modality,
     pub element: Element,
     pub byte_order: ByteOrder,
     pub packing: Packing,
@@ -58,6 +59,7 @@ impl FileVolume {
             name,
             dims: layout.shape.dims,
             frame: layout.frame,
+            modality: layout.modality,
             element: layout.element,
             slope: layout.slope,
             intercept: layout.intercept,

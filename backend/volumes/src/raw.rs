@@ -5,7 +5,7 @@ use super::data_stream::Start;
 use super::file::{FileLayout, file_length};
 use super::packing::Packing;
 use super::shape::Shape;
-use bricks::volume::{ByteOrder, Element, VolumeError, VolumeFrame};
+use bricks::volume::{ByteOrder, Element, Modality, VolumeError, VolumeFrame};
 use glam::{DVec3, UVec3};
 use std::path::Path;
 
@@ -46,6 +46,7 @@ pub(super) fn layout(path: &Path, raw: &RawLayout) -> Result<FileLayout, VolumeE
         start: Start { header_bytes: raw.header_skip_bytes, ..Start::default() },
         shape,
         frame: VolumeFrame::of_voxels(raw.spacing_mm * 1e-3),
+        modality: Modality::Unknown,
         element: raw.element,
         byte_order: raw.byte_order,
         packing: Packing::Plain,

@@ -22,6 +22,8 @@ pub struct StoreSummary {
     pub dims: UVec3,
     /// Size, orientation and place of the voxels.
     pub frame: FrameFacts,
+    /// `CT`, `MR` or `unknown`, as the volume's file said.
+    pub modality: String,
     /// Smallest and largest value.
     pub value_range: (f64, f64),
     /// Bits per code: 8 or 16.
@@ -69,6 +71,7 @@ pub fn store_summary(path: &Path) -> Result<StoreSummary, FrontendError> {
         format_version: store.version(),
         dims: shape.dims(),
         frame: FrameFacts::of(&store.frame()),
+        modality: store.modality().to_string(),
         value_range: store.value_range(),
         bits: match store.bits() {
             CodeBits::Eight => 8,

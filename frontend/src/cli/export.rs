@@ -1,6 +1,6 @@
 //! The arguments of `lightloom export`.
 
-use super::parse::{dims, three, whole};
+use super::parse::{dims, place, whole};
 use bricks::volume::Element;
 use clap::Args;
 use glam::UVec3;
@@ -50,10 +50,6 @@ impl ExportArgs {
             stop: None,
         }
     }
-}
-
-fn place(text: &str) -> Result<UVec3, String> {
-    three::<u32>(text).map(UVec3::from_array)
 }
 
 fn element(text: &str) -> Result<Element, String> {

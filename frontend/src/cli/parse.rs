@@ -21,12 +21,22 @@ pub(super) fn spacing(text: &str) -> Result<DVec3, String> {
 
 /// Three sizes of at least 1.
 pub(super) fn dims(text: &str) -> Result<UVec3, String> {
-    let dims = UVec3::from_array(three::<u32>(text)?);
-    if dims.min_element() > 0 { Ok(dims) } else { Err("give sizes of at least 1".to_owned()) }
+    three_whole(text, 1)
 }
 
-/// Three numbers with commas between them.
-pub(super) fn three<T: FromStr>(text: &str) -> Result<[T; 3], String> {
+/// A voxel's place.
+pub(super) fn place(text: &str) -> Result<UVec3, String> {
+    three_whole(text, 0)
+}
+
+fn three_whole(text: &str, least: u32) -> Result<UVec3, String> {
+    let numbers = three::<u32>(text).ok().map(UVec3::from_array);
+    numbers
+        .filter(|numbers| numbers.min_element() >= least)
+        .ok_or_else(|| format!("give three whole numbers of at least {least}, with commas between them"))
+}
+
+fn three<T: FromStr>(text: &str) -> Result<[T; 3], String> {
     let parts = text.split(',').map(|part| part.trim().parse::<T>().ok()).collect::<Option<Vec<T>>>();
     parts
         .and_then(|p| p.try_into().ok())

@@ -166,7 +166,10 @@ fn raw_voxels_need_size_and_type() {
     assert_eq!(exit_code(&["--raw-dims", "2,3,0", "--raw-type", "int16"]), Err(2));
     let all = ["lightloom", "import", "a", "-o", "b", "--raw-type", "int16", "--raw-dims", "-1,2,3"];
     let error = Cli::try_parse_from(all).unwrap_err().to_string();
-    assert!(error.contains("give three numbers") && !error.contains("unexpected"), "{error}");
+    assert!(
+        error.contains("give three whole numbers of at least 1,") && !error.contains("unexpected"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -28,6 +28,7 @@ fn text(store: &StoreSummary) -> String {
         ("voxels", format!("{} × {} × {}", dims.x, dims.y, dims.z)),
         ("voxel size", format!("{:.4} × {:.4} × {:.4} mm", size_mm.x, size_mm.y, size_mm.z)),
         ("patient axes", store.frame.orientation.clone()),
+        ("modality", store.modality.clone()),
         ("values", format!("{low} to {high}")),
         ("codes", format!("{} bits, codec {}", store.bits, store.codec)),
         ("octree", format!("{} nodes on {} levels", units::count(store.nodes), store.levels)),

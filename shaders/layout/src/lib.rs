@@ -19,4 +19,4 @@ pub use planes::{FanBlock, PLANE_COLUMNS, PlaneBand, PlaneFound, PlaneLayer, Pla
 pub use present::{PaintBlock, PresentBlock};
 pub use scene::{Link, SceneBlock};
 pub use table_entry::{ImportanceEntry, IndexEntry, TableCell, TableEntry};
-pub use view::{MISSING, SHORT_RAYS, TALLIED_TILES, TILE_EDGE, TileTally, ViewBlock};
+pub use view::{CUT, MISSING, SAMPLE_COUNT, SHORT_RAYS, TALLIED_TILES, TILE_EDGE, TileTally, ViewBlock};

@@ -10,6 +10,10 @@ pub const SHORT_RAYS: u32 = 64;
 pub const TALLIED_TILES: u32 = 64;
 /// Set in a pixel's count of samples where its ray met a node that is too coarse.
 pub const MISSING: u32 = 0x8000_0000;
+/// Set there if the driver left a loop before the ray's end: some do so with loops that go round often.
+pub const CUT: u32 = 0x4000_0000;
+/// The bits there that are the number of samples.
+pub const SAMPLE_COUNT: u32 = CUT - 1;
 
 /// What the rays of [`TALLIED_TILES`] tiles counted.
 #[repr(C)]
@@ -19,6 +23,8 @@ pub struct TileTally {
     pub samples: u32,
     /// A bit for each of them, set where one of its rays met a node that is too coarse.
     pub missing: [u32; 2],
+    /// Rays that the driver left before their end.
+    pub cut: u32,
 }
 
 impl TileTally {

@@ -5,8 +5,8 @@ use layout::present::{
     MOST_PAIRS, NOWHERE,
 };
 use layout::{
-    CODE_OF_ZERO, CODES_PER_LEVEL, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, PLANE_COLUMNS, SHORT_RAYS,
-    TALLIED_TILES, TILE_EDGE, binding, brick,
+    CODE_OF_ZERO, CODES_PER_LEVEL, CUT, MISSING, MOST_DEFICIT, NO_NODE, NO_SLOT, PLANE_COLUMNS, SAMPLE_COUNT,
+    SHORT_RAYS, TALLIED_TILES, TILE_EDGE, binding, brick,
 };
 use optics::MOST_ENHANCERS;
 
@@ -35,6 +35,8 @@ pub(super) fn wgsl() -> String {
         ("NO_NODE", NO_NODE),
         ("NO_SLOT", NO_SLOT),
         ("MISSING", MISSING),
+        ("CUT", CUT),
+        ("SAMPLE_COUNT", SAMPLE_COUNT),
         ("TILE_EDGE", TILE_EDGE),
         ("SHORT_RAYS", SHORT_RAYS),
         ("PLANE_COLUMNS", PLANE_COLUMNS),

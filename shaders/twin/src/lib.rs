@@ -2,9 +2,10 @@
 //!
 //! At f32 it agrees with the kernels to rounding and is what the CPU device runs; at f64 it shows what rounding
 //! costs. Twins take long to compile, so this crate holds nothing else, and those in f32 are compiled here: see
-//! [`cast_pixels`]. Files share their stem with the WGSL module they mirror. They differ in three places: bricks are lists of
+//! [`cast_pixels`]. Files share their stem with the WGSL module they mirror. They differ in four places: bricks are lists of
 //! codes instead of parts of one texture, so a point to sample is relative to its brick; a table entry is read as
-//! f32 and widened; and where the composer puts one module or another into a slot, the twin has generics for shading and
+//! f32 and widened; enhancers, which change eight rays at a time, work out both sides of what the kernel branches on and
+//! choose; and where the composer puts one module or another into a slot, the twin has generics for shading and
 //! compositing and branches for the rest, of which twins for plain scenes have none: see [`kernel`].
 
 mod along;

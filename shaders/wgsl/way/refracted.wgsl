@@ -12,7 +12,7 @@ const LEAST_PAIR: f32 = 1e-3;
 struct Walk {
     bent: Bent,
     front: Accumulated,
-    // The number of samples, with MISSING where a node was too coarse.
+    // The number of samples, with MISSING where a node was too coarse, and CUT if the driver left the loop before its end.
     count: u32,
     // The scalar where it is, where that is known.
     is_known: bool,
@@ -44,7 +44,7 @@ fn is_in_volume(point: vec3<f32>) -> bool {
     return all(point >= vec3<f32>(0.0)) && all(point <= scene.volume.xyz);
 }
 
-// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
+// Colour and opacity of a ray; `count` as above.
 fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     let span = clip_to_volume(eye_ray);
     if span.x >= span.y {
@@ -52,12 +52,11 @@ fn cast_ray(eye_ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     }
     var walk = start_walk(eye_ray, span.x);
     let longest_way = scene.resolution.w * LONGEST_WAY_DIAGONALS;
-    while walk.at != NO_NODE && walk.bent.way < longest_way {
-        if !go_on(&walk) {
-            break;
-        }
+    var goes_on = walk.at != NO_NODE;
+    while goes_on {
+        goes_on = go_on(&walk) && walk.at != NO_NODE && walk.bent.way < longest_way;
     }
-    *count = walk.count;
+    *count = walk.count | select(0u, CUT, goes_on);
     return vec4<f32>(walk.front.rgb, walk.front.alpha);
 }
 

@@ -4,6 +4,8 @@ struct Marched {
     front: Accumulated,
     samples: u32,
     is_done: bool,
+    // Whether the driver left the loop before its end.
+    is_cut: bool,
 }
 
 // Follows the ray through one brick, from t_in to t_out, in equal pairs of steps. If the steps of a pair turn out too
@@ -15,7 +17,7 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
     var pairs = max(1.0, ceil(span / (2.0 * longest_step(voxel, brick, ray, t_in))));
     var step = 0.5 * span / pairs;
     var front = front_of_brick;
-    var marched = Marched(front, 0u, false);
+    var marched = Marched(front, 0u, false, false);
     var known = false;
     var s2 = 0.0;
     var i = 0.0;
@@ -66,18 +68,23 @@ fn march(front_of_brick: Accumulated, brick: Brick, ray: Ray, voxel: Voxel, t_in
         }
     }
     marched.front = front;
+    marched.is_cut = i < pairs && !marched.is_done;
     return marched;
 }
 
-// Goes on along a part of a ray. `count` is the number of samples so far, with MISSING where a node was too coarse.
+// Goes on along a part of a ray. `count` is the number of samples so far, with MISSING where a node was too coarse, and CUT if
+// the driver left a loop before its end.
 fn follow(ray: Ray, span: vec2<f32>, accumulated: ptr<function, Accumulated>, count: ptr<function, u32>) {
     var front = *accumulated;
     var t = span.x;
     var at = leaf_at(point_on(ray, t), ray);
-    while at != NO_NODE {
+    var goes_on = at != NO_NODE;
+    var is_cut = false;
+    while goes_on {
         let node = nodes[at];
         let exit = exit_of(node, ray);
         let t_out = min(max(exit.t, t), span.y);
+        goes_on = t_out < span.y;
         if node.slot != NO_SLOT && t_out > t {
             note(at, node.deficit);
             let brick = brick_of(node, ray);
@@ -89,24 +96,25 @@ fn follow(ray: Ray, span: vec2<f32>, accumulated: ptr<function, Accumulated>, co
                 let marched = march(front, brick, ray, voxel, t, until);
                 front = marched.front;
                 is_done = marched.is_done;
+                is_cut |= marched.is_cut;
                 *count += marched.samples;
                 t = until;
             }
             *count |= select(0u, MISSING, node.deficit > 0.0);
-            if is_done {
-                break;
-            }
+            is_cut |= t < t_out && !is_done;
+            goes_on &= !is_done;
         }
-        if t_out >= span.y {
-            break;
+        if goes_on {
+            t = t_out;
+            at = leaf_beyond(at, node, exit.axis, point_on(ray, t), ray);
+            goes_on = at != NO_NODE;
         }
-        t = t_out;
-        at = leaf_beyond(at, node, exit.axis, point_on(ray, t), ray);
     }
+    *count |= select(0u, CUT, is_cut || goes_on);
     *accumulated = front;
 }
 
-// Colour and opacity of a ray, then the number of samples with MISSING where a node was too coarse.
+// Colour and opacity of a ray; `count` as above.
 fn cast_ray(ray: Ray, count: ptr<function, u32>) -> vec4<f32> {
     let span = clip_to_volume(ray);
     if span.x >= span.y {

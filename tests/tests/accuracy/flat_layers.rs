@@ -10,9 +10,13 @@ use optics::Curve;
 use protocol::{DeviceChoice, FilterChoice};
 use std::sync::Arc;
 
-/// What default quality keeps elsewhere, eight times over in the pixels where a ray grazes the layer or meets it where its
-/// mirror begins: one in 600.
-const KEPT: Limits = Limits::of_255(0.8, 12.0, 12.0);
+/// What default quality keeps: a quarter above the most that was measured.
+const KEPT: Limits = Limits::of_255(0.2, 2.7, 2.7);
+/// The same where one ray of 600 grazes the layer and turns by the grid of a texture unit.
+const KEPT_WHERE_ONE_GRAZES: Limits = Limits::of_255(0.6, 10.0, 10.0);
+
+/// Pixels of which the reference does not reach its own tolerance, at most.
+const MOST_UNKNOWN: usize = 0;
 
 /// Flat layers, whose normal is turned by some degrees from z; s changes by a tenth per voxel.
 fn layers(degrees: f64) -> Arc<dyn BrickSource> {
@@ -33,14 +37,27 @@ fn a_flat_layer_a_voxel_thick_bends_light_by_snells_law() {
             let mut frame = scene(&display, &source, 0.0);
             frame.optics.refraction = Some(Curve::new(points.to_vec()).unwrap());
             let truth = compare::traced(&display, &frame, &source, &PROJECTORS, 3);
+            let all = truth.len();
             let truth: Vec<_> = truth.into_iter().filter(|pixel| pixel.truth.reached).collect();
+            let unknown = all - truth.len();
+            println!("{name}, {degrees}°: {unknown} of {all} pixels without a truth");
+            if unknown > MOST_UNKNOWN {
+                failed.push(format!("{name}, {degrees}°: {unknown} pixels without a truth"));
+            }
             for device in draw::devices() {
                 let drawn = draw(&display, &frame, &source, &PROJECTORS, With::device(device));
                 let errors = compare::errors(&drawn.images, &truth);
                 println!("{name}, {degrees}°, {device:?}: {errors}");
-                if !KEPT.hold(&errors) {
+                let grazes = device == DeviceChoice::Gpu && (name, degrees) == ("out of glass", 120.0);
+                if !(if grazes { KEPT_WHERE_ONE_GRAZES } else { KEPT }).hold(&errors) {
                     failed.push(format!("{name}, {degrees}°, {device:?}: {errors}"));
                 }
+            }
+            // The canary: straight rays.
+            frame.optics.refraction = None;
+            let straight = draw(&display, &frame, &source, &PROJECTORS, With::device(DeviceChoice::Cpu));
+            if KEPT.hold(&compare::errors(&straight.images, &truth)) {
+                failed.push(format!("{name}, {degrees}°: straight rays pass"));
             }
         }
     }

@@ -5,11 +5,12 @@ use display_config::Display;
 use glam::{DAffine3, DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::{ClosureVolume, bumps};
 use lightloom_tests::compare::{self, Limits, TruePixel, errors, truth};
-use lightloom_tests::draw::{self, With, draw};
+use lightloom_tests::draw::{self, With};
+use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{Points, frame, optics, placed};
 use needs::tables::TABLE_CELLS;
 use optics::{Curve, Light, Mimda, MimdaForm};
-use protocol::{FilterChoice, FrameState, ProjectorImage};
+use protocol::{DeviceChoice, DeviceInfo, FilterChoice, FrameState, ProjectorImage};
 use reference::Radiance;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -29,8 +30,8 @@ pub struct Case {
     pub filter: FilterChoice,
     /// Whether rays of the middle column and row may miss the volume or meet it: f32 cannot say.
     pub may_middle_miss: bool,
-    /// Whether Mesa's llvmpipe cannot draw it: it leaves a shader's loops, silently, when the invocations that it runs together have
-    /// gone round them some 65,535 times in all (measured: rays of 7e3 steps are whole, of 1.4e4 are not).
+    /// Whether Mesa's llvmpipe cannot draw it: it leaves a shader's loops when the invocations that it runs together have gone
+    /// round them some 65,535 times in all, nested or not (measured: rays of 7e3 steps are whole, of 1.4e4 are not).
     is_beyond_llvmpipe: bool,
 }
 
@@ -287,55 +288,78 @@ pub fn half_dark(images: &[ProjectorImage]) -> Vec<ProjectorImage> {
     images
 }
 
-fn check(cases: Vec<Case>) {
+/// The pictures, or why a device refuses to draw them.
+fn drawn(case: &Case, device: DeviceChoice) -> (Result<Vec<ProjectorImage>, String>, DeviceInfo) {
+    let with = With { filter: case.filter, ..With::device(device) };
+    let (mut renderer, info) = draw::renderer(&case.display, &case.source, &PROJECTORS, with);
+    let drawn = draw::try_draw_with(&mut renderer, &case.frame);
+    (drawn.map(|(images, _)| images).map_err(|error| error.to_string()), info)
+}
+
+fn check(part: &'static str, cases: Vec<Case>) {
     let _turn = draw::turn();
     let mut failed = Vec::new();
-    for Case { name, display, source, frame, limits, filter, may_middle_miss, is_beyond_llvmpipe } in cases {
-        let truth = truth(&display, &frame, &source, &PROJECTORS, 1);
+    let mut results = Results::new(Program::Tests("accuracy"), "accuracy", part);
+    results.line("| case | device | pixels lit | RMS, 99.9 %, largest error of 255 | their limits |");
+    results.line("| --- | --- | ---: | ---: | ---: |");
+    for case in cases {
+        let Case { name, limits, .. } = &case;
+        let truth = truth(&case.display, &case.frame, &case.source, &PROJECTORS, 1);
         for device in draw::devices() {
-            let drawn = draw(&display, &frame, &source, &PROJECTORS, With { filter, ..With::device(device) });
-            if is_beyond_llvmpipe && drawn.info.adapter.contains("llvmpipe") {
-                println!("SKIPPED: {name}: {} gives up on loops that long", drawn.info.adapter);
+            let (images, info) = drawn(&case, device);
+            results.drawn_by(&info.adapter);
+            if case.is_beyond_llvmpipe && info.adapter.contains("llvmpipe") {
+                let why = images.expect_err("llvmpipe leaves loops that long");
+                assert!(why.contains("rays before their end"), "{why}");
+                results.line(format!("| {name} | {device:?} | | refused | |"));
                 continue;
             }
-            assert_is_light(&name, &drawn.images);
-            let truth = if may_middle_miss { as_met(&drawn.images, &truth) } else { truth.clone() };
-            let errors = errors(&drawn.images, &truth);
-            println!("{name:36} {device:?}: {errors}");
+            let images = images.unwrap_or_else(|why| panic!("{name}: {why}"));
+            assert_is_light(name, &images);
+            let truth = if case.may_middle_miss { as_met(&images, &truth) } else { truth.clone() };
+            let errors = errors(&images, &truth);
+            let of_255 = |numbers: [f64; 3]| numbers.map(|number| 255.0 * number);
+            let [rms, p999, max] = of_255([errors.rms, errors.p999, errors.max]);
+            let [most_rms, most_p999, most] = of_255([limits.rms, limits.p999, limits.max]);
+            results.line(format!(
+                "| {name} | {device:?} | {} | {rms:.3}, {p999:.2}, {max:.2} | {most_rms:.2}, {most_p999:.1}, {most:.0} |",
+                errors.lit
+            ));
             if !limits.hold(&errors) {
                 failed.push(format!("{name}, {device:?}: {errors}"));
             }
             // The canary: half of the columns dark.
             let is_lit = errors.lit > 500;
-            if is_lit && limits.hold(&compare::errors(&half_dark(&drawn.images), &truth)) {
+            if is_lit && limits.hold(&compare::errors(&half_dark(&images), &truth)) {
                 failed.push(format!("{name}, {device:?}: half a picture passes"));
             }
         }
     }
+    results.finish().unwrap();
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
 #[test]
 fn rays_along_axes() {
-    check(along_axes());
+    check("hard cases by rays: along axes", along_axes());
 }
 
 #[test]
 fn viewers_inside() {
-    check(inside());
+    check("hard cases by rays: viewers inside", inside());
 }
 
 #[test]
 fn small_and_flat_volumes() {
-    check(small_volumes());
+    check("hard cases by rays: small and flat volumes", small_volumes());
 }
 
 #[test]
 fn extreme_transfer_functions() {
-    check(transfer_functions());
+    check("hard cases by rays: extreme transfer functions", transfer_functions());
 }
 
 #[test]
 fn other_cases() {
-    check(other());
+    check("hard cases by rays: others", other());
 }

@@ -64,6 +64,13 @@ fn no_command_waits_for_a_pipe() {
         refused(&[command, &store], &store);
     }
     refused(&["export", &store, &bench.path("b.nrrd")], &store);
+    let toml = bench.path("a.toml");
+    mkfifo(Path::new(&toml));
+    let not_read = |arguments: &[&str]| {
+        start(&mut lightloom(arguments)).finish(A_MOMENT).refused(&[&toml, "no regular file"]);
+    };
+    not_read(&["simulate", &toml, "--out", &bench.path("out")]);
+    not_read(&["simulate", "procedural:shells@16", "--display", &toml, "--out", &bench.path("out")]);
     let tape = [
         "simulate",
         "procedural:shells@16",
@@ -137,6 +144,16 @@ fn units_and_scalings_that_make_no_sense_are_told_of_once() {
     bench.import_warns(&test_data("zarr/type_u2.zarr"), &[], &["type_u2.zarr", "millimetres are assumed"]);
     let quiet = bench.import(&test_data("zarr/type_u2.zarr"), &["--spacing-mm", "1,1,1"]).succeeded();
     assert_eq!(quiet.stderr, "");
+    // One that nobody knows, on each of three axes.
+    let zarr = bench.at("furlongs.zarr");
+    fs::create_dir(&zarr).unwrap();
+    let known = PathBuf::from(test_data("zarr/xyz_05.zarr"));
+    symlink(known.join("0"), zarr.join("0")).unwrap();
+    let described = fs::read_to_string(known.join("zarr.json")).unwrap();
+    assert_eq!(described.matches("millimeter").count(), 3);
+    fs::write(zarr.join("zarr.json"), described.replace("millimeter", "furlong")).unwrap();
+    let zarr = zarr.to_string_lossy();
+    bench.import_warns(&zarr, &[], &["furlongs.zarr", "millimetres are assumed"]);
     let bytes = fs::read(test_data("ushort.nii")).unwrap();
     let nifti = |numbers: &[(usize, f32)], form: &[(usize, i16)]| {
         let mut changed = bytes.clone();

@@ -170,6 +170,16 @@ fn a_trace_counts_once() {
 }
 
 #[test]
+fn no_scene_commands_the_terminal() {
+    let bench = Bench::new();
+    let (scene, out) = (bench.path("title.toml"), bench.path("out"));
+    fs::write(&scene, "[volume]\nsource = \"\\u001b]0;title\\u0007.lloom\"\n").unwrap();
+    let ran = run(&mut lightloom(&bench.simulate(&scene, &out, &[])));
+    ran.refused(&[&scene, "line 2", "title"]);
+    assert!(!ran.stderr.contains(['\u{1b}', '\u{7}']), "{ran:?}");
+}
+
+#[test]
 fn a_name_that_nobody_reads_is_cut_off() {
     let bench = Bench::new();
     let (scene, out) = (bench.path("long.toml"), bench.path("out"));

@@ -48,8 +48,7 @@ impl ProceduralVolume {
         let field = field_named(name, dims.as_dvec3() / unit_voxels)
             .ok_or_else(|| wrong(format!("the names are {}", FIELD_NAMES.join(", "))))?;
         let frame = VolumeFrame::of_voxels(DVec3::splat(voxel_size_m));
-        let info =
-            VolumeInfo { name: name.into(), dims, frame, element: Element::F32, slope: 1.0, intercept: 0.0 };
+        let info = VolumeInfo::unscaled(name, dims, frame, Element::F32);
         Ok(Self { info, shape: OctreeShape::new(dims), field, unit_voxels, zeros: Zeros::default() })
     }
 

@@ -88,6 +88,7 @@ impl Building {
             has_deviation: options.has_deviation,
             dims: info.dims,
             frame: info.frame,
+            modality: info.modality,
             value_range: (0.0, 0.0),
             nodes: table.nodes(),
             table_offset: 0,

@@ -16,7 +16,7 @@ impl Grid {
         let place = |i| UVec3::new(i % dims.x, i / dims.x % dims.y, i / dims.x / dims.y);
         let values = (0..dims.element_product()).map(place).map(value).collect();
         let frame = VolumeFrame::of_voxels(DVec3::new(1e-3, 1e-3, 2e-3));
-        let info = VolumeInfo { name: "grid".into(), dims, frame, element, slope: 1.0, intercept: 0.0 };
+        let info = VolumeInfo::unscaled("grid", dims, frame, element);
         Self { info, values }
     }
 

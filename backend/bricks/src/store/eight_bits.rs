@@ -1,7 +1,7 @@
 //! A source whose bricks are quantised to 8 bits as they are read: what a store of 8 bits would show of it.
 
 use super::{CodeBits, quantise};
-use crate::volume::VolumeFrame;
+use crate::volume::{Modality, VolumeFrame};
 use crate::{Brick, BrickError, BrickSource, Codes, NodeKey, NodeSummary, OctreeShape};
 use std::sync::Arc;
 
@@ -24,6 +24,10 @@ impl BrickSource for EightBits {
 
     fn frame(&self) -> VolumeFrame {
         self.0.frame()
+    }
+
+    fn modality(&self) -> Modality {
+        self.0.modality()
     }
 
     fn has_deviation(&self) -> bool {

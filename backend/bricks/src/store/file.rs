@@ -7,7 +7,7 @@ use super::read_at::ReadAt;
 use super::table::{EntryRules, Fault, Found, Table};
 use super::{CodeBits, Codec};
 use super::{LevelError, StoreError, format, format_v1};
-use crate::volume::{MAX_EDGE_VOXELS, VolumeFrame, open_file};
+use crate::volume::{MAX_EDGE_VOXELS, Modality, VolumeFrame, open_file};
 use crate::{BRICK_VOXELS, Brick, BrickError, BrickSource, CellRanges, Codes, Deviation};
 use crate::{NodeKey, NodeSummary, OctreeShape};
 use std::path::{Path, PathBuf};
@@ -256,6 +256,10 @@ impl BrickSource for Store {
 
     fn frame(&self) -> VolumeFrame {
         self.header.frame
+    }
+
+    fn modality(&self) -> Modality {
+        self.header.modality
     }
 
     fn has_deviation(&self) -> bool {

@@ -20,7 +20,8 @@
 //! | 160..164 | length N of the source's name in bytes, u32, at most 4096 |
 //! | 164..168 | levels L of the octree, u32 |
 //! | 168..176 | bricks that take bytes, u64 |
-//! | 176..192 | zero |
+//! | 176 | modality, u8: 0 unknown, 1 CT (values are Hounsfield units), 2 MR |
+//! | 177..192 | zero |
 //! | 192..192+16L | of each level, the finest first: RMS and largest error against the source, f64 each |
 //! | then N bytes | the source's name, UTF-8, then zeros up to a multiple of 64: the header's end |
 //!
@@ -38,7 +39,7 @@
 
 use super::bytes::{checksum, f64_at, u32_at, u64_at};
 use super::{CodeBits, Codec, LevelError};
-use crate::volume::{Space, VolumeFrame};
+use crate::volume::{Modality, Space, VolumeFrame};
 use glam::{DMat3, DVec3, UVec3};
 
 pub(super) const MAGIC: [u8; 8] = *b"LLOOM\x1a\r\n";
@@ -60,8 +61,9 @@ const TABLE_AT: usize = NODES_AT + size_of::<u64>();
 const NAME_LENGTH_AT: usize = TABLE_AT + size_of::<u64>();
 const LEVELS_AT: usize = NAME_LENGTH_AT + size_of::<u32>();
 const STORED_AT: usize = LEVELS_AT + size_of::<u32>();
+const MODALITY_AT: usize = STORED_AT + size_of::<u64>();
 /// Bytes of the header before what has no fixed length.
-pub(super) const FIXED_BYTES: usize = STORED_AT + size_of::<u64>() + 16;
+pub(super) const FIXED_BYTES: usize = MODALITY_AT + 16;
 /// Bytes of a level's errors.
 const LEVEL_BYTES: usize = 2 * size_of::<f64>();
 /// Longest name of a source in bytes.
@@ -81,6 +83,7 @@ pub(super) struct Header {
     pub has_deviation: bool,
     pub dims: UVec3,
     pub frame: VolumeFrame,
+    pub modality: Modality,
     pub value_range: (f64, f64),
     /// Entries of the table.
     pub nodes: u64,
@@ -130,6 +133,7 @@ impl Header {
         put(NAME_LENGTH_AT, &(self.source_name.len() as u32).to_le_bytes());
         put(LEVELS_AT, &(self.levels.len() as u32).to_le_bytes());
         put(STORED_AT, &self.stored_bricks.unwrap_or_default().to_le_bytes());
+        put(MODALITY_AT, &[modality_number(self.modality)]);
         for (i, level) in self.levels.iter().enumerate() {
             put(FIXED_BYTES + i * LEVEL_BYTES, &level.rms.to_le_bytes());
             put(FIXED_BYTES + i * LEVEL_BYTES + size_of::<f64>(), &level.max.to_le_bytes());
@@ -175,6 +179,8 @@ impl Header {
                 origin_m: DVec3::from_slice(&numbers[9..12]),
                 space: space_of(bytes[SPACE_AT]).ok_or_else(|| unknown("space", bytes[SPACE_AT]))?,
             },
+            modality: modality_of(bytes[MODALITY_AT])
+                .ok_or_else(|| unknown("modality", bytes[MODALITY_AT]))?,
             value_range: (numbers[12], numbers[13]),
             nodes: u64_at(bytes, NODES_AT),
             table_offset: u64_at(bytes, TABLE_AT),
@@ -217,6 +223,20 @@ fn space_of(number: u8) -> Option<Space> {
     [Space::Unknown, Space::Patient].into_iter().find(|&space| space_number(space) == number)
 }
 
+fn modality_number(modality: Modality) -> u8 {
+    match modality {
+        Modality::Unknown => 0,
+        Modality::Ct => 1,
+        Modality::Mr => 2,
+    }
+}
+
+fn modality_of(number: u8) -> Option<Modality> {
+    [Modality::Unknown, Modality::Ct, Modality::Mr]
+        .into_iter()
+        .find(|&modality| modality_number(modality) == number)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -225,7 +245,8 @@ mod tests {
     fn offsets_are_those_of_the_description() {
         assert_eq!((CHECKSUM_AT, BITS_AT, SPACE_AT, DIMS_AT, AXES_AT), (12, 16, 19, 20, 32));
         assert_eq!((ORIGIN_AT, RANGE_AT, NODES_AT, TABLE_AT), (104, 128, 144, 152));
-        assert_eq!((NAME_LENGTH_AT, LEVELS_AT, STORED_AT, FIXED_BYTES), (160, 164, 168, 192));
+        assert_eq!((NAME_LENGTH_AT, LEVELS_AT, STORED_AT), (160, 164, 168));
+        assert_eq!((MODALITY_AT, FIXED_BYTES), (176, 192));
     }
 
     fn header() -> Header {
@@ -236,6 +257,7 @@ mod tests {
             has_deviation: true,
             dims: UVec3::new(1, 2, 3),
             frame: VolumeFrame { axes_m, origin_m: DVec3::new(1.0, 2.0, -3.0), space: Space::Patient },
+            modality: Modality::Mr,
             value_range: (-1.5, 7.0),
             nodes: 1,
             table_offset: 4711,

@@ -26,7 +26,7 @@ use super::Codec;
 use super::bytes::{f32_at, f64_at, u32_at, u64_at};
 use super::entry::{Entry, Extent};
 use super::format::{Header, HeaderError, LONGEST_NAME, VERSION_AT, bits_of, damaged};
-use crate::volume::VolumeFrame;
+use crate::volume::{Modality, VolumeFrame};
 use glam::{DVec3, UVec3};
 
 /// The version of the format described here.
@@ -74,6 +74,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, HeaderError> {
         has_deviation: false,
         dims: UVec3::from_array([0, 1, 2].map(|axis| u32_at(bytes, DIMS_AT + axis * size_of::<u32>()))),
         frame: VolumeFrame::of_voxels(voxel_size_m),
+        modality: Modality::Unknown,
         value_range: (f64_of(RANGE_AT, 0), f64_of(RANGE_AT, 1)),
         nodes: u64_at(bytes, NODES_AT),
         table_offset: (HEADER_BYTES + source_name.len()).next_multiple_of(TABLE_ALIGNMENT) as u64,

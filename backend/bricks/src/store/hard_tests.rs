@@ -90,8 +90,7 @@ fn a_build_stops_while_it_surveys() {
     let folder = tempfile::tempdir().unwrap();
     let stop = Arc::new(AtomicBool::new(false));
     let (dims, frame) = (UVec3::new(4, 4, 1000), VolumeFrame::of_voxels(DVec3::ONE));
-    let info =
-        VolumeInfo { name: "endless".into(), dims, frame, element: Element::F32, slope: 1.0, intercept: 0.0 };
+    let info = VolumeInfo::unscaled("endless", dims, frame, Element::F32);
     let mut reader = Endless { info, stop: Arc::clone(&stop), read: AtomicU32::new(0) };
     let options = BuildOptions { stop: Some(stop), ..BuildOptions::default() };
     let error = build(&mut reader, &folder.path().join("a.lloom"), &options, &|_, _| {}).unwrap_err();
@@ -103,8 +102,7 @@ fn a_build_stops_while_it_surveys() {
 fn memory_that_cannot_do_is_said_before_it_is_taken() {
     let folder = tempfile::tempdir().unwrap();
     let (dims, frame) = (UVec3::new(1 << 20, 1 << 20, 1), VolumeFrame::of_voxels(DVec3::ONE));
-    let info =
-        VolumeInfo { name: "wide".into(), dims, frame, element: Element::U8, slope: 1.0, intercept: 0.0 };
+    let info = VolumeInfo::unscaled("wide", dims, frame, Element::U8);
     let mut reader = Endless { info, stop: Arc::default(), read: AtomicU32::new(0) };
     let error = build(&mut reader, &folder.path().join("a.lloom"), &BuildOptions::default(), &|_, _| {});
     let said = error.unwrap_err().to_string();

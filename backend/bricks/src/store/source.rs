@@ -1,6 +1,6 @@
 //! Where bricks come from: a store file, or a procedural volume made on the fly.
 
-use crate::volume::VolumeFrame;
+use crate::volume::{Modality, VolumeFrame};
 use crate::{Brick, NodeKey, OctreeShape};
 use glam::DVec3;
 use optics::Optics;
@@ -54,6 +54,10 @@ pub trait BrickSource: Send + Sync {
     /// Edge lengths of the finest voxel in metres.
     fn voxel_size_m(&self) -> DVec3 {
         self.frame().voxel_size_m()
+    }
+    /// What the volume was taken by, as the data's own file says.
+    fn modality(&self) -> Modality {
+        Modality::Unknown
     }
     /// Whether bricks of coarse levels have standard deviations.
     fn has_deviation(&self) -> bool {

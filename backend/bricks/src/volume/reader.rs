@@ -1,6 +1,6 @@
 //! What reading a volume means: a description, and its slabs of constant z one after the other.
 
-use super::{Element, Samples, VolumeError, VolumeFrame};
+use super::{Element, Modality, Samples, VolumeError, VolumeFrame};
 use glam::UVec3;
 
 /// Largest number of voxels along an axis that is believed.
@@ -15,6 +15,8 @@ pub struct VolumeInfo {
     pub dims: UVec3,
     /// Size, orientation and place of the voxels; sound as [`VolumeFrame::is_sound`] says.
     pub frame: VolumeFrame,
+    /// What it was taken by.
+    pub modality: Modality,
     /// The type of the stored numbers.
     pub element: Element,
     /// Data value = slope × stored number + intercept; finite, the slope not 0.
@@ -24,6 +26,12 @@ pub struct VolumeInfo {
 }
 
 impl VolumeInfo {
+    /// A volume whose stored numbers are its values, of unknown modality.
+    pub fn unscaled(name: impl Into<String>, dims: UVec3, frame: VolumeFrame, element: Element) -> Self {
+        let modality = Modality::Unknown;
+        Self { name: name.into(), dims, frame, modality, element, slope: 1.0, intercept: 0.0 }
+    }
+
     /// Voxels of one slab.
     pub fn slab_voxels(&self) -> usize {
         self.dims.x as usize * self.dims.y as usize

@@ -33,6 +33,8 @@ pub(super) struct ImageFile {
     pub series_uid: String,
     pub description: String,
     pub modality: String,
+    /// The unit of its values, where one is said.
+    pub rescale_type: String,
     pub series_number: i64,
     pub rows: u32,
     pub columns: u32,
@@ -158,6 +160,7 @@ fn image_file(
         series_uid: text_of(tags::SERIES_INSTANCE_UID),
         description: text_of(tags::SERIES_DESCRIPTION),
         modality: text_of(tags::MODALITY),
+        rescale_type: text_of(tags::RESCALE_TYPE),
         series_number: integer_of(tags::SERIES_NUMBER).unwrap_or(0),
         rows,
         columns,

@@ -2,7 +2,7 @@
 
 use crate::reader_tests::{data, expected, ramp, some_values, values};
 use crate::{Selection, open};
-use bricks::volume::{Element, Samples, Space, VolumeReader};
+use bricks::volume::{Element, Modality, Samples, Space, VolumeReader};
 use glam::{DVec3, UVec3};
 use std::path::{Path, PathBuf};
 
@@ -60,6 +60,25 @@ fn values_are_rescaled() {
     assert_eq!(values(reader.as_mut()).unwrap(), expected_values);
     let voxel_mm = reader.info().frame.voxel_size_m() * 1e3;
     assert!(voxel_mm.abs_diff_eq(DVec3::new(0.5, 0.75, 2.0), 1e-9), "{voxel_mm}: the thickness is 5");
+}
+
+#[test]
+fn the_modality_is_what_the_tag_says() {
+    for (name, modality) in
+        [("rescaled", Modality::Ct), ("oblique", Modality::Ct), ("pet", Modality::Unknown)]
+    {
+        assert_eq!(opened(name).info().modality, modality, "{name}");
+    }
+    let mut bytes = std::fs::read(file("odd.dcm")).unwrap();
+    let tag = b"\x08\x00\x60\x00CS\x02\x00";
+    let value = bytes.windows(tag.len()).position(|window| window == tag).unwrap() + tag.len();
+    for (told, modality) in [(b"CT", Modality::Ct), (b"MR", Modality::Mr), (b"XA", Modality::Unknown)] {
+        bytes[value..value + 2].copy_from_slice(told);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("slice.dcm");
+        std::fs::write(&path, &bytes).unwrap();
+        assert_eq!(open(&path, &Selection::default()).unwrap().info().modality, modality);
+    }
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! A DICOM series as a volume: one slice is decoded at a time.
 
 use super::decode::{self, Decoder};
-use super::header::Frame;
+use super::header::{Frame, ImageFile};
 use super::stack::Stack;
 use crate::Selection;
-use bricks::volume::{Element, MAX_EDGE_VOXELS, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader};
+use bricks::volume::{
+    Element, MAX_EDGE_VOXELS, Modality, Samples, VolumeError, VolumeFrame, VolumeInfo, VolumeReader,
+};
 use glam::UVec3;
 use std::path::Path;
 
@@ -32,6 +34,7 @@ impl DicomVolume {
             name: name(path, first),
             dims: UVec3::new(first.file.columns, first.file.rows, slices.len() as u32),
             frame,
+            modality: modality(&first.file),
             element: one_element(&slices)?,
             slope: first.scaling.0,
             intercept: first.scaling.1,
@@ -65,6 +68,15 @@ impl VolumeReader for DicomVolume {
         let bytes = self.decoder.frame(slice)?;
         slice.file.pixels.unpack(&bytes, self.is_scaled.then_some(slice.scaling), slab);
         Ok(())
+    }
+}
+
+/// Values of CT are Hounsfield units unless the file says that they are others (PS3.3 C.11.1.1.2).
+fn modality(file: &ImageFile) -> Modality {
+    match (file.modality.as_str(), file.rescale_type.as_str()) {
+        ("CT", "" | "HU") => Modality::Ct,
+        ("MR", _) => Modality::Mr,
+        _ => Modality::Unknown,
     }
 }
 

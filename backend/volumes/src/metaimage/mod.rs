@@ -9,7 +9,7 @@ use super::file::FileLayout;
 use super::header_text::{HeaderText, Line};
 use super::packing::Packing;
 use super::shape::{Axis, Shape};
-use bricks::volume::{ByteOrder, Element, VolumeError};
+use bricks::volume::{ByteOrder, Element, Modality, VolumeError};
 use std::path::Path;
 
 /// Reads the header.
@@ -25,6 +25,7 @@ pub(super) fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, V
         start: place::start(&header, packing)?,
         shape,
         frame: frame::frame(&header, sizes.len())?,
+        modality: modality(&header),
         element,
         byte_order: byte_order(&header),
         packing,
@@ -88,6 +89,14 @@ fn packing(path: &Path, header: &HeaderText) -> Result<Packing, VolumeError> {
             let what = "its voxels are packed and written as text (BinaryData): save it as binary";
             Err(VolumeError::unsupported(path, what))
         }
+    }
+}
+
+fn modality(header: &HeaderText) -> Modality {
+    match header.get(&["modality"]) {
+        Some("MET_MOD_CT") => Modality::Ct,
+        Some("MET_MOD_MR") => Modality::Mr,
+        _ => Modality::Unknown,
     }
 }
 

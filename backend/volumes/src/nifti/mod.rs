@@ -10,7 +10,7 @@ use super::choice::{Several, choose};
 use super::data_stream::Start;
 use super::file::FileLayout;
 use super::shape::{Axis, Shape};
-use bricks::volume::{Element, VolumeError};
+use bricks::volume::{Element, Modality, VolumeError};
 use header::Header;
 pub(super) use header::is_header;
 use std::path::Path;
@@ -29,6 +29,7 @@ pub(super) fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, V
         start: Start { unpacked_bytes: voxels_offset(path, &header)?, ..Start::default() },
         shape,
         frame: frame::frame(&header)?,
+        modality: Modality::Unknown,
         element,
         byte_order: header.byte_order,
         packing,

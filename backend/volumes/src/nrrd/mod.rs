@@ -11,7 +11,7 @@ use super::header_text::{HeaderText, Line};
 use super::packing::Packing;
 use super::shape::Shape;
 use axes::Axes;
-use bricks::volume::{ByteOrder, Element, VolumeError};
+use bricks::volume::{ByteOrder, Element, Modality, VolumeError};
 use data_file::{DATA_FILE, is_list};
 use std::path::Path;
 
@@ -28,6 +28,7 @@ pub(super) fn layout(path: &Path, selection: &Selection) -> Result<FileLayout, V
         start: place::start(&header, packing)?,
         shape,
         frame: frame::frame(&header, &axes)?,
+        modality: Modality::Unknown,
         element,
         byte_order: byte_order(&header, element, packing)?,
         packing,

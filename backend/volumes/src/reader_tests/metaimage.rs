@@ -1,6 +1,7 @@
 //! MetaImage files of SimpleITK, and headers that it reads.
 
 use super::*;
+use bricks::volume::{Modality, VolumeInfo};
 
 #[test]
 fn every_type_and_packing() {
@@ -49,13 +50,29 @@ fn places_are_those_of_simple_itk() {
     check_places("list.mhd", Space::Unknown, [[0.0; 3], [2.0, 3.75, 6.0]], EXACT_MM);
 }
 
+#[test]
+fn the_modality_is_what_the_header_says() {
+    for (line, modality) in [
+        ("Modality = MET_MOD_CT", Modality::Ct),
+        ("Modality = MET_MOD_MR", Modality::Mr),
+        ("Modality = MET_MOD_UNKNOWN", Modality::Unknown),
+        ("", Modality::Unknown),
+    ] {
+        assert_eq!(with_lines(line).unwrap().modality, modality, "{line}");
+    }
+}
+
 /// The frame of a header with these lines.
 fn frame(lines: &str) -> Result<VolumeFrame, VolumeError> {
+    Ok(with_lines(lines)?.frame)
+}
+
+fn with_lines(lines: &str) -> Result<VolumeInfo, VolumeError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("f.mha");
     let about = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR";
     std::fs::write(&path, format!("{about}\n{lines}\nElementDataFile = LOCAL\n12345678")).unwrap();
-    Ok(open(&path, &Selection::default())?.info().frame)
+    Ok(open(&path, &Selection::default())?.info().clone())
 }
 
 #[test]

@@ -95,14 +95,9 @@ impl TiffVolume {
             let what = format!("the voxel size is {voxel_mm} mm, and {}", VolumeFrame::SOUND_EDGES);
             return Err(VolumeError::header(path, what));
         }
-        let info = VolumeInfo {
-            name: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            dims: UVec3::new(file.format.width, file.format.height, count as u32),
-            frame,
-            element: file.format.element,
-            slope: 1.0,
-            intercept: 0.0,
-        };
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let dims = UVec3::new(file.format.width, file.format.height, count as u32);
+        let info = VolumeInfo::unscaled(name, dims, frame, file.format.element);
         Ok(Self { info, slices, file, sample: sample as usize, page: Vec::new() })
     }
 }

@@ -46,7 +46,7 @@ impl ZarrVolume {
         let picks = picks(&folder, image, &array, &axes, selection)?;
         let frame = frame(&folder, level, &axes, selection)?;
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let info = VolumeInfo { name, dims, frame, element: array.element, slope: 1.0, intercept: 0.0 };
+        let info = VolumeInfo::unscaled(name, dims, frame, array.element);
         Self::plan(&folder, info, array, axes, picks, selection.memory_bytes)
     }
 

@@ -1,6 +1,7 @@
 //! Which look fits a volume, and why.
 
 use super::{LookName, Values};
+use bricks::volume::Modality;
 use std::fmt;
 
 /// A look that was taken.
@@ -45,8 +46,32 @@ pub fn choose(values: &Values) -> LookChoice {
     LookChoice { name, why: verdict.why }
 }
 
-/// Whether a look fits, by what the values tell.
+/// Whether a look fits, by what the volume's file says, or else by what its values tell.
 pub fn verdict(name: LookName, values: &Values) -> Verdict {
+    match values.modality {
+        Modality::Unknown => by_values(name, values),
+        modality => by_modality(name, modality, values),
+    }
+}
+
+fn by_modality(name: LookName, modality: Modality, values: &Values) -> Verdict {
+    let said = format!("its file says that it is {modality}");
+    let (fits, why) = match (modality, name) {
+        (Modality::Ct, LookName::CtSkinBone | LookName::CtBone) | (Modality::Mr, LookName::Mr) => {
+            (true, said)
+        }
+        (Modality::Ct, LookName::CtVessels) => (true, said + ", if a contrast agent was given"),
+        (Modality::Ct, LookName::CtLung) if has_lungs(values) => {
+            (true, said + ", and many of its values are those of lungs")
+        }
+        (Modality::Ct, LookName::CtLung) => (false, said + ", but few of its values are those of lungs"),
+        (_, LookName::Scalar) => (true, "it fits all volumes".to_owned()),
+        _ => (false, said),
+    };
+    Verdict { fits, why }
+}
+
+fn by_values(name: LookName, values: &Values) -> Verdict {
     let (fits, yes, no) = match name {
         LookName::CtSkinBone | LookName::CtBone => {
             (are_hounsfield(values), "its values are Hounsfield units", NO_CT)

@@ -14,7 +14,7 @@ const WHOLE_BRICKS: u64 = 64;
 /// Bricks of the finest level that are looked at, where that level has too many: there, labels are not blended.
 const FINE_BRICKS: usize = 32;
 
-/// The values of a volume, from its finest level that has few bricks, and from some bricks of the finest one. What cannot be
+/// What its file tells of a volume, and its values, from its finest level that has few bricks, and from some bricks of the finest one. What cannot be
 /// read does not count.
 pub fn read_values(volume: &dyn BrickSource) -> Values {
     let shape = volume.shape();
@@ -24,7 +24,8 @@ pub fn read_values(volume: &dyn BrickSource) -> Values {
     let coarse = sample(volume, &shape.nodes(depth).collect::<Vec<_>>(), stride);
     let fine = (depth < finest).then(|| sample(volume, &some_of(volume, &shape), 1));
     let edge = f64::from(1_u32 << shape.level(depth));
-    Values::new(&coarse, fine.as_ref(), edge, VolumeFacts::of(volume).value_range)
+    let values = Values::new(&coarse, fine.as_ref(), edge, VolumeFacts::of(volume).value_range);
+    values.of_modality(volume.modality())
 }
 
 /// Bricks of the finest level that are not of one value, from all over it. Only those are met that are looked at: a file may

@@ -2,6 +2,7 @@
 
 use super::values::{Pair, Sample};
 use super::*;
+use bricks::volume::Modality;
 use glam::{DVec3, UVec3};
 
 const GRID: Grid = Grid { dims: UVec3::new(256, 256, 108), voxel_m: DVec3::new(0.957e-3, 0.957e-3, 1.5e-3) };
@@ -74,6 +75,27 @@ fn values_choose_their_look() {
         assert_eq!(choice.name, expected, "{choice}; {:?}", values.histogram);
     }
     assert_eq!(choose(&peaks(HEAD)).to_string(), "look `ct-skin-bone`: its values are Hounsfield units");
+}
+
+/// A head without air around it, and one that was never scaled, are CT if their file says so; so is no MR that looks like one.
+#[test]
+fn what_a_file_says_goes_before_its_values() {
+    let inside: &[Peak] = &[(50, -100.0, 40.0), (850, 40.0, 60.0), (100, 900.0, 800.0)];
+    for (values, modality, told, untold) in [
+        (inside, Modality::Ct, LookName::CtSkinBone, LookName::Scalar),
+        (TISSUES, Modality::Ct, LookName::CtSkinBone, LookName::Mr),
+        (HEAD, Modality::Mr, LookName::Mr, LookName::CtSkinBone),
+        (ICE, Modality::Mr, LookName::Mr, LookName::Tomogram),
+    ] {
+        assert_eq!(choose(&peaks(values)).name, untold, "{}", choose(&peaks(values)));
+        let values = peaks(values).of_modality(modality);
+        let choice = choose(&values);
+        assert_eq!(choice.name, told);
+        assert_eq!(choice.why, format!("its file says that it is {modality}"));
+        assert!(!verdict(untold, &values).fits || untold == LookName::Scalar);
+    }
+    assert!(verdict(LookName::CtLung, &peaks(CHEST).of_modality(Modality::Ct)).fits);
+    assert!(!verdict(LookName::CtLung, &peaks(HEAD).of_modality(Modality::Ct)).fits);
 }
 
 /// Scale and offset mean nothing, except to Hounsfield units.

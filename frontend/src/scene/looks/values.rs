@@ -1,6 +1,7 @@
 //! What is known of a volume's values without knowing what they mean.
 
 use super::histogram::Histogram;
+use bricks::volume::Modality;
 
 /// Two voxels side by side.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,8 @@ const LEAST_EDGE: f64 = 0.02;
 /// The distribution of a volume's values, and how they change from voxel to voxel.
 #[derive(Clone, Debug)]
 pub struct Values {
+    /// What the volume was taken by, where its file says so.
+    pub(super) modality: Modality,
     /// Rising; never empty.
     sorted: Vec<f32>,
     /// Without the rarest ones.
@@ -59,12 +62,18 @@ impl Values {
         let background = histogram.background();
         let fine = fine.filter(|fine| !fine.pairs.is_empty()).unwrap_or(coarse);
         Self {
+            modality: Modality::Unknown,
             labels: whole_numbers(&fine.values),
             flat: flat(&fine.pairs, background),
             slope: slope(&coarse.pairs, histogram.width()) / edge,
             sorted,
             histogram,
         }
+    }
+
+    /// The same of a volume of a modality.
+    pub(super) fn of_modality(self, modality: Modality) -> Self {
+        Self { modality, ..self }
     }
 
     /// The value below which this part of the voxels lies.

@@ -37,7 +37,7 @@ impl VolumeReader for Corner {
 fn corner(dims: UVec3) -> Corner {
     let frame = VolumeFrame::of_voxels(DVec3::splat(1e-3));
     let name = "corner".into();
-    Corner(VolumeInfo { name, dims, frame, element: Element::U16, slope: 1.0, intercept: 0.0 })
+    Corner(VolumeInfo::unscaled(name, dims, frame, Element::U16))
 }
 
 fn stores(out: &Path) -> Result<(), Box<dyn Error>> {

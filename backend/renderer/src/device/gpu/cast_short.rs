@@ -49,7 +49,8 @@ impl GpuDevice {
         Ok(colours)
     }
 
-    /// The colours of some rays of lists, and the samples of each with [`MISSING`](layout::MISSING); the scene has been uploaded.
+    /// The colours of some rays of lists, and the samples of each with [`MISSING`](layout::MISSING) and [`CUT`](layout::CUT);
+    /// the scene has been uploaded.
     pub(super) fn cast_listed(
         &mut self,
         needs: Needs,

@@ -6,7 +6,7 @@ use crate::device::job::ViewJob;
 use crate::device::mend::{bends_of, pixels_near};
 use crate::device::{CastJob, CastOutcome, DeviceError, DevicePicture, ShortView};
 use crate::present::Bends;
-use layout::MISSING;
+use layout::{CUT, MISSING};
 use planes::Fans;
 use std::sync::Arc;
 use twin::ShortRay;
@@ -54,6 +54,8 @@ impl GpuDevice {
             let list = ShortView { rays: view.rays, short };
             let (colours, counts) =
                 self.cast_listed(job.needs, &[(&list, 0..list.short.len())], job.gather)?;
+            let cut = counts.iter().filter(|&count| count & CUT != 0).count();
+            self.context.check_ends(cut as u64, counts.len() as u64)?;
             outcome.mended[index].extend(list.short.iter().map(|ray| ray.pixel).zip(colours));
             let mut counts = counts.as_slice();
             for (tile, rays) in of_tiles {
