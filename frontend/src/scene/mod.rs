@@ -44,6 +44,8 @@ pub use usual::{CLIP_CONTEXT, usual_enhancer};
 pub use volume::{VolumeFacts, VolumeSource};
 
 #[cfg(test)]
+mod hostile_tests;
+#[cfg(test)]
 mod illustration_tests;
 #[cfg(test)]
 mod tests;

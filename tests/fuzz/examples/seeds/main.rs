@@ -36,8 +36,7 @@ impl VolumeReader for Corner {
 
 fn corner(dims: UVec3) -> Corner {
     let frame = VolumeFrame::of_voxels(DVec3::splat(1e-3));
-    let name = "corner".into();
-    Corner(VolumeInfo::unscaled(name, dims, frame, Element::U16))
+    Corner(VolumeInfo::unscaled("corner", dims, frame, Element::U16))
 }
 
 fn stores(out: &Path) -> Result<(), Box<dyn Error>> {

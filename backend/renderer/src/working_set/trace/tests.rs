@@ -190,6 +190,34 @@ fn fault(line: usize, spoil: impl Fn(&str) -> String) -> String {
     text
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases.max(2000)))]
+    #[test]
+    fn spoiled_bytes_are_told_in_a_sentence(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3u8), 1..6),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.trace");
+        write(&path);
+        let mut bytes = std::fs::read(&path).unwrap();
+        for (at, by, change) in changes {
+            let at = at.index(bytes.len());
+            match change {
+                0 => bytes[at] = by,
+                1 => bytes.insert(at, by),
+                _ => bytes.truncate(at.max(1)),
+            }
+        }
+        std::fs::write(&path, bytes).unwrap();
+        let error = match TraceReader::open(&path) {
+            Err(error) => Some(error),
+            Ok(mut reader) => reader.find_map(Result::err),
+        };
+        let is_sentence = |text: String| text.contains("a.trace") && !text.contains('\n');
+        prop_assert!(error.is_none_or(|error| is_sentence(error.to_string())));
+    }
+}
+
 #[test]
 fn a_spoiled_line_is_told_by_file_and_number() {
     for (line, from, to, why) in [
