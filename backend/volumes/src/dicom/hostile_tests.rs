@@ -213,6 +213,19 @@ fn lengths_that_contradict_each_other_are_refused() {
     assert!(complaint(&file(uids::EXPLICIT_VR_LITTLE_ENDIAN, &bytes)).contains("contradict"));
 }
 
+/// The parser reads two whole numbers of ten bytes, and takes the rest for the start of an element with a length of 3 GB.
+#[test]
+fn numbers_that_are_cut_in_two_are_refused() {
+    let cut = [&4_u32.to_le_bytes()[..], &4_u32.to_le_bytes(), &[0; 2]].concat();
+    let behind = explicit([0x0009, 0x1001], "LO", b"1.2.840.113619.2.115");
+    let elements = [explicit([0x0008, 0x0000], "UL", &cut), behind].concat();
+    let said = complaint(&file(uids::EXPLICIT_VR_LITTLE_ENDIAN, &elements));
+    assert!(said.contains("element (0008,0000) has 10 bytes, but its numbers have 4 each"), "{said}");
+    let implicit = [tag([0x0830, 0]), 14_u32.to_le_bytes().to_vec(), b"142549.216185 ".to_vec()].concat();
+    let said = complaint(&file(uids::IMPLICIT_VR_LITTLE_ENDIAN, &implicit));
+    assert!(said.contains("element (0830,0000) has 14 bytes"), "{said}");
+}
+
 #[test]
 fn descriptions_are_one_line_of_letters() {
     let description = |text: &str| {

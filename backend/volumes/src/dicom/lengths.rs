@@ -29,6 +29,9 @@ const ITEM: Tag = Tag(ITEM_GROUP, 0xE000);
 const ITEM_END: Tag = Tag(ITEM_GROUP, 0xE00D);
 const SEQUENCE_END: Tag = Tag(ITEM_GROUP, 0xE0DD);
 const PIXELS: Tag = Tag(0x7FE0, 0x0010);
+/// Groups 6000 to 60FF, and their element with pixels.
+const OVERLAYS: u16 = 0x60;
+const OVERLAY: u16 = 0x3000;
 /// Bytes of a deflated data set that are believed: it is unpacked whole to be looked at.
 const MOST_UNPACKED_BYTES: u64 = 1 << 30;
 /// Sequences within each other that are believed; reports, the deepest of all, have some ten.
@@ -96,6 +99,25 @@ pub(super) fn check(path: &Path, start: Start) -> std::result::Result<(), Volume
         Err(Fault::Wrong(what)) => Err(VolumeError::header(path, what)),
         Ok(()) => Ok(()),
     }
+}
+
+/// Whether a value is whole numbers of its type: the parser reads no others, and would take what is left for the next element.
+fn check_width(header: &Header, vr: VR) -> std::result::Result<(), Fault> {
+    let width = match vr {
+        VR::US | VR::SS | VR::OW => 2,
+        VR::AT | VR::UL | VR::SL | VR::OL | VR::FL | VR::OF => 4,
+        VR::UV | VR::SV | VR::OV | VR::FD | VR::OD => 8,
+        _ => 1,
+    };
+    if header.length == UNDEFINED || header.length.is_multiple_of(width) {
+        return Ok(());
+    }
+    Err(Fault::Wrong(format!(
+        "element ({:04x},{:04x}) has {} bytes, but its numbers have {width} each: the file is damaged, copy it again",
+        header.tag.group(),
+        header.tag.element(),
+        header.length
+    )))
 }
 
 fn coding(syntax: &str) -> Coding {
@@ -230,7 +252,9 @@ impl<F: Read + Seek> Walk<F> {
             return Ok(true);
         }
         self.check_length(&header)?;
-        let is_sequence = self.is_sequence(&header);
+        let vr = self.vr(&header);
+        check_width(&header, vr)?;
+        let is_sequence = vr == VR::SQ;
         match is_sequence || header.length == UNDEFINED {
             true => self.begin(false, header.length, header.tag == PIXELS && !is_sequence)?,
             false => self.skip(header.length)?,
@@ -238,15 +262,16 @@ impl<F: Read + Seek> Walk<F> {
         Ok(true)
     }
 
-    /// Whether the type is that of sequences; without types in the file, the dictionary says so.
-    fn is_sequence(&self, header: &Header) -> bool {
-        match self.coding.is_explicit {
-            true => header.vr == *b"SQ",
-            false => {
-                let entry = StandardDataDictionary.by_tag(header.tag);
-                entry.is_some_and(|entry| entry.vr().relaxed() == VR::SQ)
-            }
+    /// The type as the parser takes it; without types in the file, the dictionary says it.
+    fn vr(&self, header: &Header) -> VR {
+        let Tag(group, element) = header.tag;
+        if self.coding.is_explicit {
+            return VR::from_binary(header.vr).unwrap_or(VR::UN);
         }
+        if header.tag == PIXELS || (group >> 8 == OVERLAYS && element == OVERLAY) {
+            return VR::OW;
+        }
+        StandardDataDictionary.by_tag(header.tag).map_or(VR::UN, |entry| entry.vr().relaxed())
     }
 
     fn begin(&mut self, is_item: bool, length: u32, is_of_pixels: bool) -> std::result::Result<(), Fault> {
