@@ -53,10 +53,11 @@ fn a_flat_layer_a_voxel_thick_bends_light_by_snells_law() {
                     failed.push(format!("{name}, {degrees}°, {device:?}: {errors}"));
                 }
             }
-            // The canary: straight rays.
+            // The canary: straight rays, but where those that bend end next to them.
+            let hardly_bends = (name, degrees) == ("out of glass", 0.0);
             frame.optics.refraction = None;
             let straight = draw(&display, &frame, &source, &PROJECTORS, With::device(DeviceChoice::Cpu));
-            if KEPT.hold(&compare::errors(&straight.images, &truth)) {
+            if !hardly_bends && KEPT.hold(&compare::errors(&straight.images, &truth)) {
                 failed.push(format!("{name}, {degrees}°: straight rays pass"));
             }
         }
