@@ -79,6 +79,24 @@ pub fn draw(
     Drawn { images, report, info }
 }
 
+/// Draws one frame, where it may be refused.
+pub fn try_draw(
+    display: &Display,
+    frame: &FrameState,
+    source: &Arc<dyn BrickSource>,
+    projectors: &[u32],
+    with: With,
+) -> (Result<Vec<ProjectorImage>, RenderError>, DeviceInfo) {
+    let (mut renderer, info) = renderer(display, source, projectors, with);
+    (try_draw_with(&mut renderer, frame).map(|(images, _)| images), info)
+}
+
+/// Whether a frame was refused as Mesa's llvmpipe left rays of it: it leaves a shader's loops when the invocations that it runs
+/// together have gone round them some 65,535 times in all, nested or not.
+pub fn is_left_by_llvmpipe(error: &RenderError, info: &DeviceInfo) -> bool {
+    info.adapter.contains("llvmpipe") && error.to_string().contains("rays before their end")
+}
+
 /// One frame, drawn by whoever asks first. Not for tests of whether a device repeats itself.
 pub fn drawn_once(
     display: &Display,

@@ -3,7 +3,7 @@
 use frontend::scene::{LookName, choose, read_values};
 use lightloom_tests::data;
 use lightloom_tests::program::{
-    Ran, assert_same, files, lightloom, pictures, run, scene_of_skins, small_display,
+    Ran, assert_same, files, lightloom, pictures, run, scene_of_skins, small_display, test_data,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -93,6 +93,19 @@ fn real_volumes_choose_their_looks() {
     }
     assert_eq!(choose(&read_values(&data::vessels())).name, LookName::Fluorescence);
     assert_eq!(choose(&read_values(&data::noise())).name, LookName::Tomogram);
+}
+
+/// Values of a ramp, which are no Hounsfield units by themselves.
+#[test]
+fn a_store_keeps_what_its_file_says_and_the_look_follows() {
+    let bench = Bench::new();
+    let store = bench.path("series.lloom");
+    run(&mut lightloom(&["import", &test_data("dicom/rescaled"), "-o", &store, "--quiet"])).succeeded();
+    let info = run(&mut lightloom(&["info", &store])).succeeded();
+    assert!(info.stdout.contains("modality            CT"), "{info:?}");
+    let drawn = bench.simulate(&store, "series", &[]).succeeded();
+    let said = drawn.stdout + &drawn.stderr;
+    assert!(said.contains("look `ct-skin-bone`: its file says that it is CT"), "{said}");
 }
 
 /// What spanned the whole range of values showed the air of the scanner's circle as a blue box.

@@ -102,7 +102,7 @@ fn info_and_import_read_well() {
     {
         assert!(ran.stdout.contains(part), "no `{part}` in {}", ran.stdout);
     }
-    for (said, lines) in [(&made.stdout, 1), (&ran.stdout, 11)] {
+    for (said, lines) in [(&made.stdout, 1), (&ran.stdout, 12)] {
         let table: Vec<_> = said.lines().skip_while(|line| !line.starts_with("level")).collect();
         assert_eq!((said.lines().count(), table.len()), (lines + 4, 4), "{said}");
     }

@@ -32,7 +32,7 @@ const WHOLE: f32 = 1e-3;
 /// Changes between voxels below this part of the range are no edges.
 const LEAST_EDGE: f64 = 0.02;
 
-/// The distribution of a volume's values, and how they change from voxel to voxel.
+/// What a volume was taken by, the distribution of its values, and how they change from voxel to voxel.
 #[derive(Clone, Debug)]
 pub struct Values {
     /// What the volume was taken by, where its file says so.
