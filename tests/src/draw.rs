@@ -24,6 +24,14 @@ pub struct Drawn {
     pub info: DeviceInfo,
 }
 
+impl Drawn {
+    /// Whether Mesa's llvmpipe left rays: it leaves a shader's loops when the invocations that it runs together have gone round
+    /// them some 65,535 times in all, nested or not.
+    pub fn is_left_by_llvmpipe(&self) -> bool {
+        self.info.adapter.contains("llvmpipe") && self.report.shortfall.contains("rays before their end")
+    }
+}
+
 /// How to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct With {

@@ -5,7 +5,7 @@ use display_config::Display;
 use glam::{DAffine3, DQuat, DVec3, UVec3};
 use lightloom_tests::closure_volume::{ClosureVolume, bumps};
 use lightloom_tests::compare::{self, Limits, TruePixel, errors, truth};
-use lightloom_tests::draw::{self, With};
+use lightloom_tests::draw::{self, Drawn, With};
 use lightloom_tests::results::{Program, Results};
 use lightloom_tests::scenes::{Points, frame, optics, placed};
 use needs::tables::TABLE_CELLS;
@@ -30,7 +30,7 @@ pub struct Case {
     pub filter: FilterChoice,
     /// Whether rays of the middle column and row may miss the volume or meet it: f32 cannot say.
     pub may_middle_miss: bool,
-    /// Whether [Mesa's llvmpipe](draw::is_left_by_llvmpipe) cannot draw it: rays of 7e3 steps are whole there, of 1.4e4 are not.
+    /// Whether [Mesa's llvmpipe](Drawn::is_left_by_llvmpipe) cannot draw it: rays of 7e3 steps are whole there, of 1.4e4 are not.
     is_beyond_llvmpipe: bool,
 }
 
@@ -296,18 +296,18 @@ fn check(part: &'static str, cases: Vec<Case>) {
         let truth = truth(&case.display, &case.frame, &case.source, &PROJECTORS, 1);
         for device in draw::devices() {
             let with = With { filter: case.filter, ..With::device(device) };
-            let (images, info) = draw::try_draw(&case.display, &case.frame, &case.source, &PROJECTORS, with);
-            results.drawn_by(&info.adapter);
-            if case.is_beyond_llvmpipe && info.adapter.contains("llvmpipe") {
-                let why = images.expect_err("llvmpipe leaves loops that long");
-                assert!(draw::is_left_by_llvmpipe(&why, &info), "{why}");
-                results.line(format!("| {name} | {device:?} | | refused | |"));
+            let drawn = draw::draw(&case.display, &case.frame, &case.source, &PROJECTORS, with);
+            results.drawn_by(&drawn.info.adapter);
+            let Drawn { images, report, .. } = &drawn;
+            assert_is_light(name, images);
+            if case.is_beyond_llvmpipe && drawn.info.adapter.contains("llvmpipe") {
+                assert!(drawn.is_left_by_llvmpipe(), "{name}: {report:?}");
+                results.line(format!("| {name} | {device:?} | | {} | |", report.shortfall));
                 continue;
             }
-            let images = images.unwrap_or_else(|why| panic!("{name}: {why}"));
-            assert_is_light(name, &images);
-            let truth = if case.may_middle_miss { as_met(&images, &truth) } else { truth.clone() };
-            let errors = errors(&images, &truth);
+            assert!(report.complete, "{name}, {device:?}: {}", report.shortfall);
+            let truth = if case.may_middle_miss { as_met(images, &truth) } else { truth.clone() };
+            let errors = errors(images, &truth);
             let of_255 = |numbers: [f64; 3]| numbers.map(|number| 255.0 * number);
             let [rms, p999, max] = of_255([errors.rms, errors.p999, errors.max]);
             let [most_rms, most_p999, most] = of_255([limits.rms, limits.p999, limits.max]);
@@ -320,7 +320,7 @@ fn check(part: &'static str, cases: Vec<Case>) {
             }
             // The canary: half of the columns dark.
             let is_lit = errors.lit > 500;
-            if is_lit && limits.hold(&compare::errors(&half_dark(&images), &truth)) {
+            if is_lit && limits.hold(&compare::errors(&half_dark(images), &truth)) {
                 failed.push(format!("{name}, {device:?}: half a picture passes"));
             }
         }

@@ -230,6 +230,8 @@ pub struct CastOutcome {
     pub rays: u64,
     /// Samples taken; 0 where they were not asked for.
     pub samples: u64,
+    /// Rays that a GPU's driver left before their end; 0 where samples were not asked for.
+    pub cut: u64,
 }
 
 impl CastOutcome {

@@ -12,6 +12,8 @@ pub(super) struct Account {
     pub(super) rays: u64,
     /// Samples along them.
     pub(super) samples: u64,
+    /// Rays that a GPU's driver left before their end.
+    pub(super) cut: u64,
     /// Rays that are final.
     pub(super) done: u64,
     /// Rays of the frame.
@@ -27,6 +29,7 @@ impl Account {
             stages: Stages::default(),
             rays: 0,
             samples: 0,
+            cut: 0,
             done: 0,
             total,
             bricks_loaded: 0,

@@ -20,7 +20,15 @@ impl Engine {
         let damage = &self.stock.damage;
         let guessed = (work.known != Classes::ALL)
             .then(|| "some pixels are reconstructed from those beside them".to_owned());
-        let shortfall = short.or(guessed).into_iter().chain(self.damages()).collect::<Vec<_>>().join("; ");
+        let cut = (work.account.cut > 0).then(|| {
+            format!(
+                "the GPU's driver left {} of {} rays before their end, as their loops go round too often for it: take \
+                 --device cpu, or longer steps",
+                work.account.cut, work.account.rays
+            )
+        });
+        let shortfall: Vec<_> = short.or(guessed).into_iter().chain(cut).chain(self.damages()).collect();
+        let shortfall = shortfall.join("; ");
         FrameReport {
             frame: work.frame.index,
             backend: self.options.backend,

@@ -196,6 +196,7 @@ impl Work {
         }
         self.account.rays += outcome.rays;
         self.account.samples += outcome.samples;
+        self.account.cut += outcome.cut;
         self.missing.resize(self.pending.tiles.len(), TileList::default());
         for (known, found) in self.missing.iter_mut().zip(outcome.missing_tiles) {
             known.extend(found.iter());

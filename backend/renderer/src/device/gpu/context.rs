@@ -96,18 +96,6 @@ impl Context {
         self.is_software.then_some(&self.name)
     }
 
-    /// Refuses pictures of rays of which the driver left some before their end.
-    pub(super) fn check_ends(&self, cut: u64, rays: u64) -> Result<(), DeviceError> {
-        if cut == 0 {
-            return Ok(());
-        }
-        Err(DeviceError(format!(
-            "{} left {cut} of {rays} rays before their end, as their loops go round too often for it; take --device cpu, \
-             or longer steps",
-            self.name
-        )))
-    }
-
     /// Bytes of a brick in the atlas.
     pub(in crate::device) fn brick_bytes(&self) -> u64 {
         let sample = if self.atlas_format == wgpu::TextureFormat::R16Unorm { 2 } else { 4 };

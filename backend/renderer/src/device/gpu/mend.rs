@@ -54,8 +54,7 @@ impl GpuDevice {
             let list = ShortView { rays: view.rays, short };
             let (colours, counts) =
                 self.cast_listed(job.needs, &[(&list, 0..list.short.len())], job.gather)?;
-            let cut = counts.iter().filter(|&count| count & CUT != 0).count();
-            self.context.check_ends(cut as u64, counts.len() as u64)?;
+            outcome.cut += counts.iter().filter(|&count| count & CUT != 0).count() as u64;
             outcome.mended[index].extend(list.short.iter().map(|ray| ray.pixel).zip(colours));
             let mut counts = counts.as_slice();
             for (tile, rays) in of_tiles {
