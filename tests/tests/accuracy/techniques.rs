@@ -31,6 +31,8 @@ const KEPT: Limits = Limits::of_255(0.065, 1.05, 1.8);
 const KEPT_BENT_IN_WHOLE_PICTURES: Limits = Limits::of_255(0.125, 2.3, 10.0);
 /// MImDA over a chain: importance rises where a step is still too long for it to be seen.
 const KEPT_CHAINED: Limits = Limits::of_255(0.17, 2.25, 3.8);
+/// The same through a chain of eight links.
+const KEPT_IN_CHAINS_OF_EIGHT: Limits = Limits::of_255(0.22, 2.3, 2.5);
 
 /// For the reference, which takes a part of the pixels.
 fn test_display() -> Display {
@@ -375,7 +377,7 @@ fn the_longest_chain_tells_the_same_picture() {
     for picture in &pictures {
         let errors = compare::errors(&picture.images, &truth);
         println!("eight links: {errors}");
-        assert!(KEPT_CHAINED.hold(&errors), "{errors}");
+        assert!(KEPT_IN_CHAINS_OF_EIGHT.hold(&errors), "{errors}");
         let apart = errors_between(&picture.images, &pictures[0].images);
         assert!(SAME_TO_ROUNDING_OF_EIGHT.hold(&apart), "{apart}");
     }
