@@ -32,7 +32,7 @@ const KEPT_BENT_IN_WHOLE_PICTURES: Limits = Limits::of_255(0.125, 2.3, 10.0);
 /// MImDA over a chain: importance rises where a step is still too long for it to be seen.
 const KEPT_CHAINED: Limits = Limits::of_255(0.17, 2.25, 3.8);
 /// The same through a chain of eight links.
-const KEPT_IN_CHAINS_OF_EIGHT: Limits = Limits::of_255(0.22, 2.3, 2.5);
+const KEPT_IN_CHAINS_OF_EIGHT: Limits = Limits::of_255(0.2, 2.3, 2.5);
 
 /// For the reference, which takes a part of the pixels.
 fn test_display() -> Display {
