@@ -240,7 +240,7 @@ fn other() -> Vec<Case> {
         // where it meets the peak once more it erases that.
         case("importance that rises to 1, gamma 1")
             .with(|f| f.optics.mimda = rising())
-            .within(0.16, 3.1, 4.7),
+            .within(0.16, 2.8, 4.7),
         steps("7e3 steps", 1e-2),
         Case { is_beyond_llvmpipe: true, ..steps("3e4 steps", 2.4e-3) },
         Case { is_beyond_llvmpipe: true, ..steps("1e5 steps", 7e-4) },

@@ -12,10 +12,10 @@ use std::sync::Arc;
 
 /// One projector from the side and one near the middle.
 const PROJECTORS: [u32; 2] = [1, 5];
-/// What default quality keeps, so that a slow loss shows: a fourth above the most that whole pictures of any scene err.
+/// What default quality keeps, so that a slow loss shows: a fifth and more above the most that whole pictures of any scene err.
 const KEPT: Limits = Limits::of_255(0.03, 0.35, 3.5);
 /// The same where importance erases what lies before it.
-const KEPT_WITH_MIMDA: Limits = Limits::of_255(0.085, 1.6, 3.2);
+const KEPT_WITH_MIMDA: Limits = Limits::of_255(0.085, 1.5, 3.2);
 /// Pixels that make a comparison.
 const ENOUGH_PIXELS: usize = 4_000;
 /// Of them with something to see.

@@ -25,12 +25,12 @@ const SAME_TO_ROUNDING_OF_EIGHT: Limits = Limits::of_255(0.0057, 0.05, 1.0);
 /// The same where light is bent: each of some hundred turns passes on the rounding of the turns before it, and on real
 /// data, where neighbouring rays part, a few pixels meet another surface.
 const SAME_BUT_BENT: Limits = Limits::of_255(0.005, 0.1, 2.0);
-/// What default quality keeps: here as below, a fourth above the most that was measured, in whole pictures too.
+/// What default quality keeps: here as below, a tenth to a fourth above the most that was measured, in whole pictures too.
 const KEPT: Limits = Limits::of_255(0.065, 1.05, 1.8);
 /// Bent light in real data, in whole pictures: of some thousand rays one grazes a surface and goes the other way.
 const KEPT_BENT_IN_WHOLE_PICTURES: Limits = Limits::of_255(0.125, 2.3, 10.0);
 /// MImDA over a chain: importance rises where a step is still too long for it to be seen.
-const KEPT_CHAINED: Limits = Limits::of_255(0.17, 2.25, 3.8);
+const KEPT_CHAINED: Limits = Limits::of_255(0.15, 2.25, 3.8);
 /// The same through a chain of eight links.
 const KEPT_IN_CHAINS_OF_EIGHT: Limits = Limits::of_255(0.2, 2.3, 2.5);
 
