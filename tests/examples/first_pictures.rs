@@ -7,7 +7,7 @@
 //! Writes `first_pictures.png` beside its page, or into the present folder.
 
 use image::{RgbImage, imageops};
-use lightloom_tests::phantoms::{self, Phantom};
+use lightloom_tests::phantoms::{self, Phantom, layout_arguments};
 use lightloom_tests::program::lightloom;
 use lightloom_tests::results::{self, Program, Results};
 use lightloom_tests::{data, program};
@@ -51,21 +51,8 @@ fn inputs(folder: &Path) -> Vec<Input> {
 
 /// A phantom as a raw file.
 fn raw(phantom: &Phantom, folder: &Path) -> Input {
-    let path = folder.join(phantom.name).with_extension("raw");
-    let bytes: Vec<u8> = phantom.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
-    std::fs::write(&path, bytes).expect("a temporary folder takes 20 MB");
+    let path = phantom.write_raw(folder);
     Input { name: phantom.name, path, layout: layout_arguments(phantom.dims, phantom.spacing_mm) }
-}
-
-fn layout_arguments(dims: glam::UVec3, spacing_mm: glam::DVec3) -> Vec<String> {
-    let three = |[x, y, z]: [String; 3]| format!("{x},{y},{z}");
-    let arguments = [
-        ("--raw-dims", three(dims.to_array().map(|n| n.to_string()))),
-        ("--raw-type", "int16".into()),
-        ("--raw-endian", "little".into()),
-        ("--raw-spacing-mm", three(spacing_mm.to_array().map(|n| n.to_string()))),
-    ];
-    arguments.into_iter().flat_map(|(name, value)| [name.to_owned(), value]).collect()
 }
 
 /// The picture, and the program's own line about the look that it chose.

@@ -86,14 +86,10 @@ fn main() -> Result<(), String> {
 fn write_scenes(folder: &Path) -> Result<(), String> {
     let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let phantom = phantoms::chest();
-    let voxels: Vec<u8> = phantom.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
-    std::fs::write(at("ct.raw"), voxels).map_err(|error| error.to_string())?;
-    let three = |[x, y, z]: [String; 3]| format!("{x},{y},{z}");
-    let dims = three(phantom.dims.to_array().map(|n| n.to_string()));
-    let spacing = three(phantom.spacing_mm.to_array().map(|n| n.to_string()));
-    let layout =
-        ["--raw-type", "int16", "--raw-endian", "little", "--raw-dims", &dims, "--raw-spacing-mm", &spacing];
-    run(&mut lightloom(&[&["import", &at("ct.raw"), "-o", &at("ct.lloom")], layout.as_slice()].concat()))?;
+    let raw = phantom.write_raw(folder).to_string_lossy().into_owned();
+    let mut import = ["import", &raw, "-o", &at("ct.lloom")].map(str::to_owned).to_vec();
+    import.extend(phantoms::layout_arguments(phantom.dims, phantom.spacing_mm));
+    run(&mut lightloom(&import))?;
     let plain = "[volume]\nsource = \"ct.lloom\"\n[placement]\nlongest_m = 0.4\n";
     write(&at("ct.toml"), plain)?;
     write(&at("short.toml"), &format!("{plain}[quality]\nstep_voxels = 0.0003\ntolerance = 1.0\n"))?;

@@ -3,6 +3,7 @@
 use crate::random::Random;
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
+use std::path::{Path, PathBuf};
 
 /// A volume.
 pub struct Phantom {
@@ -14,6 +15,28 @@ pub struct Phantom {
     pub spacing_mm: DVec3,
     /// x fastest.
     pub voxels: Vec<i16>,
+}
+
+impl Phantom {
+    /// Writes its voxels as a raw file of its name.
+    pub fn write_raw(&self, folder: &Path) -> PathBuf {
+        let path = folder.join(self.name).with_extension("raw");
+        let bytes: Vec<u8> = self.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
+        std::fs::write(&path, bytes).expect("a temporary folder takes 20 MB");
+        path
+    }
+}
+
+/// What `import` has to be told of a raw file of 16-bit voxels.
+pub fn layout_arguments(dims: UVec3, spacing_mm: DVec3) -> Vec<String> {
+    let three = |[x, y, z]: [String; 3]| format!("{x},{y},{z}");
+    let arguments = [
+        ("--raw-dims", three(dims.to_array().map(|n| n.to_string()))),
+        ("--raw-type", "int16".into()),
+        ("--raw-endian", "little".into()),
+        ("--raw-spacing-mm", three(spacing_mm.to_array().map(|n| n.to_string()))),
+    ];
+    arguments.into_iter().flat_map(|(name, value)| [name.to_owned(), value]).collect()
 }
 
 /// A ball-ended tube.
