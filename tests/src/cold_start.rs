@@ -4,6 +4,7 @@ use crate::draw::draw_with;
 use crate::motion::{FRAMES_PER_SECOND, Spread, steps};
 use protocol::{FrameState, ProjectorImage};
 use renderer::Renderer;
+use std::time::{Duration, Instant};
 
 /// What came of a cold start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +20,8 @@ pub struct ColdStart {
 }
 
 /// Draws a live frame again and again, 1/60 s apart, until it is complete, `most` times at most. Of the only projector
-/// `is_surface` tells which pixels show a surface when all detail is there, row by row. What a disk takes is real time:
-/// frames that take longer than 1/60 s to draw give it more.
+/// `is_surface` tells which pixels show a surface when all detail is there, row by row. Reading and loading take real
+/// time: a frame that is drawn sooner waits for its 1/60 s, and one that takes longer gives them more.
 pub fn cold_start(
     renderer: &mut Renderer,
     frame: &FrameState,
@@ -31,6 +32,7 @@ pub fn cold_start(
     let mut found = ColdStart { step: none, step_on_surfaces: none, rest_s: None, frames: 0 };
     let mut last: Option<ProjectorImage> = None;
     for index in 0..most {
+        let begun = Instant::now();
         let time_s = f64::from(index) / FRAMES_PER_SECOND;
         let (images, report) = draw_with(renderer, &FrameState { index, time_s, ..frame.clone() });
         let image = images.into_iter().next().expect("one projector is drawn");
@@ -43,14 +45,14 @@ pub fn cold_start(
         }
         last = Some(image);
         // The coarsest brick itself appears out of the dark.
-        if report.bricks_resident == 0 {
-            continue;
+        if report.bricks_resident > 0 {
+            found.frames += 1;
+            if report.complete {
+                found.rest_s = Some(f64::from(found.frames - 1) / FRAMES_PER_SECOND);
+                break;
+            }
         }
-        found.frames += 1;
-        if report.complete {
-            found.rest_s = Some(f64::from(found.frames - 1) / FRAMES_PER_SECOND);
-            break;
-        }
+        std::thread::sleep(Duration::from_secs_f64(1.0 / FRAMES_PER_SECOND).saturating_sub(begun.elapsed()));
     }
     found
 }

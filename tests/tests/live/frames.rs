@@ -121,6 +121,8 @@ fn a_cold_start_changes_no_pixel_by_much() {
     let _turn = draw::turn();
     let display = display();
     let scene = scene(&display);
+    // Bricks are made while these are drawn: rest is the working set's to find, not how soon a volume is computed.
+    draw::draw(&display, &scene.frame, &scene.source, &PROJECTORS[..1], With::device(DeviceChoice::Cpu));
     let start = |fade_s| {
         let pace = Pace::Live { upload_bytes: 4 << 20, fade_s };
         let mut cold = draw::renderer(
