@@ -3,7 +3,7 @@
 use crate::program::{LIMIT, Running, SMALL_DISPLAY, lightloom, run};
 use image::RgbImage;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Of each projector: its place on its output, degrees that it is turned by, and whether it is mirrored.
 const PLACES: [(i16, i16, u32, bool); 4] =
@@ -112,11 +112,18 @@ pub fn packed(picture: &RgbImage) -> Vec<u32> {
     picture.pixels().map(|p| u32::from(p[0]) << 16 | u32::from(p[1]) << 8 | u32::from(p[2])).collect()
 }
 
-/// What so many projectors show in the last frame of a dump.
+/// What so many projectors showed last, by a dump. A frame in which a back-end was late, or that the end of a show cut short, has not
+/// all of them.
 pub fn last_dumped(dump: &str, projectors: usize) -> Vec<Vec<u32>> {
     let frames = fs::read_dir(dump).expect("it was written");
-    let last = frames.map(|entry| entry.expect("it can be read").path()).max().expect("it has frames");
-    (0..projectors).map(|projector| pixels_of(&last.join(format!("projector-{projector:02}.png")))).collect()
+    let mut frames: Vec<PathBuf> = frames.map(|entry| entry.expect("it can be read").path()).collect();
+    frames.sort();
+    let last = |projector: usize| {
+        let in_frame = |frame: &PathBuf| frame.join(format!("projector-{projector:02}.png"));
+        let last = frames.iter().rev().map(in_frame).find(|picture| picture.exists());
+        pixels_of(&last.expect("each projector has shown something"))
+    };
+    (0..projectors).map(last).collect()
 }
 
 /// Interrupts a show, which ends well, and yields what it has said.

@@ -79,8 +79,10 @@ fn wait(mut job: Child, case: &str, directory: &Path) -> (Option<ExitStatus>, Op
         if case == "front-end told to end" && to_tell.is_none() {
             to_tell = fs::read_to_string(directory.join("front-end")).ok().filter(|text| !text.is_empty());
         }
-        if since.elapsed() > Duration::from_secs(2)
-            && fs::exists(directory.join("told")).is_ok_and(|told| !told)
+        // Frame 1 goes on until somebody ends it.
+        let is_there = |name: &str| fs::exists(directory.join(name)).unwrap_or_default();
+        if is_there("drawing")
+            && !is_there("told")
             && let Some(process) = &to_tell
         {
             fs::write(directory.join("told"), []).expect("a file");

@@ -2,6 +2,7 @@
 
 use super::volume::open_volume;
 use crate::FrontendError;
+use crate::same_file::identity;
 use bricks::BrickSource;
 use bricks::store::Store;
 use protocol::VolumeRef;
@@ -68,7 +69,7 @@ pub struct ReplayRow {
 impl Traces {
     /// Reads traces and opens their volumes, or the store `moved` instead of all of them.
     pub fn open(paths: &[PathBuf], moved: Option<&Path>) -> Result<Self, FrontendError> {
-        let files: Vec<_> = paths.iter().map(|path| path.canonicalize().ok()).collect();
+        let files: Vec<_> = paths.iter().map(|path| identity(path)).collect();
         let is_again = |place: usize| files[place].is_some() && files[..place].contains(&files[place]);
         if let Some(again) = (0..files.len()).find(|&place| is_again(place)) {
             let path = paths[again].display();

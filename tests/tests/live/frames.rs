@@ -159,6 +159,8 @@ fn a_small_cache_shows_something_that_stays() {
     let _turn = draw::turn();
     let display = display();
     let scene = scene(&display);
+    // Bricks are made while these are drawn, so that it comes to rest by its frames alone.
+    draw::draw(&display, &scene.frame, &scene.source, &PROJECTORS, With::device(DeviceChoice::Cpu));
     let mut small = renderer(&display, &scene.source, DeviceChoice::Cpu, 6);
     let mut last = Vec::new();
     for index in 0..700 {

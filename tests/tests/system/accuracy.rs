@@ -1,5 +1,6 @@
 //! Accuracy measured as a user measures it: on a tiny scene, from the command to the page.
 
+use lightloom_tests::machine;
 use lightloom_tests::program::{Ran, files, lightloom, run, small_display, start};
 use serde_json::Value;
 use std::path::Path;
@@ -86,6 +87,7 @@ fn what_cannot_be_measured_is_refused_in_a_sentence() {
 
 #[test]
 fn a_signal_ends_it_soon_and_nothing_is_left() {
+    machine::alone();
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let rest = ["--full", "--quiet", "--repetitions", "99"];
     let running = start(&mut lightloom(&arguments(folder.path(), "procedural:shells@48", &rest)));

@@ -1,5 +1,6 @@
 //! Volumes, stores and exports that go wrong: each ends in a sentence or a warning, at once, and leaves nothing behind.
 
+use lightloom_tests::machine;
 use lightloom_tests::program::{Ran, files, lightloom, run, start, test_data};
 use std::ffi::OsStr;
 use std::fs;
@@ -7,7 +8,6 @@ use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::thread::sleep;
 use std::time::Duration;
 
 /// What waits for a pipe waits for ever; a refusal takes a moment.
@@ -231,8 +231,7 @@ fn an_interrupted_export_leaves_nothing() {
     run(&mut lightloom(&["import", "procedural:sparse-vessels@700", "-o", &store, "--quiet"])).succeeded();
     for (out, signal) in [("a.nrrd", "INT"), ("a.zarr", "TERM")] {
         let running = start(&mut lightloom(&["export", &store, &bench.path(out)]));
-        sleep(Duration::from_millis(700));
-        assert!(fs::read_dir(bench.folder.path()).unwrap().count() > 1, "it has not begun");
+        machine::wait_for("its working file", || fs::read_dir(bench.folder.path()).unwrap().count() > 1);
         let process = running.process().to_string();
         assert!(Command::new("kill").args(["-s", signal, &process]).status().unwrap().success());
         let limit = running.age() + STOPS_WITHIN;

@@ -165,8 +165,11 @@ fn a_trace_counts_once() {
     let live = bench.simulate("procedural:shells@16", &out, &["--live", "--trace", &traces]);
     run(&mut lightloom(&live)).succeeded();
     let trace = format!("{traces}/backend-0.trace");
-    let again = format!("{traces}/../traces/backend-0.trace");
-    run(&mut lightloom(&["replay", &trace, &again])).refused(&[&again, "given twice"]);
+    let linked = bench.path("linked.trace");
+    fs::hard_link(&trace, &linked).unwrap();
+    for again in [format!("{traces}/../traces/backend-0.trace"), linked] {
+        run(&mut lightloom(&["replay", &trace, &again])).refused(&[&again, "given twice"]);
+    }
 }
 
 #[test]

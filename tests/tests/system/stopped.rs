@@ -1,5 +1,6 @@
 //! Runs that somebody stops: what is there by then is whole and has its name, and nothing else is left.
 
+use lightloom_tests::machine;
 use lightloom_tests::program::{
     Ran, Running, cluster, files, lightloom, run, scene_of_skins, small_display, start,
 };
@@ -100,6 +101,7 @@ fn a_live_run_that_is_stopped_keeps_its_traces() {
 /// The launcher ends its ranks when somebody stops it, and gives them a second.
 #[test]
 fn a_live_run_on_a_cluster_that_is_stopped_keeps_its_traces() {
+    machine::alone();
     let bench = Bench::new();
     let traces = bench.path("traces");
     let Some(mut command) = cluster(&bench.arguments(&["--live", "--trace", &traces]), 2) else { return };

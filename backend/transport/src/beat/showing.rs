@@ -251,8 +251,12 @@ mod tests {
             Ok(())
         }
 
+        /// It fails once two frames are shown.
         fn tend(&mut self) -> Result<Vec<String>, WallError> {
-            Err(WallError("the server is gone".to_owned()))
+            match self.0.lock().unwrap().iter().filter(|line| *line == "show").count() {
+                2 => Err(WallError("the server is gone".to_owned())),
+                _ => Ok(Vec::new()),
+            }
         }
     }
 
@@ -306,6 +310,12 @@ mod tests {
         // Frame 1 is left out, because the order for frame 2 has come as well.
         thread.show(0, None);
         assert!(matches!(next(&thread), Told::Shown { frame: 0, .. }));
+        // An order that came before it was ready would find it left out already.
+        let since = Instant::now();
+        while !wall.0.lock().unwrap().contains(&"ready [11]".to_owned()) {
+            assert!(since.elapsed() < Duration::from_secs(10), "frame 1 is readied");
+            std::thread::yield_now();
+        }
         thread.show(2, None);
         assert!(matches!(next(&thread), Told::Shown { frame: 2, .. }));
         assert_eq!(
