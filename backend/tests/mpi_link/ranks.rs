@@ -194,7 +194,9 @@ pub fn two_frames(link: Box<dyn Link>) -> Result<Vec<u8>, Box<dyn Error>> {
         let reports = session.draw(&frame(index, 9), &mut |event| match event {
             RenderEvent::Image(image) => pictures.push(image),
             RenderEvent::Progress { .. } if index == 1 && case() == "front-end killed" => die_by_kill(),
-            RenderEvent::Progress { .. } if index == 1 => note("drawing", []),
+            RenderEvent::Progress { .. } if index == 1 && case().ends_with("told to end") => {
+                note("drawing", [])
+            }
             RenderEvent::Progress { .. } => {}
         })?;
         pictures.sort_by_key(|image| image.projector);
