@@ -64,10 +64,7 @@ pub fn mpirun(case: &str, groups: &[(usize, &str)], has_recovery: bool) -> Run {
 fn wait(mut job: Child, case: &str, directory: &Path) -> (Option<ExitStatus>, Option<SystemTime>) {
     let since = Instant::now();
     let mut said_at = None;
-    let mut to_tell = match case {
-        "launcher told to end" => Some(job.id().to_string()),
-        _ => None,
-    };
+    let mut is_to_tell = case.ends_with("told to end");
     while since.elapsed() < CASE_LIMIT {
         let said = fs::read_to_string(directory.join("stderr")).unwrap_or_default();
         if said_at.is_none() && said.lines().any(|line| line.starts_with("lightloom: ")) {
@@ -76,16 +73,13 @@ fn wait(mut job: Child, case: &str, directory: &Path) -> (Option<ExitStatus>, Op
         if let Some(status) = job.try_wait().expect("mpirun can be waited for") {
             return (Some(status), said_at);
         }
-        if case == "front-end told to end" && to_tell.is_none() {
-            to_tell = fs::read_to_string(directory.join("front-end")).ok().filter(|text| !text.is_empty());
-        }
         // Frame 1 goes on until somebody ends it.
-        let is_there = |name: &str| fs::exists(directory.join(name)).unwrap_or_default();
-        if is_there("drawing")
-            && !is_there("told")
-            && let Some(process) = &to_tell
-        {
-            fs::write(directory.join("told"), []).expect("a file");
+        if is_to_tell && fs::exists(directory.join("drawing")).is_ok_and(|is_there| is_there) {
+            is_to_tell = false;
+            let process = match case {
+                "launcher told to end" => job.id().to_string(),
+                _ => fs::read_to_string(directory.join("front-end")).expect("it said which process it is"),
+            };
             let _ = Command::new("kill").arg(process).status();
         }
         thread::sleep(Duration::from_millis(10));

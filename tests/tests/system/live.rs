@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 /// Frames of a scene: a view has come to rest long before the last.
-const FRAMES: usize = 90;
+const FRAMES: usize = 30;
 /// Back-ends with two of the small display's four projectors each.
 const BACKENDS: u32 = 2;
 /// What a brick takes of `--upload-mib`.
@@ -25,7 +25,7 @@ longest_m = LONGEST
 [quality]
 lod_scale = LOD_SCALE
 [frames]
-count = 90
+count = 30
 rate_hz = 20
 ";
 

@@ -68,7 +68,7 @@ fn shows_the_complete_pictures(way: Way) {
     assert_eq!(lit(&all), complete.iter().map(|picture| lit(picture)).sum::<usize>());
     ended(running);
     assert!(last_dumped(&dump, 4) == complete, "the dump is what was seen");
-    if let Some(command) = cluster(&way.onto_outputs(&display, &["--for", "20"]), 2) {
+    if let Some(command) = cluster(&way.onto_outputs(&display, &["--for", "6"]), 2) {
         let running = start(&mut server.on(command));
         server.wait_for("the same by two processes", |server| (0..4).all(|p| shows(server, p)));
         assert_eq!(report(running)["end"], "planned");

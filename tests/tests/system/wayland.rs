@@ -55,7 +55,7 @@ fn four_outputs_of_wayland_show_the_complete_pictures_whoever_draws_them() {
     let said = ended(running);
     assert!(said.contains("output HEADLESS-1 now shows 800 × 600 pixels"), "{said}");
     assert!(last_dumped(&dump, 4) == complete, "the dump is what was seen");
-    if let Some(command) = cluster(&Way::Memory.onto_outputs(&display, &["--for", "20"]), 2) {
+    if let Some(command) = cluster(&Way::Memory.onto_outputs(&display, &["--for", "6"]), 2) {
         let running = start(&mut desktop.on(command));
         desktop.wait_for("the same by two processes", |desktop| (0..4).all(|p| shows(desktop, p)));
         assert_eq!(report(running)["end"], "planned");
