@@ -90,7 +90,7 @@ pub fn check(display: &Display, scene: &RandomScene) -> Found {
     }
     found.lit = all.iter().flat_map(|(_, images)| numbers(images)).filter(|p| p[3] > LIT).count() / all.len();
     if scene.has_truth() && found.lit > 0 {
-        let truth = Truth::new(display, &frame, &source, &PROJECTORS);
+        let truth = Truth::new(display, &frame, &source, &PROJECTORS, 1);
         let judge = Judge::new(&truth, 1.0 / brightest(scene), &scene.quality);
         found.truth = Some(truth.known());
         found.sharp = judge.sharp(SHARP_STRIDE);

@@ -104,8 +104,7 @@ impl<'a> Judge<'a> {
         again: impl Fn(Quality) -> Vec<ProjectorImage>,
     ) -> Verdict {
         let errors: Vec<f64> = (0..self.pixels()).map(|i| self.error(images, i)).collect();
-        let beyond: Vec<usize> = (0..errors.len()).filter(|&i| errors[i] > self.promise()).collect();
-        let off: Vec<usize> = beyond.par_iter().copied().filter(|&i| errors[i] > self.limit(i)).collect();
+        let [ill, off] = self.beyond(images);
         let mut wrong = off.clone();
         for shorter in SHORTER {
             if !wrong.is_empty() {
@@ -116,12 +115,21 @@ impl<'a> Judge<'a> {
         let wrong = wrong.len();
         Verdict {
             pixels: errors.len(),
-            ill: beyond.len() - off.len(),
+            ill: ill.len(),
             unseen: off.len() - wrong,
             wrong,
             mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
             max: errors.iter().copied().fold(0.0, f64::max),
         }
+    }
+
+    /// The pixels beyond what quality promises: those within what rounding does to them, and all others.
+    pub fn beyond(&self, images: &[ProjectorImage]) -> [Vec<usize>; 2] {
+        let errors = (0..self.pixels()).map(|i| (i, self.error(images, i)));
+        let beyond: Vec<(usize, f64)> = errors.filter(|&(_, error)| error > self.promise()).collect();
+        let (ill, off): (Vec<_>, Vec<_>) =
+            beyond.into_par_iter().partition(|&(i, error)| error <= self.limit(i));
+        [ill, off].map(|pixels| pixels.into_iter().map(|(i, _)| i).collect())
     }
 
     /// Of every `stride`-th pixel that shows anything, those whose limit is below a code, and all.
@@ -172,7 +180,7 @@ mod tests {
     fn the_truth_holds_and_a_code_more_or_a_nan_does_not() {
         let display = Display::load("desk8").unwrap().with_rasters(9, 7);
         let scene = techniques::bumps(&display);
-        let truth = Truth::new(&display, &scene.frame, &scene.source, &[5]);
+        let truth = Truth::new(&display, &scene.frame, &scene.source, &[5], 1);
         let judge = Judge::new(&truth, 1.0, &scene.frame.quality);
         let verdict = |more: f32| {
             let rgba = truth.pixels.iter().flat_map(|pixel| numbers(&pixel.truth)).map(|n| n as f32 + more);

@@ -28,7 +28,7 @@ const MOVES: [(DVec3, f64); 4] = [
 
 /// The truth of some projectors' pixels. What moves it is found where somebody asks.
 pub struct Truth {
-    /// Every pixel whose truth is known to a hundredth of what is tested.
+    /// Every pixel asked for whose truth is known to a hundredth of what is tested.
     pub pixels: Vec<TruePixel>,
     unknown: usize,
     rays: Vec<Ray>,
@@ -65,20 +65,22 @@ fn seen(reference: &Reference, ray: &Ray) -> Radiance {
 }
 
 impl Truth {
-    /// Of a frame, every pixel of `projectors`.
+    /// Of a frame, every `stride`-th pixel of `projectors` along either axis.
     pub fn new(
         display: &Display,
         frame: &FrameState,
         source: &Arc<dyn BrickSource>,
         projectors: &[u32],
+        stride: u32,
     ) -> Self {
         let scene =
             Moved { source: Arc::clone(source), frame: frame.clone(), rule: lod_rule(display, frame) };
         let reference = scene.reference(0.0);
         let of_projector = |&projector: &u32| {
             let raster = &display.projectors[projector as usize].raster;
-            let across = raster.width;
-            (0..raster.height).flat_map(move |y| (0..across).map(move |x| (projector, x, y)))
+            let along = |n: u32| (stride / 2..n).step_by(stride as usize);
+            let across = along(raster.width);
+            along(raster.height).flat_map(move |y| across.clone().map(move |x| (projector, x, y)))
         };
         let places: Vec<(u32, u32, u32)> = projectors.iter().flat_map(of_projector).collect();
         let all = places.len();

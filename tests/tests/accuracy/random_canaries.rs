@@ -274,7 +274,7 @@ fn small_faults_are_found_by_the_limits_of_random_scenes() {
     let mut failed = Vec::new();
     for Canary { name, scene, fault } in CANARIES {
         let scene = scene(&display);
-        let truth = Truth::new(&display, &scene.frame, &scene.source, &PROJECTORS);
+        let truth = Truth::new(&display, &scene.frame, &scene.source, &PROJECTORS, 1);
         let judge = Judge::new(&truth, 1.0, &scene.frame.quality);
         let verdict = |fault: Option<Fault>| -> Verdict {
             let drawn = |quality| picture(&display, &scene, quality, fault);
