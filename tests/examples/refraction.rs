@@ -96,7 +96,7 @@ fn whole() -> Result<(), String> {
             cells[0], cells[1]
         ));
     }
-    results.line(format!("\nOf {unknown} pixels the reference does not reach a truth."));
+    results.line(format!("\n{unknown} of {} pixels have no truth.", known + unknown));
     results.finish()
 }
 
