@@ -5,7 +5,7 @@
 //! alone takes as far as they are off is told by their condition.
 
 use display_config::Display;
-use lightloom_tests::compare::{self, TruePixel};
+use lightloom_tests::compare::{self, Errors, TruePixel};
 use lightloom_tests::draw::{With, draw_with, renderer};
 use lightloom_tests::random_scene::{Judge, Truth};
 use lightloom_tests::results::{Program, Results};
@@ -30,6 +30,12 @@ fn drawn(display: &Display, scene: &TestScene) -> (Vec<ProjectorImage>, FrameRep
     (images, report, began.elapsed().as_secs_f64())
 }
 
+/// Errors in codes, as cells of a row.
+fn cells(errors: &Errors) -> String {
+    let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|error| 255.0 * error);
+    format!("{rms:.3} | {p999:.2} | {max:.1}")
+}
+
 fn display(width: u32, height: u32) -> Display {
     Display::load("desk8").expect("a preset").with_rasters(width, height)
 }
@@ -49,11 +55,9 @@ fn by_tolerance() -> Result<(), String> {
             let errors = compare::errors(&images, &truth);
             let per_ray = report.samples as f64 / report.rays as f64;
             results.line(format!(
-                "| {} | {tolerance:e} | {per_ray:.1} | {seconds:.2} | {:.3} | {:.2} | {:.1} | {missed} of {} |",
+                "| {} | {tolerance:e} | {per_ray:.1} | {seconds:.2} | {} | {missed} of {} |",
                 base.name,
-                255.0 * errors.rms,
-                255.0 * errors.p999,
-                255.0 * errors.max,
+                cells(&errors),
                 truth.len()
             ));
         }
@@ -86,14 +90,9 @@ fn whole() -> Result<(), String> {
         let by_rounding = ill.iter().map(|&i| &truth.pixels[i]).filter(is_off).count();
         let others = truth.pixels.iter().enumerate().filter(|(i, _)| !ill.contains(i));
         let others: Vec<TruePixel> = others.map(|(_, pixel)| *pixel).collect();
-        let cells = [&truth.pixels, &others].map(|pixels| {
-            let errors = compare::errors(&images, pixels);
-            let [rms, p999, max] = [errors.rms, errors.p999, errors.max].map(|error| 255.0 * error);
-            format!("{rms:.3} | {p999:.2} | {max:.1}")
-        });
+        let [all, others] = [&truth.pixels, &others].map(|pixels| cells(&compare::errors(&images, pixels)));
         results.line(format!(
-            "| {tolerance:e} | {per_ray:.1} | {seconds:.2} | {} | {off} of {known} | {by_rounding} | {} |",
-            cells[0], cells[1]
+            "| {tolerance:e} | {per_ray:.1} | {seconds:.2} | {all} | {off} of {known} | {by_rounding} | {others} |"
         ));
     }
     results.line(format!("\n{unknown} of {} pixels have no truth.", known + unknown));

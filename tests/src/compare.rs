@@ -61,6 +61,17 @@ pub fn traced(
     seen_by(display, frame, projectors, stride, truth)
 }
 
+/// Every `stride`-th pixel of some projectors along either axis: the projector, x and y.
+pub fn places(display: &Display, projectors: &[u32], stride: u32) -> Vec<(u32, u32, u32)> {
+    let mut places = Vec::new();
+    for &projector in projectors {
+        let raster = &display.projectors[projector as usize].raster;
+        let along = |n: u32| (stride / 2..n).step_by(stride as usize);
+        places.extend(along(raster.height).flat_map(|y| along(raster.width).map(move |x| (projector, x, y))));
+    }
+    places
+}
+
 /// What `sees` says of the rays of the same pixels.
 pub fn seen_by(
     display: &Display,
@@ -69,13 +80,7 @@ pub fn seen_by(
     stride: u32,
     sees: impl Fn(&Ray) -> Radiance + Sync,
 ) -> Vec<TruePixel> {
-    let mut pixels = Vec::new();
-    for &projector in projectors {
-        let raster = &display.projectors[projector as usize].raster;
-        let along = |n: u32| (stride / 2..n).step_by(stride as usize);
-        pixels.extend(along(raster.height).flat_map(|y| along(raster.width).map(move |x| (projector, x, y))));
-    }
-    pixels
+    places(display, projectors, stride)
         .into_par_iter()
         .map(|(projector, x, y)| {
             let law = display

@@ -103,8 +103,8 @@ impl<'a> Judge<'a> {
         images: &[ProjectorImage],
         again: impl Fn(Quality) -> Vec<ProjectorImage>,
     ) -> Verdict {
-        let errors: Vec<f64> = (0..self.pixels()).map(|i| self.error(images, i)).collect();
-        let [ill, off] = self.beyond(images);
+        let errors = self.errors(images);
+        let [ill, off] = self.parted(&errors);
         let mut wrong = off.clone();
         for shorter in SHORTER {
             if !wrong.is_empty() {
@@ -125,11 +125,18 @@ impl<'a> Judge<'a> {
 
     /// The pixels beyond what quality promises: those within what rounding does to them, and all others.
     pub fn beyond(&self, images: &[ProjectorImage]) -> [Vec<usize>; 2] {
-        let errors = (0..self.pixels()).map(|i| (i, self.error(images, i)));
-        let beyond: Vec<(usize, f64)> = errors.filter(|&(_, error)| error > self.promise()).collect();
-        let (ill, off): (Vec<_>, Vec<_>) =
-            beyond.into_par_iter().partition(|&(i, error)| error <= self.limit(i));
-        [ill, off].map(|pixels| pixels.into_iter().map(|(i, _)| i).collect())
+        self.parted(&self.errors(images))
+    }
+
+    fn errors(&self, images: &[ProjectorImage]) -> Vec<f64> {
+        (0..self.pixels()).map(|i| self.error(images, i)).collect()
+    }
+
+    /// See [`Judge::beyond`].
+    fn parted(&self, errors: &[f64]) -> [Vec<usize>; 2] {
+        let beyond: Vec<usize> = (0..errors.len()).filter(|&i| errors[i] > self.promise()).collect();
+        let (ill, off) = beyond.into_par_iter().partition(|&i| errors[i] <= self.limit(i));
+        [ill, off]
     }
 
     /// Of every `stride`-th pixel that shows anything, those whose limit is below a code, and all.

@@ -1,6 +1,6 @@
 //! What every pixel of a scene should show, and how well it is conditioned.
 
-use crate::compare::{TruePixel, lod_rule};
+use crate::compare::{TruePixel, lod_rule, places};
 use bricks::{BrickSource, LodRule};
 use display_config::Display;
 use glam::{DAffine3, DVec3};
@@ -76,13 +76,7 @@ impl Truth {
         let scene =
             Moved { source: Arc::clone(source), frame: frame.clone(), rule: lod_rule(display, frame) };
         let reference = scene.reference(0.0);
-        let of_projector = |&projector: &u32| {
-            let raster = &display.projectors[projector as usize].raster;
-            let along = |n: u32| (stride / 2..n).step_by(stride as usize);
-            let across = along(raster.width);
-            along(raster.height).flat_map(move |y| across.clone().map(move |x| (projector, x, y)))
-        };
-        let places: Vec<(u32, u32, u32)> = projectors.iter().flat_map(of_projector).collect();
+        let places = places(display, projectors, stride);
         let all = places.len();
         let (pixels, rays): (Vec<TruePixel>, Vec<Ray>) = places
             .into_par_iter()
